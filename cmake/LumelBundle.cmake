@@ -1,0 +1,1 @@
+# The relocatable release archive: target `bundle`.

@@ -1,0 +1,58 @@
+#pragma once
+// From meshes to an atlas: every instance of every surface gets texels of its own. And from
+// texels to lumels. On the CPU, and the same scene gives the same bytes.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "atlas/lumel.shared.h"
+#include "scene/scene.h"
+
+namespace lumel {
+
+struct AtlasOptions {
+    float texels_per_metre = 0.0f;  ///< 0: chosen so that the map fills `size`, or a default size
+    int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
+    int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
+    int gutter = 2;                 ///< empty texels kept around each chart
+};
+
+/// One primitive of one instance, laid out in the atlas. Vertices are split at chart borders.
+struct Surface {
+    std::uint32_t instance = 0;                ///< index into Scene::instances
+    std::uint32_t primitive = 0;               ///< index into its mesh's primitives
+    std::vector<std::uint32_t> source_vertex;  ///< [V] index into the primitive's vertex arrays
+    std::vector<glm::vec2> texcoord;           ///< [V] atlas place [texels], (0, 0): top left corner
+    std::vector<std::uint32_t> indices;        ///< [3T] same triangles, same order as the primitive
+    std::vector<std::uint32_t> chart;          ///< [T] chart of each triangle, global index
+    bool authored = false;                     ///< laid out by the file's TEXCOORD_1
+};
+
+struct Atlas {
+    int width = 0;                    ///< [texels]
+    int height = 0;                   ///< [texels]
+    float texels_per_metre = 0.0f;    ///< density of the charts we made
+    std::uint32_t chart_count = 0;
+    std::vector<Surface> surfaces;    ///< in order of instance, then primitive
+    std::vector<std::string> notes;   ///< sentences for the user: overlaps, scaled density, …
+};
+
+/// Lays the scene out. Throws Error{input} if it cannot be made to fit.
+Atlas make_atlas(const Scene& scene, const AtlasOptions& options);
+
+/// The patches of the radiosity equation, in Morton order within charts.
+struct Lumels {
+    int width = 0;                 ///< of the atlas [texels]
+    int height = 0;
+    std::vector<Lumel> lumels;     ///< [N] front lumels, and back lumels of double-sided surfaces
+    std::vector<Piece> pieces;     ///< [P]
+    std::vector<float> coverage;   ///< [height][width] covered fraction of each texel, 0…1
+};
+
+/// Lifts every covered texel, however thinly covered, into a lumel.
+Lumels lift(const Scene& scene, const Atlas& atlas);
+
+}  // namespace lumel

@@ -1,0 +1,28 @@
+#include "core/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace lumel {
+namespace {
+
+spdlog::logger& logger()
+{
+    static const std::shared_ptr<spdlog::logger> instance = [] {
+        auto made = std::make_shared<spdlog::logger>(
+            "lumel", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+        made->set_pattern("%^%l%$: %v");
+        return made;
+    }();
+    return *instance;
+}
+
+}  // namespace
+
+void log_info(std::string_view message) { logger().info("{}", message); }
+
+void log_warning(std::string_view message) { logger().warn("{}", message); }
+
+void set_quiet(bool quiet) { logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info); }
+
+}  // namespace lumel

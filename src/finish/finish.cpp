@@ -1,0 +1,1 @@
+#include "finish/finish.h"

@@ -1,0 +1,1 @@
+#include "output/gltf_write.h"

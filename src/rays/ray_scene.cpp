@@ -1,0 +1,1 @@
+#include "rays/ray_scene.h"

@@ -1,0 +1,51 @@
+#pragma once
+// Rays on the host, through Embree: who hits what. Knows geometry and opacity, no light.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace lumel {
+
+/// Where a ray meets the scene.
+struct RayHit {
+    std::uint32_t instance = 0;   ///< index into Scene::instances
+    std::uint32_t primitive = 0;  ///< index into the instance's mesh.primitives
+    std::uint32_t triangle = 0;   ///< index into Primitive::indices / 3
+    glm::vec2 barycentric{0.0f};  ///< weights of the triangle's 2nd and 3rd vertex
+    float distance = 0.0f;        ///< [m], direction must be unit length
+    glm::vec3 normal{0.0f};       ///< geometric, unit, world, outward by winding (flipped by mirroring)
+    bool front = true;            ///< the ray came from the side the normal points to
+};
+
+/// All triangles of a scene in world space. Safe to query from many threads at once.
+/// MASK surfaces are cut out exactly; BLEND surfaces are hit with probability alpha, drawn from
+/// a hash of `seed` and the triangle, so a query with the same seed has the same answer.
+class RayScene {
+public:
+    explicit RayScene(const Scene& scene);
+    ~RayScene();
+    RayScene(RayScene&&) noexcept;
+    RayScene& operator=(RayScene&&) noexcept;
+
+    /// True if nothing lies between the two points (both ends are shortened by `offset` [m]).
+    bool sees(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed) const;
+
+    /// First hit along a unit direction with distance in (near, far), or false.
+    bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
+                 std::uint32_t seed, RayHit& hit) const;
+
+    /// Corners of the world-space bounding box [m].
+    glm::vec3 low() const;
+    glm::vec3 high() const;
+
+private:
+    struct Data;
+    std::unique_ptr<Data> data_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,31 @@
+#pragma once
+// Ground truth on the CPU: a path tracer with next-event estimation from every lumel.
+// Shares no transfer code with the solvers.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "rays/ray_scene.h"
+#include "scene/scene.h"
+
+namespace lumel {
+
+/// Where on a lumel irradiance is asked for.
+enum class SampleRule { area, centre };
+
+struct ReferenceOptions {
+    int samples_per_lumel = 256;
+    std::uint32_t seed = 1;
+    SampleRule rule = SampleRule::area;
+    int max_bounces = 64;          ///< Russian roulette starts earlier; this only guards
+};
+
+/// H [N] [lx] of every lumel. Unbiased: emission is what the surfaces' materials say at each
+/// point, not the lumel's mean. `progress` is given the fraction done and returns false to stop.
+std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
+                                            const Lumels& lumels, const ReferenceOptions& options,
+                                            const std::function<bool(double)>& progress = {});
+
+}  // namespace lumel

@@ -1,0 +1,116 @@
+#pragma once
+// What a scene file says, decoded and checked: plain values, nothing of glTF's encoding.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace lumel {
+
+/// 8-bit RGBA, top row first, as stored in the file (colour channels sRGB-coded).
+struct Texture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba;  ///< [height][width][4]
+};
+
+enum class Wrap { repeat, mirrored, clamp };
+
+/// Where and how a material reads a texture.
+struct TextureUse {
+    int texture = -1;            ///< index into Scene::textures, -1: none
+    int texcoord = 0;            ///< 0 or 1: TEXCOORD_n
+    glm::mat3 transform{1.0f};   ///< KHR_texture_transform: uv' = transform * (u, v, 1)
+    Wrap wrap_s = Wrap::repeat;  ///< u
+    Wrap wrap_t = Wrap::repeat;  ///< v
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_color{1.0f};       ///< linear; rgb is taken as diffuse albedo ρ
+    TextureUse base_color_texture;    ///< sRGB, multiplies base_color
+    glm::vec3 emitted{0.0f};          ///< emissiveFactor × strength [cd/m²], linear
+    TextureUse emissive_texture;      ///< sRGB, multiplies emitted
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;        ///< for AlphaMode::mask
+    bool double_sided = false;
+};
+
+/// A triangle list. Vertex arrays keep the order of the file's accessors; empty: absent.
+struct Primitive {
+    std::vector<glm::vec3> positions;     ///< [V] mesh space [m]
+    std::vector<glm::vec3> normals;       ///< [V] unit length, or empty (flat shading)
+    std::vector<glm::vec2> texcoords[2];  ///< [V] TEXCOORD_0 and TEXCOORD_1, or empty
+    std::vector<glm::vec4> colors;        ///< [V] COLOR_0, multiplies base colour, or empty
+    std::vector<std::uint32_t> indices;   ///< [3T] strips and fans unrolled, zero-area dropped
+    int material = 0;                     ///< index into Scene::materials, always valid
+    int source_primitive = 0;             ///< index in the file's mesh.primitives
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+/// One mesh placed in the world by one node.
+struct Instance {
+    std::string name;
+    int mesh = 0;
+    int node = 0;                ///< index in the file's nodes
+    glm::mat4 transform{1.0f};   ///< mesh to world; a negative determinant flips the winding
+};
+
+struct PunctualLight {
+    enum class Kind { directional, point, spot } kind = Kind::point;
+    std::string name;
+    glm::vec3 color{1.0f};       ///< linear
+    float intensity = 1.0f;      ///< [cd] for point and spot, [lx] for directional
+    float range = 0.0f;          ///< [m], 0: unlimited
+    float inner_cone = 0.0f;     ///< [rad]
+    float outer_cone = 0.785398f;///< [rad]
+    glm::mat4 transform{1.0f};   ///< shines along -z
+};
+
+struct Camera {
+    std::string name;
+    glm::mat4 transform{1.0f};   ///< looks along -z, +y up
+    float vertical_fov = 0.8f;   ///< [rad]; ignored when orthographic
+    float aspect = 0.0f;         ///< width / height, 0: free
+    float orthographic_height = 0.0f;  ///< [m], > 0: orthographic camera
+};
+
+struct Scene {
+    std::string path;                     ///< the file it came from
+    std::vector<Texture> textures;
+    std::vector<Material> materials;      ///< the file's, then the default material if needed
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;      ///< of the file's default scene, in node order
+    std::vector<PunctualLight> lights;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings;    ///< sentences for the user
+    std::size_t dropped_triangles = 0;    ///< of zero area
+    std::string hash;                     ///< 16 hex digits over all content that light depends on
+};
+
+/// Reads glTF 2.0 (.gltf with its files, or .glb).
+/// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
+Scene read_gltf(const std::string& path);
+
+/// What a material looks like at one point. `texcoord` [2]: TEXCOORD_0 and TEXCOORD_1.
+struct MaterialSample {
+    glm::vec3 albedo;   ///< ρ, linear, clamped to 0…1
+    float opacity;      ///< opaque: 1; mask: 0 or 1; blend: alpha 0…1
+    glm::vec3 emitted;  ///< luminance [cd/m²], linear
+};
+MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
+                               const glm::vec4& vertex_color);
+
+/// True where the material's look does not vary over a surface (no textures are read).
+bool is_uniform(const Material& material);
+
+}  // namespace lumel

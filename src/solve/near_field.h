@@ -1,0 +1,47 @@
+#pragma once
+// Pairs of lumels too close for point sampling, solved exactly.
+
+#include <cstdint>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "rays/ray_scene.h"
+#include "scene/scene.h"
+
+namespace lumel {
+
+struct NearFieldOptions {
+    float radius = 4.0f;        ///< pairs closer than this × the larger of the two lumel sizes
+    int samples = 16;           ///< points per receiver (area rule); 1 at the centroid (centre rule)
+    bool centre = false;        ///< centre rule: receivers at their centroid
+    std::uint32_t seed = 1;
+};
+
+/// Sparse form factors, one row per receiver i (compressed rows):
+/// H_i(near) = Σ_k factor[k] B[column[k]], k in [first[i], first[i + 1]).
+struct NearField {
+    std::vector<std::uint32_t> first;    ///< [N + 1]
+    std::vector<std::uint32_t> column;   ///< [nnz] shooter j, ascending within a row
+    std::vector<float> factor;           ///< [nnz] F_ij × visible fraction
+};
+
+/// The rule that the receiver kernel repeats: centres (world) closer than
+/// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
+bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j, float size_j,
+             float radius);
+
+/// Builds the table. Buried lumels have empty rows and appear in no column.
+NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                           const NearFieldOptions& options);
+
+/// Irradiance per radiosity (form factor) at point x with unit normal n from a convex polygon
+/// with uniform radiosity, clipped to x's horizon: Lambert's edge sum. The polygon emits from
+/// the side that sees its corners counter-clockwise; from the other side the result is 0.
+float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
+                          int count);
+
+/// Marks lumels no light can reach (kLumelBuried): those that lie under or inside other
+/// geometry over all of their sampled area.
+void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels);
+
+}  // namespace lumel
