@@ -1,0 +1,120 @@
+# Shared by ./run, ./test and .ci/run: installs missing Debian packages, configures and builds.
+# Everything here writes to stderr, so that stdout belongs to the program.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+
+build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-volk-dev
+    mesa-vulkan-drivers libglm-dev libtinygltf-dev libopenexr-dev libpng-dev libstb-dev
+    libmeshoptimizer-dev libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev
+    nlohmann-json3-dev"
+test_packages="$build_packages vulkan-validationlayers libgtest-dev libbenchmark-dev"
+ci_packages="$test_packages clang-format clang-tidy"
+
+# What proves each package where there is no dpkg to ask: a command or a header.
+package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config glslc:glslc
+    clang-format:clang-format clang-tidy:clang-tidy"
+package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
+    libtinygltf-dev:tiny_gltf.h libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h
+    libstb-dev:stb/stb_image.h libmeshoptimizer-dev:meshoptimizer.h libtbb-dev:tbb/tbb.h
+    libembree-dev:embree3/rtcore.h libcli11-dev:CLI/CLI.hpp libfmt-dev:fmt/core.h
+    libspdlog-dev:spdlog/spdlog.h nlohmann-json3-dev:nlohmann/json.hpp
+    libgtest-dev:gtest/gtest.h libbenchmark-dev:benchmark/benchmark.h"
+
+say() { echo "lumel: $*" >&2; }
+die() { say "$*"; exit 1; }
+
+# progress <text>: what is going on, for a person at a terminal.
+progress() { if [[ -t 2 ]]; then say "$*"; fi; }
+
+# quietly <log> <what> <command …>: shows the command's output only if it fails.
+quietly() {
+    local log=$1 what=$2
+    shift 2
+    if ! "$@" >"$log" 2>&1 </dev/null; then
+        tail -n 60 "$log" >&2
+        say "$what failed; the whole output is in $log."
+        return 1
+    fi
+}
+
+missing_by_dpkg() {
+    local installed
+    installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
+    for package in "$@"; do
+        [[ $'\n'$installed$'\n' == *$'\ninstalled '"$package"$'\n'* ]] || echo "$package"
+    done
+}
+
+missing_by_probe() {
+    local pair source=""
+    for pair in $package_commands; do
+        [[ " $* " == *" ${pair%%:*} "* ]] || continue
+        command -v "${pair#*:}" >/dev/null || echo "${pair%%:*}"
+    done
+    command -v g++ >/dev/null || return 0
+    for pair in $package_headers; do
+        [[ " $* " == *" ${pair%%:*} "* ]] || continue
+        source+="#if !__has_include(<${pair#*:}>)"$'\n'"${pair%%:*}"$'\n'"#endif"$'\n'
+    done
+    g++ -x c++ -E -P - <<<"$source"
+}
+
+# need_packages <package …>: returns with all of them present, or does not return.
+need_packages() {
+    local missing as_root=""
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        missing=$(missing_by_probe "$@" | xargs)
+        [[ -z $missing ]] || die "there is no apt here; please install what these Debian packages" \
+            "hold: $missing"
+        return 0
+    fi
+    missing=$(missing_by_dpkg "$@" | xargs)
+    [[ -n $missing ]] || return 0
+    if [[ $(id -u) != 0 ]]; then
+        command -v sudo >/dev/null || die "please install (neither root nor sudo): $missing"
+        as_root=sudo
+    fi
+    progress "installing $missing"
+    # The package lists may be absent or too old to match the mirror: then fetch them and retry.
+    local install="apt-get -qq -y --no-install-recommends install $missing" log=$root/build/apt.log
+    local environment="env DEBIAN_FRONTEND=noninteractive"
+    if ! $as_root $environment $install >"$log" 2>&1 </dev/null; then
+        quietly "$log" "apt-get update" $as_root $environment apt-get -qq update || exit 1
+        quietly "$log" "installing $missing" $as_root $environment $install || exit 1
+    fi
+}
+
+# need_build <preset> <cmake options> <target …>: configures where needed, builds what changed.
+# A folder keeps its options in the file `configured`, below the path it was made for.
+need_build() {
+    local preset=$1 options=$2 folder=$root/build/$1
+    shift 2
+    local wanted=$root$'\n'$options
+    if [[ ! -f $folder/build.ninja || $root/CMakePresets.json -nt $folder/configured ||
+          $(<"$folder/configured") != "$wanted" ]]; then
+        progress "configuring"
+        mkdir -p "$folder"
+        local fresh=""
+        [[ ! -f $folder/configured || $(head -n 1 "$folder/configured") == "$root" ]] || fresh=--fresh
+        cd "$root"
+        quietly "$folder/configure.log" "configuring" cmake $fresh --preset "$preset" $options || exit 1
+        cd "$OLDPWD"
+        echo "$wanted" >"$folder/configured"
+    fi
+    # At a terminal ninja's own status line shows how far it is, if there is anything to do.
+    if [[ -t 2 ]] && ninja -C "$folder" -n "$@" 2>/dev/null | grep -q '^\['; then
+        cmake --build "$folder" --target "$@" >&2 </dev/null || die "building failed."
+    else
+        quietly "$folder/build.log" "building" ninja -C "$folder" "$@" || exit 1
+    fi
+}
+
+# one_at_a_time: holds a lock until release, so that two runs do not build in one folder.
+one_at_a_time() {
+    mkdir -p "$root/build"
+    if command -v flock >/dev/null; then
+        exec 9>"$root/build/lock"
+        flock 9
+    fi
+}
+release() { exec 9>&-; }
