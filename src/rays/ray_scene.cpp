@@ -1,1 +1,252 @@
 #include "rays/ray_scene.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <embree3/rtcore.h>
+
+#include "core/error.h"
+
+namespace lumel {
+
+namespace {
+
+/// What Embree's geometry number stands for.
+struct Part {
+    const Scene* scene = nullptr;
+    const Primitive* source = nullptr;
+    std::uint32_t instance = 0;
+    std::uint32_t primitive = 0;
+    float winding = 1.0f;  ///< -1: the instance mirrors, the front is where vertices run clockwise
+};
+
+/// Embree's context of a query, with what a cut-out needs to decide.
+struct QueryContext {
+    RTCIntersectContext embree;  // first, so that Embree's pointer is also ours
+    std::uint32_t seed;
+};
+
+/// A well-mixed number in [0, 1) for three integers.
+float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    std::uint32_t state = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu ^ c * 0xc2b2ae35u;
+    state = (state ^ (state >> 16)) * 0x7feb352du;
+    state = (state ^ (state >> 15)) * 0x846ca68bu;
+    state ^= state >> 16;
+    return float(state >> 8) * 0x1p-24f;
+}
+
+/// Opacity of a surface at a point of one of its triangles, 0…1.
+float opacity_at(const Part& part, std::uint32_t triangle, float u, float v)
+{
+    const Primitive& source = *part.source;
+    const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
+    const auto blend = [&](const auto& values) {
+        return values[corner[0]] * (1.0f - u - v) + values[corner[1]] * u + values[corner[2]] * v;
+    };
+    glm::vec2 texcoord[2]{};
+    for (int set = 0; set < 2; ++set)
+        if (!source.texcoords[set].empty())
+            texcoord[set] = blend(source.texcoords[set]);
+    const glm::vec4 color = source.colors.empty() ? glm::vec4(1.0f) : blend(source.colors);
+    return sample_material(*part.scene, source.material, texcoord, color).opacity;
+}
+
+/// Embree's question at each candidate hit: does it count?
+void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
+{
+    if (candidate->valid[0] != -1)
+        return;
+    const Part& part = *static_cast<const Part*>(candidate->geometryUserPtr);
+    const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
+    const float opacity = opacity_at(part, triangle, RTCHitN_u(candidate->hit, candidate->N, 0),
+                                     RTCHitN_v(candidate->hit, candidate->N, 0));
+    if (opacity >= 1.0f)
+        return;
+    const std::uint32_t seed = reinterpret_cast<const QueryContext*>(candidate->context)->seed;
+    const std::uint32_t geometry = RTCHitN_geomID(candidate->hit, candidate->N, 0);
+    if (hash_to_unit(seed, geometry, triangle) >= opacity)
+        candidate->valid[0] = 0;
+}
+
+bool may_be_transparent(const Material& material, const Primitive& primitive)
+{
+    return material.alpha_mode != AlphaMode::opaque &&
+           (material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 ||
+            !primitive.colors.empty());
+}
+
+QueryContext query_context(std::uint32_t seed)
+{
+    QueryContext context;
+    rtcInitIntersectContext(&context.embree);
+    context.seed = seed;
+    return context;
+}
+
+RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near, float far)
+{
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = near;
+    ray.tfar = far;
+    ray.mask = ~0u;
+    return ray;
+}
+
+}  // namespace
+
+struct RayScene::Data {
+    RTCDevice device = nullptr;
+    RTCScene tree = nullptr;
+    std::vector<Part> parts;  ///< by Embree's geometry number
+
+    Data() = default;
+    Data(const Data&) = delete;
+    Data& operator=(const Data&) = delete;
+    ~Data()
+    {
+        if (tree)
+            rtcReleaseScene(tree);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+
+    void check(const char* step) const
+    {
+        const RTCError code = rtcGetDeviceError(device);
+        if (code == RTC_ERROR_NONE)
+            return;
+        const char* reason = code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
+                             : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor lacks SSE2"
+                                                                 : "Embree failed";
+        throw Error(ErrorKind::device, "", std::string(step) + ": " + reason);
+    }
+
+    void add(const Scene& scene, std::uint32_t instance, std::uint32_t primitive);
+};
+
+/// Builds one geometry, its vertices moved to the world.
+void RayScene::Data::add(const Scene& scene, std::uint32_t instance, std::uint32_t primitive)
+{
+    const glm::mat4& transform = scene.instances[instance].transform;
+    const Primitive& source = scene.meshes[scene.instances[instance].mesh].primitives[primitive];
+    if (source.indices.empty())
+        return;
+
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), source.positions.size()));
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), source.indices.size() / 3));
+    if (!vertices || !indices) {
+        rtcReleaseGeometry(geometry);
+        check("storing the triangles for ray queries");
+    }
+    for (const glm::vec3& position : source.positions) {
+        const glm::vec3 world(transform * glm::vec4(position, 1.0f));
+        for (int axis = 0; axis < 3; ++axis)
+            *vertices++ = world[axis];
+    }
+    std::copy(source.indices.begin(), source.indices.end(), indices);
+
+    const float winding = glm::determinant(glm::mat3(transform)) < 0.0f ? -1.0f : 1.0f;
+    parts.push_back({&scene, &source, instance, primitive, winding});
+    rtcSetGeometryUserData(geometry, &parts.back());
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    if (may_be_transparent(scene.materials[source.material], source)) {
+        rtcSetGeometryIntersectFilterFunction(geometry, pass_through_cut_outs);
+        rtcSetGeometryOccludedFilterFunction(geometry, pass_through_cut_outs);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(tree, geometry, unsigned(parts.size() - 1));
+    rtcReleaseGeometry(geometry);
+}
+
+RayScene::RayScene(const Scene& scene) : data_(std::make_unique<Data>())
+{
+    data_->device = rtcNewDevice(nullptr);
+    if (!data_->device)
+        data_->check("starting Embree");
+    data_->tree = rtcNewScene(data_->device);
+    rtcSetSceneFlags(data_->tree, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(data_->tree, RTC_BUILD_QUALITY_HIGH);
+
+    std::size_t part_count = 0;
+    for (const Instance& instance : scene.instances)
+        part_count += scene.meshes[instance.mesh].primitives.size();
+    data_->parts.reserve(part_count);  // Embree keeps pointers to the parts
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        for (std::uint32_t p = 0; p < scene.meshes[scene.instances[i].mesh].primitives.size(); ++p)
+            data_->add(scene, i, p);
+    rtcCommitScene(data_->tree);
+    data_->check("building the tree for ray queries");
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
+                    std::uint32_t seed) const
+{
+    const glm::vec3 way = to - from;
+    const float distance = glm::length(way);
+    if (distance <= 2.0f * offset)
+        return true;
+    RTCRay ray = make_ray(from, way / distance, offset, distance - offset);
+    QueryContext context = query_context(seed);
+    rtcOccluded1(data_->tree, &context.embree, &ray);
+    return ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
+}
+
+bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
+                       std::uint32_t seed, RayHit& hit) const
+{
+    RTCRayHit query{};
+    query.ray = make_ray(origin, direction, near, far);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context = query_context(seed);
+    rtcIntersect1(data_->tree, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+
+    const Part& part = data_->parts[query.hit.geomID];
+    hit.instance = part.instance;
+    hit.primitive = part.primitive;
+    hit.triangle = query.hit.primID;
+    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.distance = query.ray.tfar;
+    hit.normal =
+        part.winding * glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
+    hit.front = glm::dot(hit.normal, direction) < 0.0f;
+    return true;
+}
+
+glm::vec3 RayScene::low() const
+{
+    if (data_->parts.empty())
+        return glm::vec3(0.0f);
+    RTCBounds bounds;
+    rtcGetSceneBounds(data_->tree, &bounds);
+    return {bounds.lower_x, bounds.lower_y, bounds.lower_z};
+}
+
+glm::vec3 RayScene::high() const
+{
+    if (data_->parts.empty())
+        return glm::vec3(0.0f);
+    RTCBounds bounds;
+    rtcGetSceneBounds(data_->tree, &bounds);
+    return {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+}
+
+}  // namespace lumel

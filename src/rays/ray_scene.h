@@ -23,10 +23,12 @@ struct RayHit {
 };
 
 /// All triangles of a scene in world space. Safe to query from many threads at once.
+/// Reads materials and textures while it is queried, so the scene must outlive it, unmoved.
 /// MASK surfaces are cut out exactly; BLEND surfaces are hit with probability alpha, drawn from
 /// a hash of `seed` and the triangle, so a query with the same seed has the same answer.
 class RayScene {
 public:
+    /// Throws Error{device} if Embree cannot build its tree (out of memory).
     explicit RayScene(const Scene& scene);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
@@ -39,7 +41,7 @@ public:
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                  std::uint32_t seed, RayHit& hit) const;
 
-    /// Corners of the world-space bounding box [m].
+    /// Corners of the world-space bounding box [m]; both 0 for a scene without triangles.
     glm::vec3 low() const;
     glm::vec3 high() const;
 
