@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Writes the scenes of this folder: ./make_scenes.py. Its output is kept in version control."""
+
+import math
+import os
+
+from gltf_writer import Gltf, Shape
+from room import room
+
+
+def cornell_box():
+    """The Cornell box as measured (mm), here in metres, with the RGB albedos in common use."""
+    gltf = Gltf()
+    white = gltf.material("white", (0.725, 0.71, 0.68))
+    green = gltf.material("green", (0.14, 0.45, 0.091))
+    red = gltf.material("red", (0.63, 0.065, 0.05))
+    lamp = gltf.material("light", 0.78, luminance=(17.0, 12.0, 4.0))
+
+    def metres(corners):
+        return [[c / 1000 for c in corner] for corner in corners]
+
+    def wall(name, material, *corners):
+        shape = Shape()
+        shape.quad(material, metres(corners))
+        gltf.object(name, shape)
+
+    h = 548.8
+    wall("floor", white, (552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))
+    wall("ceiling", white, (556, h, 0), (556, h, 559.2), (0, h, 559.2), (0, h, 0))
+    wall("back wall", white, (549.6, 0, 559.2), (0, 0, 559.2), (0, h, 559.2), (556, h, 559.2))
+    wall("right wall", green, (0, 0, 559.2), (0, 0, 0), (0, h, 0), (0, h, 559.2))
+    wall("left wall", red, (552.8, 0, 0), (549.6, 0, 559.2), (556, h, 559.2), (556, h, 0))
+    # Measured coplanar with the ceiling; half a millimetre keeps the two apart.
+    y = h - 0.5
+    wall("light", lamp, (343, y, 227), (343, y, 332), (213, y, 332), (213, y, 227))
+
+    def block(name, height, outline):
+        shape = Shape()
+        shape.quad(white, metres([(x, height, z) for x, z in outline]))
+        for (x0, z0), (x1, z1) in zip(outline, outline[1:] + outline[:1]):
+            side = [(x0, 0, z0), (x1, 0, z1), (x1, height, z1), (x0, height, z0)]
+            shape.quad(white, metres(side))
+        gltf.object(name, shape)
+
+    block("short block", 165, [(130, 65), (82, 225), (240, 272), (290, 114)])
+    block("tall block", 330, [(423, 247), (265, 296), (314, 456), (472, 406)])
+    eye = [0.278, 0.273, -0.8]
+    vertical_fov = 2 * math.atan(0.0125 / 0.035)  # film 25 mm, focal length 35 mm
+    gltf.camera("camera", eye, [eye[0], eye[1], 0.0], vertical_fov, 1.0)
+    return gltf
+
+
+def two_rooms():
+    """Two rooms in an L, joined by a door in a thick wall; only the first has a lamp."""
+    gltf = Gltf()
+    plaster = gltf.material("plaster", (0.7, 0.68, 0.65))
+    wood = gltf.material("floor", (0.45, 0.36, 0.28))
+    blue = gltf.material("blue", (0.3, 0.4, 0.6))
+    lamp = gltf.material("lamp", 0.5, luminance=(110.0, 100.0, 85.0))
+    height, lintel = 2.6, 2.1
+    door = (2.6, 3.5)
+    wall_near, wall_far = 3.0, 3.2
+    x_axis, y_axis, z_axis = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+    minus_x, minus_y = (-1, 0, 0), (0, -1, 0)
+
+    def room_shell(prefix, colour, x0, x1, z0, z1, door_at_far_side):
+        # Lines through the door's edges keep neighbouring surfaces free of T-junctions.
+        xs = [0.0, door[0] - x0, door[1] - x0, x1 - x0]
+        ys = [0.0, lintel, height]
+        zs = [0.0, z1 - z0]
+        floor, ceiling, back, front, left, right = (Shape() for _ in range(6))
+        floor.grid(wood, (x0, 0, z0), z_axis, x_axis, zs, xs)
+        ceiling.grid(plaster, (x0, height, z0), x_axis, z_axis, xs, zs)
+        left.grid(plaster, (x0, 0, z0), y_axis, z_axis, ys, zs)
+        right.grid(colour, (x1, 0, z0), z_axis, y_axis, zs, ys)
+        back.grid(plaster, (x0, 0, z0), x_axis, y_axis, xs, ys, () if door_at_far_side else [(1, 0)])
+        mirrored = [x1 - x0 - x for x in reversed(xs)]
+        holes = [(1, 0)] if door_at_far_side else ()
+        front.grid(plaster, (x1, 0, z1), minus_x, y_axis, mirrored, ys, holes)
+        names = ("floor", "ceiling", "wall -z", "wall +z", "wall -x", "wall +x")
+        for name, shape in zip(names, (floor, ceiling, back, front, left, right)):
+            gltf.object(f"{prefix} {name}", shape)
+
+    room_shell("lit room", plaster, 0.0, 4.0, 0.0, wall_near, True)
+    room_shell("dark room", blue, 1.2, 4.0, wall_far, 6.2, False)
+
+    frame = Shape()
+    depth, width = [0.0, wall_far - wall_near], [0.0, door[1] - door[0]]
+    frame.grid(wood, (door[0], 0, wall_near), z_axis, x_axis, depth, width)
+    frame.grid(plaster, (door[0], 0, wall_near), y_axis, z_axis, [0.0, lintel], depth)
+    frame.grid(plaster, (door[1], lintel, wall_near), minus_y, z_axis, [0.0, lintel], depth)
+    frame.grid(plaster, (door[0], lintel, wall_near), x_axis, z_axis, width, depth)
+    gltf.object("door frame", frame)
+
+    light = Shape()
+    light.grid(lamp, (1.0, height - 0.002, 1.0), x_axis, z_axis, [0.0, 1.0], [0.0, 1.0])
+    gltf.object("ceiling lamp", light)
+    gltf.camera("camera", [1.5, 1.5, 5.9], [3.2, 1.1, 2.0], 1.1, 1.5)
+    return gltf
+
+
+def furnace(albedo):
+    """A closed unit cube of one albedo and exitance 1 lm/m²: radiosity is 1/(1 - albedo)."""
+    gltf = Gltf()
+    wall = gltf.material("wall", albedo, luminance=[1 / math.pi] * 3)
+    sides = {"-x", "+x", "-y", "+y", "-z", "+z"}
+    for side in sorted(sides):
+        shape = Shape()
+        shape.box(wall, (0, 0, 0), (1, 1, 1), skip=" ".join(sides - {side}), inward=True)
+        gltf.object(f"wall {side}", shape)
+    gltf.camera("camera", [0.1, 0.5, 0.9], [0.6, 0.45, 0.3], 1.2, 1.0)
+    return gltf
+
+
+def plates(perpendicular):
+    """Two black unit plates, the first with exitance 1 lm/m²: form factors in closed form."""
+    gltf = Gltf()
+    emitter = gltf.material("emitter", 0.0, luminance=[1 / math.pi] * 3)
+    black = gltf.material("receiver", 0.0)
+    first, second = Shape(), Shape()
+    first.quad(emitter, [(0, 0, 1), (1, 0, 1), (1, 0, 0), (0, 0, 0)])
+    if perpendicular:
+        second.quad(black, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
+    else:
+        second.quad(black, [(0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1)])
+    gltf.object("emitter", first)
+    gltf.object("receiver", second)
+    gltf.camera("camera", [2.2, 0.8, 2.2], [0.5, 0.4, 0.5], 0.8, 1.0)
+    return gltf
+
+
+def sealed_box():
+    """A closed box with thick walls on a floor beside a bright panel: inside stays dark."""
+    gltf = Gltf()
+    grey = gltf.material("floor", 0.5)
+    ochre = gltf.material("box", (0.7, 0.5, 0.3))
+    white = gltf.material("inside", 0.8)
+    lamp = gltf.material("lamp", 0.5, luminance=(1000.0, 1000.0, 1000.0))
+    floor, outside, inside, panel = (Shape() for _ in range(4))
+    floor.quad(grey, [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)])
+    outside.box(ochre, (-0.5, 0.0, -0.5), (0.5, 1.0, 0.5))
+    inside.box(white, (-0.4, 0.1, -0.4), (0.4, 0.9, 0.4), inward=True)
+    panel.quad(lamp, [(-1.5, 0.2, -0.8), (-1.5, 1.8, -0.8), (-1.5, 1.8, 0.8), (-1.5, 0.2, 0.8)][::-1])
+    for name, shape in (("floor", floor), ("box outside", outside), ("box inside", inside), ("lamp", panel)):
+        gltf.object(name, shape)
+    gltf.camera("camera", [2.5, 1.8, 2.5], [0.0, 0.4, 0.0], 0.8, 1.5)
+    return gltf
+
+
+def main():
+    folder = os.path.dirname(os.path.abspath(__file__))
+    scenes = {
+        "cornell-box": cornell_box(),
+        "two-rooms": two_rooms(),
+        "furnace-0.5": furnace(0.5),
+        "furnace-0.9": furnace(0.9),
+        "plates-parallel": plates(perpendicular=False),
+        "plates-perpendicular": plates(perpendicular=True),
+        "sealed-box": sealed_box(),
+        "room": room(),
+    }
+    for name, gltf in scenes.items():
+        gltf.write(os.path.join(folder, f"{name}.gltf"))
+
+
+if __name__ == "__main__":
+    main()
