@@ -1,1 +1,110 @@
 #include "output/folder.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "core/error.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path normal(const std::string& target)
+{
+    if (target.empty())
+        throw Error(ErrorKind::output, "", "the output folder has no name");
+    const fs::path path = fs::absolute(target).lexically_normal();
+    return path.has_filename() ? path : path.parent_path();
+}
+
+// The folders from the root to `path` that do not exist yet, parents first.
+std::vector<fs::path> missing_folders(const fs::path& path)
+{
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path at = path; at.has_relative_path() && !fs::exists(at, ignored);
+         at = at.parent_path())
+        missing.push_back(at);
+    std::reverse(missing.begin(), missing.end());
+    return missing;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& target) : target_(normal(target).string())
+{
+    try {
+        for (const fs::path& folder : missing_folders(target_)) {
+            std::error_code reason;
+            if (fs::create_directory(folder, reason))
+                made_.push_back(folder.string());
+            if (reason)
+                throw Error(ErrorKind::output, target,
+                            "the output folder cannot be made: " + reason.message());
+        }
+        if (!fs::is_directory(target_))
+            throw Error(ErrorKind::output, target, "is a file; the output must be a folder");
+        std::string pattern = (fs::path(target_) / ".lumel-XXXXXX").string();
+        if (!mkdtemp(pattern.data()))
+            throw Error(ErrorKind::output, target,
+                        std::string("the output folder cannot be written: ") +
+                            std::strerror(errno));
+        staging_ = pattern;
+    } catch (const fs::filesystem_error& error) {
+        clean_up();
+        throw Error(ErrorKind::output, target,
+                    "the output folder cannot be used: " + error.code().message());
+    } catch (...) {
+        clean_up();
+        throw;
+    }
+}
+
+OutputFolder::~OutputFolder()
+{
+    clean_up();
+}
+
+std::string OutputFolder::path(const std::string& name) const
+{
+    return (fs::path(staging_) / name).string();
+}
+
+void OutputFolder::commit()
+{
+    try {
+        std::vector<fs::path> files;
+        for (const fs::directory_entry& entry : fs::directory_iterator(staging_))
+            files.push_back(entry.path().filename());
+        std::sort(files.begin(), files.end());
+
+        // Find what would stop a move before the first file is moved.
+        for (const fs::path& file : files)
+            if (fs::is_directory(fs::path(target_) / file))
+                throw Error(ErrorKind::output, (fs::path(target_) / file).string(),
+                            "is a folder where a result must go; move it away");
+        for (const fs::path& file : files) {
+            fs::rename(fs::path(staging_) / file, fs::path(target_) / file);
+            made_.clear();  // the target now holds a result
+        }
+    } catch (const fs::filesystem_error& error) {
+        throw Error(ErrorKind::output, target_,
+                    "results cannot be moved into the output folder: " + error.code().message());
+    }
+}
+
+void OutputFolder::clean_up() noexcept
+{
+    // Only folders that are still empty go: others may have put files there meanwhile.
+    std::error_code ignored;
+    if (!staging_.empty())
+        fs::remove_all(staging_, ignored);
+    for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
+        fs::remove(*folder, ignored);
+}
+
+}  // namespace lumel

@@ -2,11 +2,14 @@
 // Results appear whole or not at all.
 
 #include <string>
+#include <vector>
 
 namespace lumel {
 
-/// Collects files in a hidden folder beside `target` and moves them in by commit(); destroyed
-/// before that, it leaves nothing behind. Throws Error{output} if the place cannot be written.
+/// Collects files in a hidden folder inside `target` (so that both are on one file system) and
+/// moves them out by commit(). Makes the target and its parents where they are missing.
+/// Destroyed before commit(), it leaves nothing behind, not even the folders it made.
+/// Throws Error{output} if the place cannot be written.
 class OutputFolder {
 public:
     explicit OutputFolder(const std::string& target);
@@ -16,10 +19,15 @@ public:
 
     /// Where to write the file that will be called `name` in the target.
     std::string path(const std::string& name) const;
+    /// Puts every file written so far in place, each in one step; older ones are replaced.
+    /// Call once.
     void commit();
 
 private:
+    void clean_up() noexcept;
+
     std::string target_, staging_;
+    std::vector<std::string> made_;  // folders made for this, parents first
 };
 
 }  // namespace lumel

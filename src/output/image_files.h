@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "core/image.h"
 
@@ -11,22 +12,36 @@ namespace lumel {
 enum class Precision { float32, float16 };
 
 /// ZIP-compressed scanline EXR, channels R G B (A), with string attributes for `metadata`
-/// (units, encoding, …). The same input gives the same bytes. Throws Error{output}.
+/// (units, encoding, …). float16 clamps to ±65504. The same input gives the same bytes: no date
+/// is written. Throws Error{output}.
 void write_exr(const std::string& path, const Image& image, Precision precision,
                const std::map<std::string, std::string>& metadata);
 
 /// Reads R, G, B and, if there, A (else 1) as 4 channels. Throws Error{input}.
 Image read_exr(const std::string& path);
 
+/// What the numbers of a PNG mean, as said in its header.
+enum class PngEncoding { srgb, linear };
+
 /// 8-bit PNG of an image whose values are display-referred 0…1 (already tone-mapped and
 /// sRGB-coded). 3 or 4 channels. Throws Error{output}.
 void write_png(const std::string& path, const Image& image);
 
-/// The same PNG in memory.
-std::vector<unsigned char> encode_png(const Image& image);
+/// The same PNG in memory. Values outside 0…1 are clamped.
+std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding = PngEncoding::srgb);
 
 /// Tone-mapped copy for looking at: exposure from the map's bright end, filmic shoulder, sRGB.
-/// `exposure` 0: chosen from the covered texels.
+/// `exposure` 0: chosen from the covered texels. Alpha stays as it is.
 Image tone_map(const Image& linear, float exposure = 0.0f);
+
+/// The factor tone_map chooses: it puts the bright end of the covered, lit texels below white
+/// and takes lamps for lamps. 1 if nothing is lit.
+float choose_exposure(const Image& linear);
+
+/// tone_map's curve for one value that exposure was applied to: display code 0…1.
+float display_from_linear(float exposed);
+
+/// The exact sRGB curve (IEC 61966-2-1): linear 0…1 to code 0…1.
+float srgb_from_linear(float linear);
 
 }  // namespace lumel

@@ -1,0 +1,140 @@
+// EXR through OpenEXR: one part, scan lines, ZIP, linear values.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include <ImathBox.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+#include <half.h>
+
+#include "core/error.h"
+#include "output/image_files.h"
+#include "output/write_bytes.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
+constexpr std::int64_t kMaxTexels = std::int64_t(1) << 28;  // 16384², 4 GiB as floats
+
+// Collects the file in memory, so that it can be written, and fail, in one place.
+class MemoryStream : public Imf::OStream {
+public:
+    MemoryStream() : Imf::OStream("memory") {}
+    void write(const char data[], int count) override
+    {
+        bytes.resize(std::max(bytes.size(), place_ + std::size_t(count)));
+        std::memcpy(bytes.data() + place_, data, std::size_t(count));
+        place_ += std::size_t(count);
+    }
+    std::uint64_t tellp() override { return place_; }
+    void seekp(std::uint64_t place) override { place_ = place; }
+
+    std::vector<std::byte> bytes;
+
+private:
+    std::size_t place_ = 0;
+};
+
+// A slice that reads or writes channel c of interleaved texels whose data window starts at (x, y).
+template <class T>
+Imf::Slice slice_of(Imf::PixelType type, T* values, int channels, int width, int c, int x, int y,
+                    double fill = 0.0)
+{
+    const std::ptrdiff_t texel = std::ptrdiff_t(sizeof(T)) * channels;
+    const std::ptrdiff_t row = texel * width;
+    char* base = reinterpret_cast<char*>(values + c) - x * texel - y * row;
+    return Imf::Slice(type, base, std::size_t(texel), std::size_t(row), 1, 1, fill);
+}
+
+template <class T>
+void write_pixels(MemoryStream& stream, const Imf::Header& header, Imf::PixelType type,
+                  const T* values, int channels, int width, int height)
+{
+    Imf::FrameBuffer frame;
+    for (int c = 0; c < channels; ++c)
+        frame.insert(kChannels[c],
+                     slice_of(type, const_cast<T*>(values), channels, width, c, 0, 0));
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(height);
+}
+
+std::vector<half> to_half(const std::vector<float>& values)
+{
+    // What is brighter than half's largest number stays at it: infinity would spoil filtering.
+    std::vector<half> halves(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        halves[i] = half(std::clamp(values[i], -float(HALF_MAX), float(HALF_MAX)));
+    return halves;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const Image& image, Precision precision,
+               const std::map<std::string, std::string>& metadata)
+{
+    MemoryStream stream;
+    try {
+        const Imf::PixelType type = precision == Precision::float16 ? Imf::HALF : Imf::FLOAT;
+        Imf::Header header(image.width, image.height);
+        header.compression() = Imf::ZIP_COMPRESSION;
+        for (int c = 0; c < image.channels; ++c)
+            header.channels().insert(kChannels[c], Imf::Channel(type));
+        for (const auto& [name, value] : metadata)
+            header.insert(name, Imf::StringAttribute(value));
+
+        if (precision == Precision::float16)
+            write_pixels(stream, header, type, to_half(image.values).data(), image.channels,
+                         image.width, image.height);
+        else
+            write_pixels(stream, header, type, image.values.data(), image.channels, image.width,
+                         image.height);
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::output, path,
+                    std::string("cannot be encoded as EXR: ") + error.what());
+    }
+    write_bytes(path, stream.bytes);
+}
+
+Image read_exr(const std::string& path)
+{
+    try {
+        Imf::InputFile file(path.c_str());
+        const Imath::Box2i window = file.header().dataWindow();
+        const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
+        const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
+        if (width <= 0 || height <= 0 || width > kMaxTexels || width * height > kMaxTexels)
+            throw Error(ErrorKind::input, path, "claims an impossible size");
+        for (int c = 0; c < 3; ++c)
+            if (!file.header().channels().findChannel(kChannels[c]))
+                throw Error(ErrorKind::input, path,
+                            std::string("has no channel ") + kChannels[c] +
+                                "; an RGB or RGBA image is needed");
+
+        Image image(int(width), int(height), 4);
+        Imf::FrameBuffer frame;
+        for (int c = 0; c < 4; ++c)
+            frame.insert(kChannels[c], slice_of(Imf::FLOAT, image.values.data(), 4, image.width, c,
+                                                window.min.x, window.min.y, c == 3 ? 1.0 : 0.0));
+        file.setFrameBuffer(frame);
+        file.readPixels(window.min.y, window.max.y);
+        return image;
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
+    }
+}
+
+}  // namespace lumel

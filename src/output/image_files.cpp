@@ -1,1 +1,0 @@
-#include "output/image_files.h"

@@ -1,0 +1,82 @@
+// 8-bit PNG through libpng.
+
+#include <algorithm>
+#include <cmath>
+#include <csetjmp>
+#include <cstdint>
+#include <vector>
+
+#include <png.h>
+
+#include "core/error.h"
+#include "output/image_files.h"
+#include "output/write_bytes.h"
+
+namespace lumel {
+namespace {
+
+std::vector<unsigned char> quantise(const std::vector<float>& values)
+{
+    // std::fmax also turns a NaN into 0.
+    std::vector<unsigned char> bytes(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+        bytes[i] = static_cast<unsigned char>(
+            std::lround(std::fmin(std::fmax(values[i], 0.0f), 1.0f) * 255.0f));
+    return bytes;
+}
+
+void append(png_structp png, png_bytep data, png_size_t count)
+{
+    auto& out = *static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
+    out.insert(out.end(), data, data + count);
+}
+
+// Holds nothing with a destructor, as libpng leaves it by longjmp. False: libpng gave up.
+bool encode(png_structp png, png_infop info, const unsigned char* rows, const Image& image,
+            PngEncoding encoding)
+{
+    if (setjmp(png_jmpbuf(png)))
+        return false;
+    const int type = image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
+    png_set_IHDR(png, info, png_uint_32(image.width), png_uint_32(image.height), 8, type,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (encoding == PngEncoding::srgb)
+        png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    else
+        png_set_gAMA(png, info, 1.0);
+    png_write_info(png, info);
+    const std::size_t stride = std::size_t(image.width) * std::size_t(image.channels);
+    for (int y = 0; y < image.height; ++y)
+        png_write_row(png, rows + std::size_t(y) * stride);
+    png_write_end(png, info);
+    return true;
+}
+
+}  // namespace
+
+std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding)
+{
+    const std::vector<unsigned char> rows = quantise(image.values);
+    std::vector<unsigned char> out;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png ? png_create_info_struct(png) : nullptr;
+    bool done = false;
+    if (info) {
+        png_set_write_fn(png, &out, append, nullptr);
+        done = encode(png, info, rows.data(), image, encoding);
+    }
+    png_destroy_write_struct(&png, &info);
+    if (!done)
+        throw Error(ErrorKind::output, "",
+                    "an image of " + std::to_string(image.width) + " x " +
+                        std::to_string(image.height) + " texels cannot be encoded as PNG");
+    return out;
+}
+
+void write_png(const std::string& path, const Image& image)
+{
+    const std::vector<unsigned char> bytes = encode_png(image);
+    write_bytes(path, std::as_bytes(std::span(bytes)));
+}
+
+}  // namespace lumel

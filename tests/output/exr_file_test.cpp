@@ -1,0 +1,98 @@
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "output/image_files.h"
+#include "temporary_folder.h"
+
+namespace lumel {
+namespace {
+
+Image gradient(int width, int height, int channels)
+{
+    Image image(width, height, channels);
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        image.values[i] = std::exp(float(i % 97) * 0.19f - 8.0f);
+    return image;
+}
+
+TEST(ExrFile, FloatsComeBackExactly)
+{
+    const test::TemporaryFolder folder;
+    const Image image = gradient(37, 19, 4);
+    write_exr(folder / "a.exr", image, Precision::float32, {{"units", "lx"}});
+    const Image read = read_exr(folder / "a.exr");
+    ASSERT_EQ(read.width, 37);
+    ASSERT_EQ(read.height, 19);
+    EXPECT_EQ(read.values, image.values);
+}
+
+TEST(ExrFile, HalvesComeBackWithinTheirPrecisionAndBounded)
+{
+    const test::TemporaryFolder folder;
+    Image image = gradient(16, 16, 4);
+    image.values[0] = 1e9f;
+    write_exr(folder / "a.exr", image, Precision::float16, {});
+    const Image read = read_exr(folder / "a.exr");
+    EXPECT_EQ(read.values[0], 65504.0f);
+    for (std::size_t i = 1; i < image.values.size(); ++i)
+        EXPECT_NEAR(read.values[i], image.values[i], image.values[i] / 2048.0f + 3e-8f);
+}
+
+TEST(ExrFile, AnImageWithoutAlphaReadsAsFullyCovered)
+{
+    const test::TemporaryFolder folder;
+    const Image image = gradient(5, 4, 3);
+    write_exr(folder / "a.exr", image, Precision::float32, {});
+    const Image read = read_exr(folder / "a.exr");
+    EXPECT_EQ(read.channels, 4);
+    EXPECT_EQ(read.at(3, 2)[1], image.at(3, 2)[1]);
+    EXPECT_EQ(read.at(3, 2)[3], 1.0f);
+}
+
+TEST(ExrFile, TheSameImageGivesTheSameBytes)
+{
+    const test::TemporaryFolder folder;
+    const Image image = gradient(64, 64, 4);
+    write_exr(folder / "a.exr", image, Precision::float32, {{"units", "lx"}, {"encoding", "H"}});
+    write_exr(folder / "b.exr", image, Precision::float32, {{"units", "lx"}, {"encoding", "H"}});
+    EXPECT_EQ(test::bytes_of(folder / "a.exr"), test::bytes_of(folder / "b.exr"));
+}
+
+TEST(ExrFile, WhatIsNotAnExrIsAnInputErrorThatNamesTheFile)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "text.exr") << "not an image";
+    for (const char* name : {"text.exr", "missing.exr"}) {
+        try {
+            read_exr(folder / name);
+            FAIL() << name << " was read";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::input);
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+        }
+    }
+}
+
+TEST(ExrFile, ATruncatedExrIsAnInputError)
+{
+    const test::TemporaryFolder folder;
+    write_exr(folder / "a.exr", gradient(64, 64, 4), Precision::float32, {});
+    std::filesystem::resize_file(folder / "a.exr", 900);
+    EXPECT_THROW(read_exr(folder / "a.exr"), Error);
+}
+
+TEST(ExrFile, APlaceThatCannotBeWrittenIsAnOutputError)
+{
+    try {
+        write_exr("/nowhere/a.exr", gradient(4, 4, 4), Precision::float32, {});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::output);
+    }
+}
+
+}  // namespace
+}  // namespace lumel
