@@ -1,0 +1,61 @@
+#include "scene/gltf_extensions.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace lumel {
+
+namespace {
+
+/// Read, or without effect on diffuse light, so a file may require them.
+constexpr std::array<std::string_view, 20> kSupported = {
+    "KHR_lights_punctual",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_unlit",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_animation_pointer",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MOZ_lightmap",
+};
+
+}  // namespace
+
+void check_required_extensions(const JsonView& root)
+{
+    root.each("extensionsUsed", [](const JsonView& name, std::size_t) { name.string(); });
+    root.each("extensionsRequired", [](const JsonView& name, std::size_t) {
+        if (std::find(kSupported.begin(), kSupported.end(), name.string()) == kSupported.end())
+            refuse_extension(name, name.string().c_str());
+    });
+}
+
+void refuse_extension(const JsonView& place, const char* name)
+{
+    place.fail(std::string("needs the extension ") + name +
+               ", which is not supported; export the scene without it");
+}
+
+bool uses_extension(const JsonView& root, const char* name)
+{
+    const auto used = root.find("extensionsUsed");
+    if (!used)
+        return false;
+    const Json& names = used->as_array().json();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace lumel

@@ -1,0 +1,79 @@
+#pragma once
+// A JSON value that knows where it stands, so that every wrong type or range becomes a sentence
+// with its place.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace lumel {
+
+/// Keeps the order of the file's members.
+using Json = nlohmann::ordered_json;
+
+/// One value of a document. Cheap to copy; the document must outlive it.
+/// Every reading function throws Error{input} with file and JSON pointer if the value is not
+/// of the kind asked for.
+class JsonView {
+public:
+    JsonView(const std::string& file, const Json& value, std::string pointer = {})
+        : file_(&file),
+          value_(&value),
+          pointer_(std::move(pointer))
+    {
+    }
+
+    [[noreturn]] void fail(const std::string& what) const;
+    /// "file: /json/pointer", as Error shows it.
+    std::string place() const;
+    const Json& json() const { return *value_; }
+
+    /// Member of an object; nothing if absent.
+    std::optional<JsonView> find(const char* key) const;
+    /// Member of an object that must be there.
+    JsonView get(const char* key) const;
+    /// Array behind `key`: calls visit(element, index) for each. Nothing if absent.
+    void each(const char* key,
+              const std::function<void(const JsonView&, std::size_t)>& visit) const;
+    /// Every element of this array.
+    void each(const std::function<void(const JsonView&, std::size_t)>& visit) const;
+    /// Length of the array behind `key`, 0 if absent.
+    std::size_t count(const char* key) const;
+    /// Element of this array that must be there.
+    JsonView at(std::size_t index) const;
+    /// extensions[name] of an object; nothing if absent.
+    std::optional<JsonView> extension(const char* name) const;
+
+    const JsonView& as_object() const;
+    const JsonView& as_array() const;
+    /// A whole number in low…high; 3.0 counts as whole.
+    std::int64_t integer(std::int64_t low, std::int64_t high) const;
+    /// An index below `size` into the file's array called `array`.
+    std::size_t index(std::size_t size, const char* array) const;
+    /// A number that is finite as float.
+    float number() const;
+    bool boolean() const;
+    const std::string& string() const;
+
+    float number_or(const char* key, float fallback) const;
+    bool boolean_or(const char* key, bool fallback) const;
+    std::string string_or(const char* key, const std::string& fallback) const;
+
+    /// `length` finite numbers behind `key` into `values`. False and untouched if absent.
+    bool numbers(const char* key, float* values, std::size_t length) const;
+
+private:
+    JsonView child(const Json& value, const std::string& key) const;
+
+    const std::string* file_;
+    const Json* value_;
+    std::string pointer_;
+};
+
+/// Parses JSON text; throws Error{input} naming line and column of a mistake.
+Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size);
+
+}  // namespace lumel
