@@ -2,6 +2,7 @@
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 namespace lumel {
 namespace {
@@ -11,7 +12,8 @@ spdlog::logger& logger()
     static const std::shared_ptr<spdlog::logger> instance = [] {
         auto made = std::make_shared<spdlog::logger>(
             "lumel", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-        made->set_pattern("%^%l%$: %v");
+        // At a terminal a progress line may stand where the message goes: wipe it first.
+        made->set_pattern(isatty(STDERR_FILENO) == 1 ? "\r\033[K%^%l%$: %v" : "%^%l%$: %v");
         return made;
     }();
     return *instance;
@@ -19,10 +21,19 @@ spdlog::logger& logger()
 
 }  // namespace
 
-void log_info(std::string_view message) { logger().info("{}", message); }
+void log_info(std::string_view message)
+{
+    logger().info("{}", message);
+}
 
-void log_warning(std::string_view message) { logger().warn("{}", message); }
+void log_warning(std::string_view message)
+{
+    logger().warn("{}", message);
+}
 
-void set_quiet(bool quiet) { logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info); }
+void set_quiet(bool quiet)
+{
+    logger().set_level(quiet ? spdlog::level::warn : spdlog::level::info);
+}
 
 }  // namespace lumel

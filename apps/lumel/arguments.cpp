@@ -1,0 +1,305 @@
+// The command line as CLI11 reads it. Every option that a user sees is declared here.
+
+#include "arguments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "core/error.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
+constexpr int kLargestHemicube = 2048;
+constexpr int kLargestBatch = 256;
+constexpr int kLargestGutter = 64;
+constexpr int kMostShots = 2'000'000'000;
+constexpr int kMostPaths = 100'000'000;
+
+/// Accepts whole numbers from `low` to `high`.
+CLI::Validator whole(std::int64_t low, std::int64_t high)
+{
+    const auto check = [low, high](const std::string& text) -> std::string {
+        std::int64_t value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high)
+            return {};
+        return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
+    };
+    return CLI::Validator(check, "");
+}
+
+/// Accepts positive finite numbers.
+CLI::Validator positive()
+{
+    const auto check = [](const std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value))
+            return {};
+        return fmt::format("'{}' is not a number above 0", text);
+    };
+    return CLI::Validator(check, "");
+}
+
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
+                                          {"centre", SampleRule::centre}};
+const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
+
+/// An option that takes one of a few words.
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
+                        const Choices<Value>& choices, const std::string& help)
+{
+    const auto assign = [&value, &choices](const std::string& word) {
+        for (const auto& [choice, meaning] : choices)
+            if (choice == word)
+                value = meaning;
+    };
+    std::vector<std::string> words;
+    for (const auto& choice : choices)
+        words.push_back(choice.first);
+    return app.add_option_function<std::string>(name, assign, help)
+        ->type_name(CLI::detail::join(words, "|"))
+        ->check([words](const std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end())
+                return {};
+            return fmt::format("'{}' is none of {}", word, CLI::detail::join(words, ", "));
+        });
+}
+
+void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
+{
+    app.add_option("--texels-per-metre", atlas.texels_per_metre, "Density of the lightmap")
+        ->type_name("N")
+        ->check(positive());
+    app.add_option("--size", atlas.size, "Side of the square atlas in texels, instead of a density")
+        ->type_name("N")
+        ->check(whole(1, kLargestAtlas));
+    app.add_option("--max-size", atlas.max_size,
+                   "Largest side allowed; the density is scaled to fit")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kLargestAtlas));
+    app.add_option("--gutter", atlas.gutter, "Empty texels kept around each chart")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kLargestGutter));
+}
+
+void add_talk_options(CLI::App& app, Talk& talk)
+{
+    app.add_flag("-q,--quiet", talk.quiet, "Say nothing but warnings and errors");
+    app.add_flag("--json", talk.json, "Print the report as JSON on stdout, and nothing else");
+    app.add_flag_callback(
+        "--no-progress", [&talk] { talk.progress = false; }, "Draw no progress line");
+}
+
+void add_solver_options(CLI::App& app, SolverOptions& solver)
+{
+    Choices<std::string> methods;
+    for (const MethodInfo& method : kMethods)
+        methods.emplace_back(method.id, method.id);
+    const std::string title = "Method; lumel methods lists them";
+    app.add_option("--solver", solver.method, title)
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->check([methods](const std::string& word) -> std::string {
+            for (const auto& method : methods)
+                if (method.first == word)
+                    return {};
+            return fmt::format("'{}' is not in the list of lumel methods", word);
+        });
+    add_choice(app, "--scheme", solver.scheme, kSchemes,
+               "Iteration scheme: phased (exact near pairs, the default) or the papers'");
+    add_choice(app, "--sampling", solver.rule, kSampleRules,
+               "Receive over the covered area of a lumel (the default) or at its centre");
+    app.add_option("--seed", solver.seed, "Of all random numbers")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
+    app.add_option("--batch", solver.batch, "Shooters per iteration")
+        ->type_name("K")
+        ->capture_default_str()
+        ->check(whole(1, kLargestBatch));
+    app.add_option("--hemicube", solver.hemicube, "Side of a hemicube's front face in pixels")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(16, kLargestHemicube));
+}
+
+/// When to stop. Without any of the three the bake ends at the default error.
+void add_stop_options(CLI::App& app, SolverOptions& solver)
+{
+    auto* shots = app.add_option("--shots", solver.max_shots, "Stop after this many shooters")
+                      ->type_name("N")
+                      ->check(whole(1, kMostShots));
+    auto* time = app.add_option("--time", solver.max_seconds, "Stop after this long solving")
+                     ->type_name("SECONDS")
+                     ->check(positive());
+    auto* error = app.add_option_function<double>(
+        "--error", [&solver](double percent) { solver.target_error = percent / 100.0; },
+        fmt::format(
+            "Stop at this estimated error (default: {:g}, or none beside --shots or --time)",
+            100.0 * solver.target_error));
+    error->type_name("PERCENT")->check(positive());
+    app.callback([&solver, shots, time, error] {
+        if (error->empty() && !(shots->empty() && time->empty()))
+            solver.target_error = 0.0;
+    });
+}
+
+CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
+{
+    CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
+    command.add_option("scene", bake.scene, "A .gltf or .glb file")->required()->type_name("FILE");
+    command.add_option("folder", bake.folder, "Where the results go")
+        ->required()
+        ->type_name("FOLDER");
+    add_atlas_options(command, bake.options.atlas);
+    add_solver_options(command, bake.options.solver);
+    add_stop_options(command, bake.options.solver);
+    command
+        .add_option("--device", bake.options.device, "Index or part of a name from lumel devices")
+        ->type_name("NAME");
+    command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
+    command.add_option("--preview-width", bake.options.preview_width, "Of preview.png; 0: none")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kLargestAtlas));
+    add_talk_options(command, bake.talk);
+    return command;
+}
+
+CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
+{
+    CLI::App& command =
+        *app.add_subcommand("reference", "Compute the same map by path tracing on the CPU");
+    command.add_option("scene", reference.scene, "A .gltf or .glb file")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("folder", reference.folder, "Where the results go")
+        ->required()
+        ->type_name("FOLDER");
+    command.add_option("--spp", reference.reference.samples_per_lumel, "Paths per lumel")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kMostPaths));
+    command.add_option("--seed", reference.reference.seed, "Of all random numbers")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
+    add_choice(command, "--sampling", reference.reference.rule, kSampleRules,
+               "Receive over the covered area of a lumel (the default) or at its centre");
+    add_atlas_options(command, reference.options.atlas);
+    command.add_flag("--half", reference.options.half, "Write lightmap.exr in half precision");
+    add_talk_options(command, reference.talk);
+    return command;
+}
+
+CLI::App& add_info(CLI::App& app, InfoArguments& info)
+{
+    CLI::App& command =
+        *app.add_subcommand("info", "Say what is in a scene and what a bake would take");
+    command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
+    add_atlas_options(command, info.options.atlas);
+    command.add_option("--batch", info.options.solver.batch, "Shooters per iteration")
+        ->type_name("K")
+        ->capture_default_str()
+        ->check(whole(1, kLargestBatch));
+    command
+        .add_option("--hemicube", info.options.solver.hemicube,
+                    "Side of a hemicube's front face in pixels")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(16, kLargestHemicube));
+    command.add_flag("--json", info.json, "Print JSON");
+    return command;
+}
+
+CLI::App& add_compare(CLI::App& app, CompareArguments& compare)
+{
+    CLI::App& command = *app.add_subcommand("compare", "Measure how far map A is from map B");
+    command.add_option("A", compare.map, "The map to judge, an EXR file")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("B", compare.reference, "The map taken as the truth")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("-o,--heat-map", compare.heat_map, "PNG to write (default: A-vs-B.png)")
+        ->type_name("FILE");
+    command.add_flag("--json", compare.json, "Print JSON");
+    return command;
+}
+
+/// What CLI11 did not accept, as one sentence.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error)
+{
+    const auto commands = app.get_subcommands();
+    const std::string command =
+        commands.empty() ? "lumel" : "lumel " + commands.front()->get_name();
+    const std::string advice = "; " + command + " --help shows what there is";
+    const std::vector<std::string> extras = app.remaining(true);
+    for (const std::string& word : extras)
+        if (word.starts_with('-'))
+            return fmt::format("{} is no option of {}{}", word, command, advice);
+    if (!extras.empty())
+        return commands.empty()
+                   ? fmt::format("{} is no command of {}{}", extras.front(), command, advice)
+                   : fmt::format("{} was not expected{}", extras.front(), advice);
+    return error.what() + advice;
+}
+
+}  // namespace
+
+Arguments parse_arguments(int count, char** values)
+{
+    CLI::App app("Lumel bakes the light of a glTF scene into lightmaps.", "lumel");
+    app.set_version_flag("--version", "lumel " LUMEL_VERSION);
+    app.require_subcommand(1);
+
+    BakeArguments bake;
+    ReferenceArguments reference;
+    InfoArguments info;
+    CompareArguments compare;
+    DevicesArguments devices;
+    const CLI::App& bake_command = add_bake(app, bake);
+    const CLI::App& reference_command = add_reference(app, reference);
+    const CLI::App& info_command = add_info(app, info);
+    const CLI::App& compare_command = add_compare(app, compare);
+    CLI::App& devices_command = *app.add_subcommand("devices", "List what Vulkan offers");
+    devices_command.add_flag("--json", devices.json, "Print JSON");
+    app.add_subcommand("methods", "List the solvers");
+
+    try {
+        app.parse(count, values);
+    } catch (const CLI::CallForHelp&) {
+        return TextArguments{app.help()};
+    } catch (const CLI::CallForVersion& version) {
+        return TextArguments{std::string(version.what()) + "\n"};
+    } catch (const CLI::ParseError& error) {
+        throw Error(ErrorKind::input, "", complaint(app, error));
+    }
+
+    if (bake_command.parsed())
+        return bake;
+    if (reference_command.parsed())
+        return reference;
+    if (info_command.parsed())
+        return info;
+    if (compare_command.parsed())
+        return compare;
+    if (devices_command.parsed())
+        return devices;
+    return MethodsArguments{};
+}
+
+}  // namespace lumel

@@ -1,0 +1,63 @@
+#pragma once
+// What was asked for on the command line.
+
+#include <string>
+#include <variant>
+
+#include "bake/bake.h"
+
+namespace lumel {
+
+/// What a command says while it works.
+struct Talk {
+    bool quiet = false;    ///< nothing but warnings and errors
+    bool json = false;     ///< stdout carries one JSON document and nothing else
+    bool progress = true;  ///< a progress line, where stderr is a terminal
+};
+
+struct BakeArguments {
+    std::string scene;   ///< glTF or GLB file
+    std::string folder;  ///< where the results go
+    BakeOptions options;
+    Talk talk;
+};
+
+struct ReferenceArguments {
+    std::string scene;
+    std::string folder;
+    BakeOptions options;
+    ReferenceOptions reference;
+    Talk talk;
+};
+
+struct InfoArguments {
+    std::string scene;
+    BakeOptions options;
+    bool json = false;
+};
+
+struct CompareArguments {
+    std::string map;        ///< EXR to judge
+    std::string reference;  ///< EXR taken as the truth
+    std::string heat_map;   ///< PNG to write; empty: named after the two
+    bool json = false;
+};
+
+struct DevicesArguments {
+    bool json = false;
+};
+
+struct MethodsArguments {};
+
+/// --help and --version: a text for stdout.
+struct TextArguments {
+    std::string text;
+};
+
+using Arguments = std::variant<BakeArguments, ReferenceArguments, InfoArguments, CompareArguments,
+                               DevicesArguments, MethodsArguments, TextArguments>;
+
+/// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
+Arguments parse_arguments(int count, char** values);
+
+}  // namespace lumel

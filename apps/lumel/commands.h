@@ -1,0 +1,23 @@
+#pragma once
+// One function per subcommand, one file each. They return the exit code and throw Error.
+
+#include "arguments.h"
+
+namespace lumel {
+
+/// Exit codes; documented in README.md.
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitUnexpected = 1;
+inline constexpr int kExitInput = 2;
+inline constexpr int kExitDevice = 3;
+inline constexpr int kExitOutput = 4;
+
+int run(const BakeArguments& arguments);
+int run(const ReferenceArguments& arguments);
+int run(const InfoArguments& arguments);
+int run(const CompareArguments& arguments);
+int run(const DevicesArguments& arguments);
+int run(const MethodsArguments& arguments);
+int run(const TextArguments& arguments);
+
+}  // namespace lumel

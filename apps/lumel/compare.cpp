@@ -1,0 +1,67 @@
+// lumel compare: how far one map is from another, in figures and as a picture.
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "output/image_files.h"
+#include "reference/metrics.h"
+
+namespace lumel {
+namespace {
+
+std::string default_heat_map(const CompareArguments& arguments)
+{
+    const auto stem = [](const std::string& path) {
+        return std::filesystem::path(path).stem().string();
+    };
+    return stem(arguments.map) + "-vs-" + stem(arguments.reference) + ".png";
+}
+
+/// JSON has no infinity and no NaN.
+std::string number(double value)
+{
+    return std::isfinite(value) ? fmt::format("{}", value) : "null";
+}
+
+void print_json(const MapError& error)
+{
+    fmt::print("{{\"relative_rmse\": {}, \"rel_mse\": {}, \"bias\": {}, \"p95\": {}, \"max\": {}, "
+               "\"texels\": {}}}\n",
+               number(error.relative_rmse), number(error.rel_mse), number(error.bias),
+               number(error.p95), number(error.max), error.texels);
+}
+
+void print_table(const MapError& error)
+{
+    fmt::print("relative RMSE    {:8.3f} %\n", 100.0 * error.relative_rmse);
+    fmt::print("relMSE           {:8.6f}\n", error.rel_mse);
+    fmt::print("bias             {:+8.3f} %\n", 100.0 * error.bias);
+    fmt::print("95th percentile  {:8.3f} %\n", 100.0 * error.p95);
+    fmt::print("max              {:8.3f} %\n", 100.0 * error.max);
+    fmt::print("texels           {:8}\n", error.texels);
+}
+
+}  // namespace
+
+int run(const CompareArguments& arguments)
+{
+    const Image map = read_exr(arguments.map);
+    const Image reference = read_exr(arguments.reference);
+    const MapError error = compare_maps(map, reference);
+    const std::string picture =
+        arguments.heat_map.empty() ? default_heat_map(arguments) : arguments.heat_map;
+    write_png(picture, heat_map(map, reference));
+
+    if (arguments.json) {
+        print_json(error);
+    } else {
+        print_table(error);
+        fmt::print("heat map         {}\n", picture);
+    }
+    return kExitDone;
+}
+
+}  // namespace lumel

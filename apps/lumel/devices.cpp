@@ -1,0 +1,60 @@
+// lumel devices: what Vulkan offers, and why a device cannot be used.
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "core/error.h"
+#include "gpu/device.h"
+
+namespace lumel {
+namespace {
+
+constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
+
+void print_json(const std::vector<gpu::DeviceInfo>& devices)
+{
+    nlohmann::json list = nlohmann::json::array();
+    for (std::size_t index = 0; index < devices.size(); ++index) {
+        const gpu::DeviceInfo& device = devices[index];
+        list.push_back({{"index", index},
+                        {"name", device.name},
+                        {"type", device.type},
+                        {"vulkan", device.api_version},
+                        {"driver", device.driver},
+                        {"memory_bytes", device.memory_bytes},
+                        {"usable", device.usable},
+                        {"reason", device.reason}});
+    }
+    fmt::print("{}\n", list.dump(2));
+}
+
+void print_table(const std::vector<gpu::DeviceInfo>& devices)
+{
+    for (std::size_t index = 0; index < devices.size(); ++index) {
+        const gpu::DeviceInfo& device = devices[index];
+        fmt::print("{}  {}\n   {}, Vulkan {}, {:.1f} GiB, driver {}\n", index, device.name,
+                   device.type, device.api_version,
+                   static_cast<double>(device.memory_bytes) / kGibibyte, device.driver);
+        if (!device.usable)
+            fmt::print("   cannot be used: {}\n", device.reason);
+    }
+}
+
+}  // namespace
+
+int run(const DevicesArguments& arguments)
+{
+    const std::vector<gpu::DeviceInfo> devices = gpu::list_devices();
+    if (arguments.json)
+        print_json(devices);
+    else
+        print_table(devices);
+    if (devices.empty())
+        throw Error(
+            ErrorKind::device, "",
+            "Vulkan offers no device; install a driver (mesa-vulkan-drivers has a software one)");
+    return kExitDone;
+}
+
+}  // namespace lumel

@@ -1,0 +1,15 @@
+#pragma once
+// Ctrl-C as a wish to finish early.
+
+namespace lumel {
+
+/// From now on the first Ctrl-C (or SIGTERM) only sets a flag; a second one ends the program.
+void watch_interrupts();
+
+/// True once the user asked to stop.
+bool interrupted();
+
+/// 128 + the signal's number, as shells report it: 130 for Ctrl-C.
+int interrupt_exit_code();
+
+}  // namespace lumel
