@@ -140,10 +140,10 @@ def sealed_box():
     floor.quad(grey, [(-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3)])
     outside.box(ochre, (-0.5, 0.0, -0.5), (0.5, 1.0, 0.5))
     inside.box(white, (-0.4, 0.1, -0.4), (0.4, 0.9, 0.4), inward=True)
-    panel.quad(lamp, [(-1.5, 0.2, -0.8), (-1.5, 1.8, -0.8), (-1.5, 1.8, 0.8), (-1.5, 0.2, 0.8)][::-1])
+    panel.quad(lamp, [(-1.5, 0.2, -0.8), (-1.5, 1.8, -0.8), (-1.5, 1.8, 0.8), (-1.5, 0.2, 0.8)])
     for name, shape in (("floor", floor), ("box outside", outside), ("box inside", inside), ("lamp", panel)):
         gltf.object(name, shape)
-    gltf.camera("camera", [2.5, 1.8, 2.5], [0.0, 0.4, 0.0], 0.8, 1.5)
+    gltf.camera("camera", [-1.0, 1.5, 2.7], [-0.3, 0.4, 0.0], 0.8, 1.5)
     return gltf
 
 

@@ -230,7 +230,7 @@ def lamp(gltf, colours):
 
 
 def plant(gltf, colours):
-    place = (0.42, 0.0, 3.0)
+    place = (2.6, 0.0, 2.3)
     pot = Shape()
     pot.lathe(colours["terracotta"], (0, 0, 0), [(0.12, 0), (0.17, 0.26), (0.19, 0.26), (0.19, 0.31), (0.165, 0.31), (0.155, 0.28)], 24)
     pot.lathe(colours["soil"], (0, 0, 0), [(0.155, 0.28), (0, 0.28)], 24)
