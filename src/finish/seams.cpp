@@ -1,0 +1,202 @@
+// Least-squares seams, after the idea in M. Iwanicki, "Lighting Technology of The Last of Us",
+// SIGGRAPH 2013 talks.
+//
+// Along a seam the same point p of the world has two places in the atlas. Bilinear sampling there
+// gives Σ a_k x_k on one side and Σ b_k x_k on the other, with four texels each. The texels x
+// that such samples touch are moved, as little as possible, so that both sides agree:
+//
+//     minimise  Σ_p w_p (Σ a_pk x_k − Σ b_pk x_k)²  +  Σ_t λ_t (x_t − x⁰_t)²
+//
+// x⁰: the dilated map. w_p: kPull times the length of seam [texels] that sample p stands for.
+// λ_t: kHoldGutter + kHold × coverage, so that gutters move freely and solved texels little.
+// With x = x⁰ + d and rows g_p = a_p − b_p this is the linear system
+//
+//     (Gᵀ W G + Λ) d = −Gᵀ W G x⁰
+//
+// symmetric, positive definite and sparse: conjugate gradients, scaled by the diagonal, serial in
+// each channel, so that the same map gives the same bytes.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/parallel.h"
+#include "finish/finish.h"
+#include "finish/seam_edges.h"
+
+namespace lumel {
+namespace {
+
+constexpr double kPull = 20.0;
+constexpr double kHold = 1.0;
+constexpr double kHoldGutter = 0.02;
+constexpr float kSamplesPerTexel = 2.0f;  // bilinear weights have a kink every texel
+constexpr float kMaxSamples = 1.0e5f;     // per edge
+constexpr float kLargestJump = 0.5f;      // relative; more is an edge of the light itself
+constexpr int kMaxIterations = 400;
+constexpr double kTolerance = 1e-6;  // of the residual's first length
+constexpr std::uint32_t kUntouched = ~0u;
+
+struct Footprint {
+    std::array<std::uint32_t, 4> texels;
+    std::array<float, 4> weights;
+};
+
+// One sample point of a seam: four texels of one side, then four of the other, subtracted.
+struct Row {
+    std::array<std::uint32_t, 8> unknowns;
+    std::array<float, 8> weights;
+    double pull;
+};
+
+struct System {
+    std::vector<Row> rows;
+    std::vector<std::uint32_t> texels;  // of each unknown
+    std::vector<double> hold;           // λ of each unknown
+    std::vector<double> diagonal;       // of Gᵀ W G + Λ
+};
+
+Footprint bilinear(const Image& map, const glm::vec2& place)
+{
+    const float x = std::clamp(place.x - 0.5f, 0.0f, float(map.width - 1));
+    const float y = std::clamp(place.y - 0.5f, 0.0f, float(map.height - 1));
+    const int x0 = int(x), y0 = int(y);
+    const int x1 = std::min(x0 + 1, map.width - 1), y1 = std::min(y0 + 1, map.height - 1);
+    const float u = x - float(x0), v = y - float(y0);
+    const auto texel = [&](int column, int row) { return std::uint32_t(row * map.width + column); };
+    return {{texel(x0, y0), texel(x1, y0), texel(x0, y1), texel(x1, y1)},
+            {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v}};
+}
+
+float brightness(const Image& map, const Footprint& footprint)
+{
+    float sum = 0.0f;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const float* rgb = map.values.data() + std::size_t(footprint.texels[k]) * 4;
+        sum += footprint.weights[k] * (rgb[0] + rgb[1] + rgb[2]);
+    }
+    return sum;
+}
+
+// Rows hold texel numbers here; number_unknowns replaces them.
+void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
+{
+    const float length =
+        std::max(glm::distance(seam.a[0], seam.a[1]), glm::distance(seam.b[0], seam.b[1]));
+    if (!(length > 0.0f))
+        return;
+    const int count = int(std::clamp(std::ceil(kSamplesPerTexel * length), 1.0f, kMaxSamples)) + 1;
+    for (int i = 0; i < count; ++i) {
+        const float t = float(i) / float(count - 1);
+        const Footprint a = bilinear(map, glm::mix(seam.a[0], seam.a[1], t));
+        const Footprint b = bilinear(map, glm::mix(seam.b[0], seam.b[1], t));
+        const float light_a = brightness(map, a), light_b = brightness(map, b);
+        if (std::abs(light_a - light_b) > kLargestJump * std::max(light_a, light_b))
+            continue;
+        Row row;
+        for (std::size_t k = 0; k < 4; ++k) {
+            row.unknowns[k] = a.texels[k];
+            row.weights[k] = a.weights[k];
+            row.unknowns[k + 4] = b.texels[k];
+            row.weights[k + 4] = -b.weights[k];
+        }
+        row.pull = kPull * double(length) / double(count);
+        rows.push_back(row);
+    }
+}
+
+void number_unknowns(const Lumels& lumels, System& system)
+{
+    std::vector<std::uint32_t> number(lumels.coverage.size(), kUntouched);
+    for (Row& row : system.rows)
+        for (std::uint32_t& unknown : row.unknowns) {
+            const std::uint32_t texel = unknown;
+            if (number[texel] == kUntouched) {
+                number[texel] = std::uint32_t(system.texels.size());
+                system.texels.push_back(texel);
+                system.hold.push_back(kHoldGutter + kHold * double(lumels.coverage[texel]));
+            }
+            unknown = number[texel];
+        }
+    system.diagonal = system.hold;
+    for (const Row& row : system.rows)
+        for (std::size_t k = 0; k < 8; ++k)
+            system.diagonal[row.unknowns[k]] += row.pull * row.weights[k] * row.weights[k];
+}
+
+// result += Gᵀ W G x
+void add_seam_term(const System& system, const std::vector<double>& x, std::vector<double>& result)
+{
+    for (const Row& row : system.rows) {
+        double gap = 0.0;
+        for (std::size_t k = 0; k < 8; ++k)
+            gap += row.weights[k] * x[row.unknowns[k]];
+        gap *= row.pull;
+        for (std::size_t k = 0; k < 8; ++k)
+            result[row.unknowns[k]] += gap * row.weights[k];
+    }
+}
+
+double dot(const std::vector<double>& a, const std::vector<double>& b)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+// Solves (Gᵀ W G + Λ) d = −Gᵀ W G x⁰ by preconditioned conjugate gradients.
+std::vector<double> solve(const System& system, const std::vector<double>& x0)
+{
+    const std::size_t count = x0.size();
+    std::vector<double> d(count), residual(count), scaled(count), direction(count), image(count);
+    add_seam_term(system, x0, residual);
+    for (std::size_t i = 0; i < count; ++i) {
+        residual[i] = -residual[i];
+        direction[i] = scaled[i] = residual[i] / system.diagonal[i];
+    }
+    double length = dot(residual, scaled);
+    const double enough = length * kTolerance * kTolerance;
+    for (int iteration = 0; iteration < kMaxIterations && length > enough; ++iteration) {
+        for (std::size_t i = 0; i < count; ++i)
+            image[i] = system.hold[i] * direction[i];
+        add_seam_term(system, direction, image);
+        const double step = length / dot(direction, image);
+        for (std::size_t i = 0; i < count; ++i) {
+            d[i] += step * direction[i];
+            residual[i] -= step * image[i];
+            scaled[i] = residual[i] / system.diagonal[i];
+        }
+        const double next = dot(residual, scaled);
+        for (std::size_t i = 0; i < count; ++i)
+            direction[i] = scaled[i] + next / length * direction[i];
+        length = next;
+    }
+    return d;
+}
+
+}  // namespace
+
+void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels)
+{
+    System system;
+    for (const Seam& seam : find_seams(scene, atlas))
+        add_rows(map, seam, system.rows);
+    number_unknowns(lumels, system);
+
+    parallel_for(3, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t c = first; c < last; ++c) {
+            std::vector<double> x0;
+            for (const std::uint32_t texel : system.texels)
+                x0.push_back(map.values[std::size_t(texel) * 4 + c]);
+            const std::vector<double> d = solve(system, x0);
+            for (std::size_t i = 0; i < d.size(); ++i)
+                map.values[std::size_t(system.texels[i]) * 4 + c] =
+                    float(std::max(x0[i] + d[i], 0.0));
+        }
+    });
+}
+
+}  // namespace lumel

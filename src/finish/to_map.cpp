@@ -1,0 +1,79 @@
+// From one value per lumel to one value per texel.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "finish/finish.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kLeastAlpha = 1.0f / 255.0f;
+
+double luminance(const glm::vec3& rgb)
+{
+    return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;  // Rec. 709
+}
+
+// Area-weighted mean of the open lumels on one side of a chart.
+struct SideMean {
+    double power = 0.0;
+    double area = 0.0;
+    bool present = false;
+
+    void add(const Lumel& lumel, const glm::vec3& value)
+    {
+        present = true;
+        if (lumel.flags & kLumelBuried)
+            return;
+        power += luminance(value) * lumel.area;
+        area += lumel.area;
+    }
+    double mean() const { return area > 0.0 ? power / area : 0.0; }
+};
+
+struct ChartSides {
+    SideMean front, back;
+
+    bool shows_back() const { return !front.present || back.mean() > front.mean(); }
+};
+
+bool is_back(const Lumel& lumel)
+{
+    return (lumel.flags & kLumelBack) != 0;
+}
+
+std::vector<ChartSides> chart_sides(const Lumels& lumels, std::span<const glm::vec3> values)
+{
+    std::uint32_t last_chart = 0;
+    for (const Lumel& lumel : lumels.lumels)
+        last_chart = std::max(last_chart, lumel.chart);
+    std::vector<ChartSides> sides(std::size_t(last_chart) + 1);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        ChartSides& chart = sides[lumel.chart];
+        (is_back(lumel) ? chart.back : chart.front).add(lumel, values[i]);
+    }
+    return sides;
+}
+
+}  // namespace
+
+Image to_map(const Lumels& lumels, std::span<const glm::vec3> values)
+{
+    const std::vector<ChartSides> sides = chart_sides(lumels, values);
+    Image map(lumels.width, lumels.height, 4);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        if (is_back(lumel) != sides[lumel.chart].shows_back())
+            continue;
+        float* texel = map.values.data() + std::size_t(lumel.texel) * 4;
+        for (int c = 0; c < 3; ++c)
+            texel[c] = values[i][c];
+        texel[3] = std::clamp(lumels.coverage[lumel.texel], kLeastAlpha, 1.0f);
+    }
+    return map;
+}
+
+}  // namespace lumel
