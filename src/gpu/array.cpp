@@ -1,0 +1,87 @@
+#include "gpu/array.h"
+
+#include <utility>
+
+#include "gpu/commands.h"
+
+namespace lumel::gpu {
+
+Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
+    : device_(&device), bytes_(bytes)
+{
+    if (bytes > device.max_array_bytes())
+        throw Error(ErrorKind::device, device.info().name,
+                    "an array of " + std::to_string(bytes >> 20) + " MiB is larger than the " +
+                        std::to_string(device.max_array_bytes() >> 20) +
+                        " MiB this device allows; use a smaller --size");
+    const VkBufferCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+        .size = bytes,
+        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
+                 VK_BUFFER_USAGE_INDEX_BUFFER_BIT};
+    check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
+    VkMemoryRequirements requirements;
+    vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
+    memory_ = device.allocate(requirements, place == Place::host, &mapped_);
+    allocated_ = requirements.size;
+    check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory");
+}
+
+Buffer::~Buffer()
+{
+    if (!buffer_)
+        return;
+    vkDestroyBuffer(device_->handle(), buffer_, nullptr);
+    device_->free(memory_, allocated_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept
+    : device_(other.device_), buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
+      memory_(other.memory_), bytes_(other.bytes_), allocated_(other.allocated_),
+      mapped_(other.mapped_)
+{
+}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept
+{
+    std::swap(device_, other.device_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(memory_, other.memory_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(allocated_, other.allocated_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+}
+
+void Buffer::upload(const void* data, std::uint64_t bytes)
+{
+    if (bytes == 0)
+        return;
+    if (mapped_) {
+        std::memcpy(mapped_, data, bytes);
+        return;
+    }
+    const Buffer staging(*device_, bytes, Place::host);
+    std::memcpy(staging.mapped(), data, bytes);
+    Commands commands(*device_);
+    commands.copy(staging, *this, bytes);
+    commands.run();
+}
+
+void Buffer::download(void* data, std::uint64_t bytes) const
+{
+    if (bytes == 0)
+        return;
+    if (mapped_) {
+        std::memcpy(data, mapped_, bytes);
+        return;
+    }
+    const Buffer staging(*device_, bytes, Place::host);
+    Commands commands(*device_);
+    commands.copy(*this, staging, bytes);
+    commands.run();
+    std::memcpy(data, staging.mapped(), bytes);
+}
+
+}  // namespace lumel::gpu

@@ -1,0 +1,310 @@
+#include "gpu/commands.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lumel::gpu {
+namespace {
+
+constexpr std::uint32_t kMaxTimestamps = 256;  // stages in one submission, more are not timed
+constexpr std::uint64_t kForever = ~std::uint64_t(0);
+
+VkImageMemoryBarrier2 to_general(const Target& target)
+{
+    return {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
+            .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+            .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+            .oldLayout = VK_IMAGE_LAYOUT_UNDEFINED,
+            .newLayout = VK_IMAGE_LAYOUT_GENERAL,
+            .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+            .image = target.image(),
+            .subresourceRange = {.aspectMask = aspect_of(target.pixel()),
+                                 .levelCount = target.mip_levels(),
+                                 .layerCount = 1}};
+}
+
+VkBufferImageCopy whole_level(const Target& target)
+{
+    return {.imageSubresource = {.aspectMask = aspect_of(target.pixel()), .layerCount = 1},
+            .imageExtent = {target.width(), target.height(), 1}};
+}
+
+}  // namespace
+
+Commands::Commands(const Device& device) : device_(&device)
+{
+    const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                       .queueFamilyIndex = device.queue_family()};
+    check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
+    const VkCommandBufferAllocateInfo buffer{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+        .commandPool = pool_,
+        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+        .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(device.handle(), &buffer, &buffer_),
+          "vkAllocateCommandBuffers");
+    const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(device.handle(), &fence, nullptr, &fence_), "vkCreateFence");
+    const VkQueryPoolCreateInfo queries{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = kMaxTimestamps};
+    check(vkCreateQueryPool(device.handle(), &queries, nullptr, &queries_), "vkCreateQueryPool");
+}
+
+Commands::~Commands()
+{
+    if (submitted_)  // an exception is on its way: let the device finish before memory goes
+        vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever);
+    vkDestroyQueryPool(device_->handle(), queries_, nullptr);
+    vkDestroyFence(device_->handle(), fence_, nullptr);
+    vkDestroyCommandPool(device_->handle(), pool_, nullptr);
+}
+
+void Commands::begin()
+{
+    if (recording_)
+        return;
+    wait();
+    check(vkResetCommandPool(device_->handle(), pool_, 0), "vkResetCommandPool");
+    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(buffer_, &info), "vkBeginCommandBuffer");
+    vkCmdResetQueryPool(buffer_, queries_, 0, kMaxTimestamps);
+    recording_ = true;
+    stages_.clear();
+    stage("other");
+    barrier();
+}
+
+void Commands::stage(const char* name)
+{
+    begin();
+    if (stages_.size() + 1 >= kMaxTimestamps || (!stages_.empty() && stages_.back() == name))
+        return;
+    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                         std::uint32_t(stages_.size()));
+    stages_.emplace_back(name);
+}
+
+// Everything before happens before, and is visible to, everything after. One barrier for all
+// hazards: the layers cannot see those of dynamic rendering, so none is left to judgement.
+void Commands::barrier()
+{
+    const VkMemoryBarrier2 all{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
+        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT |
+                         VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .memoryBarrierCount = 1,
+                                .pMemoryBarriers = &all};
+    vkCmdPipelineBarrier2(buffer_, &info);
+}
+
+void Commands::push(const Layout& layout, VkPipelineBindPoint point,
+                    std::span<const Binding> bindings, const void* params, std::uint32_t bytes)
+{
+    if (bindings.size() != layout.slot_count() || bytes != layout.param_bytes())
+        throw std::logic_error("a shader was given other bindings than it declares");
+    std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
+    std::vector<VkDescriptorImageInfo> images(bindings.size());
+    std::vector<VkWriteDescriptorSet> writes;
+    for (std::size_t i = 0; i < bindings.size(); ++i) {
+        const Binding& binding = bindings[i];
+        VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                   .dstBinding = std::uint32_t(i),
+                                   .descriptorCount = 1};
+        if (binding.buffer) {
+            buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
+            write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+            write.pBufferInfo = &buffers[i];
+        } else {
+            images[i] = {binding.sampler->handle(), binding.texture->view(),
+                         VK_IMAGE_LAYOUT_GENERAL};
+            write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+            write.pImageInfo = &images[i];
+        }
+        writes.push_back(write);
+    }
+    if (!writes.empty())
+        vkCmdPushDescriptorSetKHR(buffer_, point, layout.handle(), 0, std::uint32_t(writes.size()),
+                                  writes.data());
+    if (bytes > 0)
+        vkCmdPushConstants(buffer_, layout.handle(), layout.stages(), 0, bytes, params);
+}
+
+void Commands::dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings,
+                              const void* params, std::uint32_t bytes, std::size_t threads)
+{
+    begin();
+    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
+    push(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, bindings, params, bytes);
+    const std::size_t groups = (threads + kernel.group_size() - 1) / kernel.group_size();
+    vkCmdDispatch(buffer_, std::uint32_t(groups), 1, 1);
+    barrier();
+}
+
+void Commands::fill(const Buffer& buffer, std::uint32_t word)
+{
+    begin();
+    vkCmdFillBuffer(buffer_, buffer.handle(), 0, VK_WHOLE_SIZE, word);
+    barrier();
+}
+
+void Commands::copy(const Buffer& from, const Buffer& to, std::uint64_t bytes)
+{
+    begin();
+    const VkBufferCopy region{.size = bytes};
+    vkCmdCopyBuffer(buffer_, from.handle(), to.handle(), 1, &region);
+    barrier();
+}
+
+void Commands::copy(const Buffer& from, const Target& to)
+{
+    begin();
+    const VkBufferImageCopy region = whole_level(to);
+    vkCmdCopyBufferToImage(buffer_, from.handle(), to.image(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+    barrier();
+    make_levels(to);
+}
+
+void Commands::make_levels(const Target& target)
+{
+    int width = int(target.width()), height = int(target.height());
+    for (std::uint32_t level = 1; level < target.mip_levels(); ++level) {
+        const int next_width = std::max(width / 2, 1), next_height = std::max(height / 2, 1);
+        const VkImageBlit region{
+            .srcSubresource = {aspect_of(target.pixel()), level - 1, 0, 1},
+            .srcOffsets = {{0, 0, 0}, {width, height, 1}},
+            .dstSubresource = {aspect_of(target.pixel()), level, 0, 1},
+            .dstOffsets = {{0, 0, 0}, {next_width, next_height, 1}}};
+        vkCmdBlitImage(buffer_, target.image(), VK_IMAGE_LAYOUT_GENERAL, target.image(),
+                       VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);
+        barrier();
+        width = next_width;
+        height = next_height;
+    }
+}
+
+void Commands::copy(const Target& from, const Buffer& to)
+{
+    begin();
+    const VkBufferImageCopy region = whole_level(from);
+    vkCmdCopyImageToBuffer(buffer_, from.image(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+    barrier();
+}
+
+void Commands::prepare(const Target& target)
+{
+    begin();
+    const VkImageMemoryBarrier2 image = to_general(target);
+    const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
+                                .imageMemoryBarrierCount = 1,
+                                .pImageMemoryBarriers = &image};
+    vkCmdPipelineBarrier2(buffer_, &info);
+}
+
+void Commands::begin_pass(const Target* color, const Target& depth, const Area& area,
+                          std::array<float, 4> clear)
+{
+    begin();
+    VkRenderingAttachmentInfo color_attachment{
+        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+        .imageView = color ? color->view() : VK_NULL_HANDLE,
+        .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    std::copy(clear.begin(), clear.end(), color_attachment.clearValue.color.float32);
+    const VkRenderingAttachmentInfo depth_attachment{
+        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+        .imageView = depth.view(),
+        .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+        .clearValue = {.depthStencil = {0.0f, 0}}};
+    const VkRenderingInfo info{
+        .sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+        .renderArea = {{int(area.x), int(area.y)}, {area.width, area.height}},
+        .layerCount = 1,
+        .colorAttachmentCount = color ? 1u : 0u,
+        .pColorAttachments = &color_attachment,
+        .pDepthAttachment = &depth_attachment};
+    vkCmdBeginRendering(buffer_, &info);
+    viewport(area);
+}
+
+void Commands::viewport(const Area& area)
+{
+    const VkViewport viewport{float(area.x), float(area.y), float(area.width), float(area.height),
+                              0.0f, 1.0f};
+    const VkRect2D scissor{{int(area.x), int(area.y)}, {area.width, area.height}};
+    vkCmdSetViewport(buffer_, 0, 1, &viewport);
+    vkCmdSetScissor(buffer_, 0, 1, &scissor);
+}
+
+void Commands::draw_bytes(const Raster& raster, std::span<const Binding> bindings,
+                          const void* params, std::uint32_t bytes, const Triangles& triangles)
+{
+    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, raster.pipeline());
+    push(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, params, bytes);
+    std::uint32_t stream = 0;
+    for (const Buffer* buffer : triangles.streams) {
+        const VkBuffer handle = buffer->handle();
+        const VkDeviceSize offset = 0;
+        vkCmdBindVertexBuffers(buffer_, stream++, 1, &handle, &offset);
+    }
+    vkCmdBindIndexBuffer(buffer_, triangles.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdDrawIndexed(buffer_, triangles.index_count, 1, triangles.first_index, 0, 0);
+}
+
+void Commands::end_pass()
+{
+    vkCmdEndRendering(buffer_);
+    barrier();
+}
+
+void Commands::submit()
+{
+    begin();
+    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                         std::uint32_t(stages_.size()));
+    check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
+    recording_ = false;
+    const VkCommandBufferSubmitInfo buffer{
+        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = buffer_};
+    const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
+                             .commandBufferInfoCount = 1,
+                             .pCommandBufferInfos = &buffer};
+    check(vkQueueSubmit2(device_->queue(), 1, &info, fence_), "vkQueueSubmit2");
+    submitted_ = true;
+}
+
+void Commands::wait()
+{
+    if (!submitted_)
+        return;
+    check(vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever), "vkWaitForFences");
+    check(vkResetFences(device_->handle(), 1, &fence_), "vkResetFences");
+    submitted_ = false;
+    std::vector<std::uint64_t> stamps(stages_.size() + 1);
+    check(vkGetQueryPoolResults(device_->handle(), queries_, 0, std::uint32_t(stamps.size()),
+                                stamps.size() * sizeof(std::uint64_t), stamps.data(),
+                                sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT),
+          "vkGetQueryPoolResults");
+    const double to_ms = device_->timestamp_period() * 1e-6;
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+        times_[stages_[i]] += double(stamps[i + 1] - stamps[i]) * to_ms;
+    last_milliseconds_ = double(stamps.back() - stamps.front()) * to_ms;
+}
+
+void Commands::run()
+{
+    submit();
+    wait();
+}
+
+}  // namespace lumel::gpu

@@ -1,0 +1,353 @@
+#include "gpu/device.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+
+namespace lumel::gpu {
+
+void check(VkResult result, const char* call)
+{
+    if (result == VK_SUCCESS)
+        return;
+    if (result == VK_ERROR_DEVICE_LOST)
+        throw Error(ErrorKind::device, call,
+                    "the graphics device was lost; another program or a driver time limit reset "
+                    "it. Run again, with a smaller --batch if it recurs");
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        throw Error(ErrorKind::device, call,
+                    "out of graphics memory; use a smaller --size or --batch");
+    throw Error(ErrorKind::device, call, "Vulkan error " + std::to_string(int(result)));
+}
+
+namespace {
+
+constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_3;
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+std::string version_text(std::uint32_t version)
+{
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+const char* type_text(VkPhysicalDeviceType type)
+{
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
+    default: return "other";
+    }
+}
+
+/// Smaller is better.
+int preference(const std::string& type)
+{
+    const char* order[] = {"discrete", "integrated", "virtual", "cpu", "other"};
+    return int(std::find(std::begin(order), std::end(order), type) - std::begin(order));
+}
+
+bool validation_wanted()
+{
+    const char* value = std::getenv("LUMEL_VALIDATION");
+    return value != nullptr && std::strcmp(value, "0") != 0 && *value != '\0';
+}
+
+void load_vulkan()
+{
+    if (volkInitialize() != VK_SUCCESS)
+        throw Error(ErrorKind::device, "",
+                    "no Vulkan loader (libvulkan.so.1) was found; install a graphics driver with "
+                    "Vulkan, or Mesa's software Vulkan (package mesa-vulkan-drivers)");
+}
+
+VkInstance make_instance(bool validation)
+{
+    const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                        .pApplicationName = "lumel",
+                                        .apiVersion = kApiVersion};
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = validation ? 1u : 0u,
+                                    .ppEnabledLayerNames = &kValidationLayer,
+                                    .enabledExtensionCount = validation ? 1u : 0u,
+                                    .ppEnabledExtensionNames = &extension};
+    VkInstance instance = VK_NULL_HANDLE;
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+    if (result == VK_ERROR_LAYER_NOT_PRESENT)
+        throw Error(ErrorKind::device, "LUMEL_VALIDATION",
+                    "the Khronos validation layer is not installed (package "
+                    "vulkan-validationlayers)");
+    check(result, "vkCreateInstance");
+    volkLoadInstance(instance);
+    return instance;
+}
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance)
+{
+    std::uint32_t count = 0;
+    vkEnumeratePhysicalDevices(instance, &count, nullptr);
+    std::vector<VkPhysicalDevice> devices(count);
+    vkEnumeratePhysicalDevices(instance, &count, devices.data());
+    devices.resize(count);
+    return devices;
+}
+
+bool has_extension(VkPhysicalDevice physical, const char* name)
+{
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, name) == 0;
+    });
+}
+
+/// Index of a queue family with graphics and compute, or -1.
+int find_queue_family(VkPhysicalDevice physical)
+{
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & wanted) == wanted && families[i].timestampValidBits > 0)
+            return int(i);
+    return -1;
+}
+
+/// The features Lumel needs, chained for a query or for device creation.
+struct Features {
+    VkPhysicalDeviceVulkan13Features v13{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features v12{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
+    VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                   .pNext = &v12};
+};
+
+std::string missing_features(VkPhysicalDevice physical, std::uint32_t api_version)
+{
+    if (api_version < kApiVersion)
+        return "needs Vulkan 1.3, the driver has " + version_text(api_version);
+    Features have;
+    vkGetPhysicalDeviceFeatures2(physical, &have.core);
+    std::string missing;
+    const auto need = [&](VkBool32 present, const char* name) {
+        if (!present)
+            missing += (missing.empty() ? "lacks " : ", ") + std::string(name);
+    };
+    need(have.v13.dynamicRendering, "dynamicRendering");
+    need(have.v13.synchronization2, "synchronization2");
+    need(have.v13.maintenance4, "maintenance4");
+    need(have.v12.scalarBlockLayout, "scalarBlockLayout");
+    need(has_extension(physical, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME), "VK_KHR_push_descriptor");
+    need(find_queue_family(physical) >= 0, "a queue for graphics and compute with timestamps");
+    return missing;
+}
+
+DeviceInfo describe(VkPhysicalDevice physical)
+{
+    VkPhysicalDeviceDriverProperties driver{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+
+    DeviceInfo info;
+    info.name = properties.properties.deviceName;
+    info.type = type_text(properties.properties.deviceType);
+    info.api_version = version_text(properties.properties.apiVersion);
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+            info.memory_bytes = std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
+    info.reason = missing_features(physical, properties.properties.apiVersion);
+    info.usable = info.reason.empty();
+    return info;
+}
+
+std::string listing(const std::vector<DeviceInfo>& infos)
+{
+    if (infos.empty())
+        return "the Vulkan loader lists no device; install a graphics driver, or Mesa's software "
+               "Vulkan (package mesa-vulkan-drivers)";
+    std::string text;
+    for (std::size_t i = 0; i < infos.size(); ++i)
+        text += (i ? "; " : "") + std::to_string(i) + ": " + infos[i].name +
+                (infos[i].usable ? "" : " (" + infos[i].reason + ")");
+    return text;
+}
+
+/// Index into infos of the device the user means.
+std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick)
+{
+    if (pick.empty()) {
+        std::size_t best = infos.size();
+        for (std::size_t i = 0; i < infos.size(); ++i)
+            if (infos[i].usable &&
+                (best == infos.size() || preference(infos[i].type) < preference(infos[best].type)))
+                best = i;
+        if (best == infos.size())
+            throw Error(ErrorKind::device, "", "no usable Vulkan device: " + listing(infos));
+        return best;
+    }
+    std::size_t index = infos.size();
+    const auto [end, error] = std::from_chars(pick.data(), pick.data() + pick.size(), index);
+    if (error != std::errc{} || end != pick.data() + pick.size()) {
+        index = infos.size();
+        for (std::size_t i = infos.size(); i-- > 0;)
+            if (infos[i].name.find(pick) != std::string::npos)
+                index = i;
+    }
+    if (index >= infos.size())
+        throw Error(ErrorKind::device, "--device " + pick, "no such device; there are " + listing(infos));
+    if (!infos[index].usable)
+        throw Error(ErrorKind::device, infos[index].name, infos[index].reason);
+    return index;
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices()
+{
+    load_vulkan();
+    VkInstance instance = make_instance(false);
+    std::vector<DeviceInfo> infos;
+    for (VkPhysicalDevice physical : physical_devices(instance))
+        infos.push_back(describe(physical));
+    vkDestroyInstance(instance, nullptr);
+    return infos;
+}
+
+struct Device::Validation {
+    mutable std::mutex mutex;
+    std::string messages;
+
+    static VKAPI_ATTR VkBool32 VKAPI_CALL
+    receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+            const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
+    {
+        auto* self = static_cast<Validation*>(user);
+        const std::lock_guard lock(self->mutex);
+        self->messages += std::string(data->pMessage) + "\n";
+        return VK_FALSE;
+    }
+};
+
+Device::Device(const std::string& pick) : validation_(std::make_unique<Validation>())
+{
+    load_vulkan();
+    const bool validation = validation_wanted();
+    instance_ = make_instance(validation);
+    if (validation) {
+        const VkDebugUtilsMessengerCreateInfoEXT info{
+            .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+            .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT |
+                               VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT,
+            .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                           VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+            .pfnUserCallback = &Validation::receive,
+            .pUserData = validation_.get()};
+        check(vkCreateDebugUtilsMessengerEXT(instance_, &info, nullptr, &messenger_),
+              "vkCreateDebugUtilsMessengerEXT");
+    }
+
+    const std::vector<VkPhysicalDevice> devices = physical_devices(instance_);
+    std::vector<DeviceInfo> infos;
+    for (VkPhysicalDevice physical : devices)
+        infos.push_back(describe(physical));
+    const std::size_t chosen = choose(infos, pick);
+    physical_ = devices[chosen];
+    info_ = infos[chosen];
+    queue_family_ = std::uint32_t(find_queue_family(physical_));
+
+    Features features;
+    features.v13.dynamicRendering = VK_TRUE;
+    features.v13.synchronization2 = VK_TRUE;
+    features.v13.maintenance4 = VK_TRUE;
+    features.v12.scalarBlockLayout = VK_TRUE;
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .queueFamilyIndex = queue_family_,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features.core,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = 1,
+                                  .ppEnabledExtensionNames = &extension};
+    check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
+    volkLoadDevice(device_);
+    vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    max_array_bytes_ = properties.limits.maxStorageBufferRange;
+    max_image_side_ = properties.limits.maxImageDimension2D;
+    timestamp_period_ = double(properties.limits.timestampPeriod);
+}
+
+Device::~Device()
+{
+    if (device_)
+        vkDestroyDevice(device_, nullptr);
+    if (messenger_)
+        vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
+    if (instance_)
+        vkDestroyInstance(instance_, nullptr);
+}
+
+std::string Device::validation_messages() const
+{
+    const std::lock_guard lock(validation_->mutex);
+    return validation_->messages;
+}
+
+VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool host_visible,
+                                void** mapped) const
+{
+    constexpr VkMemoryPropertyFlags host =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    // Cached host memory first, for read-backs; then any that serves.
+    const VkMemoryPropertyFlags wishes[2] = {
+        host_visible ? host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
+        host_visible ? host : 0u};
+    for (const VkMemoryPropertyFlags wish : wishes)
+        for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
+            if (!(requirements.memoryTypeBits >> type & 1u) ||
+                (memory_.memoryTypes[type].propertyFlags & wish) != wish)
+                continue;
+            const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                            .allocationSize = requirements.size,
+                                            .memoryTypeIndex = type};
+            VkDeviceMemory memory = VK_NULL_HANDLE;
+            check(vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
+            if (host_visible)
+                check(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, mapped), "vkMapMemory");
+            allocated_bytes_ += requirements.size;
+            return memory;
+        }
+    throw Error(ErrorKind::device, info_.name, "has no memory of the kind needed");
+}
+
+void Device::free(VkDeviceMemory memory, std::uint64_t bytes) const
+{
+    vkFreeMemory(device_, memory, nullptr);
+    allocated_bytes_ -= bytes;
+}
+
+}  // namespace lumel::gpu

@@ -1,0 +1,77 @@
+#pragma once
+// Choosing a Vulkan device and holding it.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/vulkan.h"
+
+namespace lumel::gpu {
+
+/// One device as the loader lists it.
+struct DeviceInfo {
+    std::string name;
+    std::string type;                ///< "discrete", "integrated", "virtual", "cpu" or "other"
+    std::string api_version;         ///< "1.3.230"
+    std::string driver;              ///< name and version
+    std::uint64_t memory_bytes = 0;  ///< of its largest device-local heap
+    bool usable = false;
+    std::string reason;  ///< why not usable, empty if it is
+};
+
+/// All devices, in the loader's order. Throws Error{device} if there is no Vulkan loader.
+std::vector<DeviceInfo> list_devices();
+
+/// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
+/// made from it holds a reference and must not outlive it.
+class Device {
+public:
+    /// `pick`: an index or a part of a name as list_devices() gives them; empty: the best, which
+    /// is discrete before integrated before virtual before cpu.
+    /// Environment: LUMEL_VALIDATION=1 turns the Khronos validation layer on.
+    /// Throws Error{device} listing what was found and why it will not do.
+    explicit Device(const std::string& pick = "");
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceInfo& info() const { return info_; }
+
+    /// What the validation layers said so far, one message a line; empty: silent.
+    std::string validation_messages() const;
+
+    std::uint64_t max_array_bytes() const { return max_array_bytes_; }
+    std::uint32_t max_image_side() const { return max_image_side_; }
+    double timestamp_period() const { return timestamp_period_; }  ///< [ns]
+    std::uint64_t allocated_bytes() const { return allocated_bytes_; }  ///< held now
+
+    VkDevice handle() const { return device_; }
+    VkPhysicalDevice physical() const { return physical_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+
+    /// Device memory that fits `requirements`; host_visible memory is mapped to *mapped.
+    VkDeviceMemory allocate(const VkMemoryRequirements& requirements, bool host_visible,
+                            void** mapped) const;
+    void free(VkDeviceMemory memory, std::uint64_t bytes) const;
+
+private:
+    struct Validation;
+    std::unique_ptr<Validation> validation_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    std::uint32_t queue_family_ = 0;
+    DeviceInfo info_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::uint64_t max_array_bytes_ = 0;
+    std::uint32_t max_image_side_ = 0;
+    double timestamp_period_ = 1.0;
+    mutable std::uint64_t allocated_bytes_ = 0;
+};
+
+}  // namespace lumel::gpu

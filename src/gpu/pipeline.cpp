@@ -1,0 +1,222 @@
+#include "gpu/pipeline.h"
+
+#include <utility>
+#include <vector>
+
+namespace lumel::gpu {
+namespace {
+
+VkShaderModule make_module(const Device& device, Spirv spirv)
+{
+    const VkShaderModuleCreateInfo info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                        .codeSize = spirv.size_bytes(),
+                                        .pCode = spirv.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
+    return module;
+}
+
+void set_name(const Device& device, VkPipeline pipeline, const char* name)
+{
+    if (vkSetDebugUtilsObjectNameEXT == nullptr)
+        return;
+    const VkDebugUtilsObjectNameInfoEXT info{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+        .objectType = VK_OBJECT_TYPE_PIPELINE,
+        .objectHandle = reinterpret_cast<std::uint64_t>(pipeline),
+        .pObjectName = name};
+    vkSetDebugUtilsObjectNameEXT(device.handle(), &info);
+}
+
+VkFormat stream_format(std::uint32_t components)
+{
+    constexpr VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
+                                    VK_FORMAT_R32G32B32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    return formats[components - 1];
+}
+
+}  // namespace
+
+Layout::Layout(const Device& device, std::span<const Slot> slots, std::uint32_t param_bytes,
+               VkShaderStageFlags stages)
+    : device_(&device), stages_(stages), param_bytes_(param_bytes), slot_count_(slots.size())
+{
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (std::size_t i = 0; i < slots.size(); ++i)
+        bindings.push_back({.binding = std::uint32_t(i),
+                            .descriptorType = slots[i] == Slot::array
+                                                  ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                  : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                            .descriptorCount = 1,
+                            .stageFlags = stages});
+    const VkDescriptorSetLayoutCreateInfo set{
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+        .bindingCount = std::uint32_t(bindings.size()),
+        .pBindings = bindings.data()};
+    check(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_),
+          "vkCreateDescriptorSetLayout");
+    const VkPushConstantRange params{.stageFlags = stages, .size = param_bytes};
+    const VkPipelineLayoutCreateInfo layout{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+        .setLayoutCount = 1,
+        .pSetLayouts = &set_,
+        .pushConstantRangeCount = param_bytes > 0 ? 1u : 0u,
+        .pPushConstantRanges = &params};
+    check(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_),
+          "vkCreatePipelineLayout");
+}
+
+Layout::~Layout()
+{
+    if (!layout_)
+        return;
+    vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_->handle(), set_, nullptr);
+}
+
+Layout::Layout(Layout&& other) noexcept
+    : device_(other.device_), set_(other.set_),
+      layout_(std::exchange(other.layout_, VK_NULL_HANDLE)), stages_(other.stages_),
+      param_bytes_(other.param_bytes_), slot_count_(other.slot_count_)
+{
+}
+
+Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
+               std::uint32_t param_bytes, std::uint32_t group_size)
+    : layout_(device, slots, param_bytes, VK_SHADER_STAGE_COMPUTE_BIT), group_size_(group_size)
+{
+    const VkShaderModule module = make_module(device, spirv);
+    const VkComputePipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = layout_.handle()};
+    const VkResult result =
+        vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+    vkDestroyShaderModule(device.handle(), module, nullptr);
+    check(result, "vkCreateComputePipelines");
+    set_name(device, pipeline_, name);
+}
+
+Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::size_t array_count,
+               std::uint32_t param_bytes, std::uint32_t group_size)
+    : Kernel(device, name, spirv, std::vector<Slot>(array_count, Slot::array), param_bytes,
+             group_size)
+{
+}
+
+Kernel::~Kernel()
+{
+    if (pipeline_)
+        vkDestroyPipeline(layout_.device().handle(), pipeline_, nullptr);
+}
+
+Kernel::Kernel(Kernel&& other) noexcept
+    : layout_(std::move(other.layout_)), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)),
+      group_size_(other.group_size_)
+{
+}
+
+Raster::Raster(const Device& device, const char* name, const RasterState& state)
+    : layout_(device, state.slots, state.param_bytes,
+              VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
+{
+    const VkShaderModule vertex = make_module(device, state.vertex);
+    const VkShaderModule fragment =
+        state.fragment.empty() ? VK_NULL_HANDLE : make_module(device, state.fragment);
+    const VkPipelineShaderStageCreateInfo stages[] = {
+        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+         .stage = VK_SHADER_STAGE_VERTEX_BIT,
+         .module = vertex,
+         .pName = "main"},
+        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+         .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
+         .module = fragment,
+         .pName = "main"}};
+
+    std::vector<VkVertexInputBindingDescription> bindings;
+    std::vector<VkVertexInputAttributeDescription> attributes;
+    for (std::uint32_t i = 0; i < state.streams.size(); ++i) {
+        bindings.push_back({.binding = i, .stride = state.streams[i].components * 4});
+        attributes.push_back(
+            {.location = i, .binding = i, .format = stream_format(state.streams[i].components)});
+    }
+    const VkPipelineVertexInputStateCreateInfo vertices{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
+        .vertexBindingDescriptionCount = std::uint32_t(bindings.size()),
+        .pVertexBindingDescriptions = bindings.data(),
+        .vertexAttributeDescriptionCount = std::uint32_t(attributes.size()),
+        .pVertexAttributeDescriptions = attributes.data()};
+    const VkPipelineInputAssemblyStateCreateInfo assembly{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
+        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineViewportStateCreateInfo viewport{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
+        .viewportCount = 1,
+        .scissorCount = 1};
+    const VkPipelineRasterizationStateCreateInfo rasterization{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO,
+        .cullMode = VK_CULL_MODE_NONE,
+        .lineWidth = 1.0f};
+    const VkPipelineMultisampleStateCreateInfo multisample{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
+        .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
+    const VkPipelineDepthStencilStateCreateInfo depth{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
+        .depthTestEnable = VK_TRUE,
+        .depthWriteEnable = VK_TRUE,
+        .depthCompareOp = VK_COMPARE_OP_GREATER};
+    const VkPipelineColorBlendAttachmentState blend_attachment{.colorWriteMask = 0xf};
+    const VkPipelineColorBlendStateCreateInfo blend{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
+        .attachmentCount = state.color ? 1u : 0u,
+        .pAttachments = &blend_attachment};
+    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    const VkPipelineDynamicStateCreateInfo dynamic{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
+        .dynamicStateCount = 2,
+        .pDynamicStates = dynamic_states};
+    const VkFormat color_format = format_of(state.color_pixel);
+    const VkPipelineRenderingCreateInfo rendering{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
+        .colorAttachmentCount = state.color ? 1u : 0u,
+        .pColorAttachmentFormats = &color_format,
+        .depthAttachmentFormat = format_of(Pixel::depth)};
+    const VkGraphicsPipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .pNext = &rendering,
+        .stageCount = fragment ? 2u : 1u,
+        .pStages = stages,
+        .pVertexInputState = &vertices,
+        .pInputAssemblyState = &assembly,
+        .pViewportState = &viewport,
+        .pRasterizationState = &rasterization,
+        .pMultisampleState = &multisample,
+        .pDepthStencilState = &depth,
+        .pColorBlendState = &blend,
+        .pDynamicState = &dynamic,
+        .layout = layout_.handle()};
+    const VkResult result =
+        vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+    vkDestroyShaderModule(device.handle(), vertex, nullptr);
+    if (fragment)
+        vkDestroyShaderModule(device.handle(), fragment, nullptr);
+    check(result, "vkCreateGraphicsPipelines");
+    set_name(device, pipeline_, name);
+}
+
+Raster::~Raster()
+{
+    if (pipeline_)
+        vkDestroyPipeline(layout_.device().handle(), pipeline_, nullptr);
+}
+
+Raster::Raster(Raster&& other) noexcept
+    : layout_(std::move(other.layout_)), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE))
+{
+}
+
+}  // namespace lumel::gpu

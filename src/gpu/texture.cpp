@@ -1,0 +1,136 @@
+#include "gpu/texture.h"
+
+#include <utility>
+
+#include "gpu/array.h"
+#include "gpu/commands.h"
+
+namespace lumel::gpu {
+
+std::uint32_t pixel_bytes(Pixel pixel) { return pixel == Pixel::rgba32 ? 16u : 4u; }
+
+VkFormat format_of(Pixel pixel)
+{
+    switch (pixel) {
+    case Pixel::depth: return VK_FORMAT_D32_SFLOAT;
+    case Pixel::rgba8: return VK_FORMAT_R8G8B8A8_UNORM;
+    case Pixel::srgba8: return VK_FORMAT_R8G8B8A8_SRGB;
+    case Pixel::rgba32: return VK_FORMAT_R32G32B32A32_SFLOAT;
+    }
+    return VK_FORMAT_UNDEFINED;
+}
+
+VkImageAspectFlags aspect_of(Pixel pixel)
+{
+    return pixel == Pixel::depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
+
+Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
+               std::uint32_t mip_levels)
+    : device_(&device), pixel_(pixel), width_(width), height_(height), mip_levels_(mip_levels)
+{
+    if (width > device.max_image_side() || height > device.max_image_side())
+        throw Error(ErrorKind::device, device.info().name,
+                    "an image of " + std::to_string(width) + " × " + std::to_string(height) +
+                        " is larger than this device allows (" +
+                        std::to_string(device.max_image_side()) + ")");
+    const VkImageUsageFlags drawn = pixel == Pixel::depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                          : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    const VkImageCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+        .imageType = VK_IMAGE_TYPE_2D,
+        .format = format_of(pixel),
+        .extent = {width, height, 1},
+        .mipLevels = mip_levels,
+        .arrayLayers = 1,
+        .samples = VK_SAMPLE_COUNT_1_BIT,
+        .tiling = VK_IMAGE_TILING_OPTIMAL,
+        .usage = drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
+    VkMemoryRequirements requirements;
+    vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
+    memory_ = device.allocate(requirements, false, nullptr);
+    allocated_ = requirements.size;
+    check(vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
+    const VkImageViewCreateInfo view{
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+        .image = image_,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = format_of(pixel),
+        .subresourceRange = {.aspectMask = aspect_of(pixel), .levelCount = mip_levels, .layerCount = 1}};
+    check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "vkCreateImageView");
+    Commands commands(device);
+    commands.prepare(*this);
+    commands.run();
+}
+
+Target::~Target()
+{
+    if (!image_)
+        return;
+    vkDestroyImageView(device_->handle(), view_, nullptr);
+    vkDestroyImage(device_->handle(), image_, nullptr);
+    device_->free(memory_, allocated_);
+}
+
+Target::Target(Target&& other) noexcept
+    : device_(other.device_), pixel_(other.pixel_), width_(other.width_), height_(other.height_),
+      mip_levels_(other.mip_levels_), image_(std::exchange(other.image_, VK_NULL_HANDLE)),
+      view_(other.view_), memory_(other.memory_), allocated_(other.allocated_)
+{
+}
+
+void Target::upload(const void* pixels)
+{
+    const std::uint64_t bytes = std::uint64_t(width_) * height_ * pixel_bytes(pixel_);
+    const Buffer staging(*device_, bytes, Buffer::Place::host);
+    std::memcpy(staging.mapped(), pixels, bytes);
+    Commands commands(*device_);
+    commands.copy(staging, *this);
+    commands.run();
+}
+
+void Target::download(void* pixels) const
+{
+    const std::uint64_t bytes = std::uint64_t(width_) * height_ * pixel_bytes(pixel_);
+    const Buffer staging(*device_, bytes, Buffer::Place::host);
+    Commands commands(*device_);
+    commands.copy(*this, staging);
+    commands.run();
+    std::memcpy(pixels, staging.mapped(), bytes);
+}
+
+Sampler::Sampler(const Device& device, Filter filter, Address u, Address v) : device_(&device)
+{
+    const auto mode = [](Address address) {
+        return address == Address::repeat     ? VK_SAMPLER_ADDRESS_MODE_REPEAT
+               : address == Address::mirrored ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
+                                              : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    };
+    const bool linear = filter == Filter::linear;
+    const VkSamplerCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+        .magFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+        .minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+        .mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+        .addressModeU = mode(u),
+        .addressModeV = mode(v),
+        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+        .maxLod = VK_LOD_CLAMP_NONE};
+    check(vkCreateSampler(device.handle(), &info, nullptr, &sampler_), "vkCreateSampler");
+}
+
+Sampler::~Sampler()
+{
+    if (sampler_)
+        vkDestroySampler(device_->handle(), sampler_, nullptr);
+}
+
+Sampler::Sampler(Sampler&& other) noexcept
+    : device_(other.device_), sampler_(std::exchange(other.sampler_, VK_NULL_HANDLE))
+{
+}
+
+}  // namespace lumel::gpu

@@ -1,0 +1,69 @@
+#pragma once
+// Images on the GPU: targets that are drawn into and textures that are read.
+
+#include "gpu/device.h"
+
+namespace lumel::gpu {
+
+enum class Pixel {
+    depth,   ///< D32_SFLOAT
+    rgba8,   ///< 8-bit linear, four channels
+    srgba8,  ///< 8-bit, colour channels sRGB-coded
+    rgba32,  ///< float, four channels
+};
+
+/// Bytes of one pixel.
+std::uint32_t pixel_bytes(Pixel pixel);
+
+/// A 2D image with its view, kept in the general layout from creation on.
+class Target {
+public:
+    Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
+           std::uint32_t mip_levels = 1);
+    ~Target();
+    Target(Target&& other) noexcept;
+    Target& operator=(Target&&) = delete;
+
+    VkImage image() const { return image_; }
+    VkImageView view() const { return view_; }
+    Pixel pixel() const { return pixel_; }
+    std::uint32_t width() const { return width_; }
+    std::uint32_t height() const { return height_; }
+    std::uint32_t mip_levels() const { return mip_levels_; }
+
+    /// Blocking: fills level 0 from tightly packed rows, then the smaller levels by averaging.
+    void upload(const void* pixels);
+    /// Blocking: level 0, tightly packed rows.
+    void download(void* pixels) const;
+
+private:
+    const Device* device_;
+    Pixel pixel_;
+    std::uint32_t width_, height_, mip_levels_;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    std::uint64_t allocated_ = 0;
+};
+
+enum class Filter { nearest, linear };
+enum class Address { repeat, mirrored, clamp };
+
+/// How a texture is read.
+class Sampler {
+public:
+    Sampler(const Device& device, Filter filter, Address u, Address v);
+    ~Sampler();
+    Sampler(Sampler&& other) noexcept;
+    Sampler& operator=(Sampler&&) = delete;
+    VkSampler handle() const { return sampler_; }
+
+private:
+    const Device* device_;
+    VkSampler sampler_ = VK_NULL_HANDLE;
+};
+
+VkFormat format_of(Pixel pixel);
+VkImageAspectFlags aspect_of(Pixel pixel);
+
+}  // namespace lumel::gpu

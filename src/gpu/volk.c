@@ -1,0 +1,2 @@
+/* Debian ships volk as source: this compiles it once. */
+#include <volk.c>
