@@ -1,0 +1,133 @@
+#include "visibility/hemicube.h"
+
+#include <algorithm>
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kVertexSpirv[] = {
+#include "visibility/hemicube.vert.inc"
+};
+constexpr std::uint32_t kCutOutVertexSpirv[] = {
+#include "visibility/hemicube.cut_out.vert.inc"
+};
+constexpr std::uint32_t kCutOutFragmentSpirv[] = {
+#include "visibility/hemicube.cut_out.frag.inc"
+};
+
+/// Near plane as a part of the scene's diagonal: closer surfaces are lumels' own neighbours,
+/// whose exchange the near field holds.
+constexpr float kNearPlane = 1e-5f;
+
+constexpr gpu::VertexStream kStreams[] = {{3}, {3}};
+constexpr gpu::Slot kOpaqueSlots[] = {gpu::Slot::array};
+constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
+
+HemicubeLayout make_layout(const gpu::Device& device, const World& world, std::uint32_t side,
+                           std::uint32_t capacity)
+{
+    const std::uint32_t fit = device.max_image_side() / (2 * side);
+    if (side < 2 || side % 2 != 0 || fit == 0)
+        throw Error(ErrorKind::input, "--hemicube " + std::to_string(side),
+                    "must be an even number of pixels that fits the device's images");
+    // About square, so that the image stays small in both directions.
+    std::uint32_t columns = 1;
+    while (columns * columns < capacity)
+        ++columns;
+    return {side, std::min(columns, fit), std::max(world.diagonal() * kNearPlane, 1e-30f)};
+}
+
+std::uint32_t fitting(const gpu::Device& device, const HemicubeLayout& layout,
+                      std::uint32_t capacity)
+{
+    const std::uint32_t rows = device.max_image_side() / (3 * layout.side / 2);
+    return std::min(capacity, layout.columns * rows);
+}
+
+}  // namespace
+
+Hemicubes::Hemicubes(const gpu::Device& device, const World& world, std::uint32_t side,
+                     std::uint32_t capacity)
+    : world_(&world), layout_(make_layout(device, world, side, capacity)),
+      image_(device, gpu::Pixel::depth, layout_.columns * 2 * side,
+             (fitting(device, layout_, capacity) + layout_.columns - 1) / layout_.columns *
+                 (3 * side / 2)),
+      sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
+      opaque_(device, "hemicube",
+              {.vertex = kVertexSpirv,
+               .slots = kOpaqueSlots,
+               .param_bytes = sizeof(HemicubeParams),
+               .streams = std::span(kStreams, 1)}),
+      cut_out_(device, "hemicube.cut_out",
+               {.vertex = kCutOutVertexSpirv,
+                .fragment = kCutOutFragmentSpirv,
+                .slots = kCutOutSlots,
+                .param_bytes = sizeof(HemicubeParams),
+                .streams = kStreams})
+{
+    capacity_ = fitting(device, layout_, capacity);
+}
+
+gpu::Area Hemicubes::tile_area(std::uint32_t eye) const
+{
+    const std::uint32_t side = layout_.side;
+    return {eye % layout_.columns * 2 * side, eye / layout_.columns * (3 * side / 2), 2 * side,
+            3 * side / 2};
+}
+
+gpu::Area Hemicubes::face_area(std::uint32_t eye, std::uint32_t face) const
+{
+    const gpu::Area tile = tile_area(eye);
+    const std::uint32_t side = layout_.side, half = side / 2;
+    switch (face) {
+    case 0: return {tile.x, tile.y, side, side};
+    case 1: return {tile.x + side, tile.y, side, half};
+    case 2: return {tile.x + side, tile.y + half, side, half};
+    case 3: return {tile.x, tile.y + side, side, half};
+    default: return {tile.x + side, tile.y + side, side, half};
+    }
+}
+
+void Hemicubes::draw_face(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t eye,
+                          std::uint32_t face)
+{
+    commands.viewport(face_area(eye, face));
+    HemicubeParams params{eye, face, layout_.near, 0.0f};
+    const gpu::Buffer& vertices = world_->vertices().buffer();
+    const gpu::Buffer& indices = world_->indices().buffer();
+    if (world_->opaque_index_count() > 0)
+        commands.draw(opaque_, {eyes}, params,
+                      {{&vertices}, &indices, 0, world_->opaque_index_count()});
+    for (const CutOutDraw& draw : world_->cut_outs()) {
+        params.cutoff = draw.cutoff;
+        commands.draw(cut_out_, {eyes, {*draw.alpha, *draw.sampler}}, params,
+                      {{&vertices, &world_->looks().buffer()},
+                       &indices,
+                       draw.range.first_index,
+                       draw.range.index_count});
+    }
+}
+
+void Hemicubes::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)
+{
+    const std::uint32_t rows = (count + layout_.columns - 1) / layout_.columns;
+    commands.begin_pass(nullptr, image_,
+                        {0, 0, image_.width(), rows * (3 * layout_.side / 2)});
+    for (std::uint32_t eye = 0; eye < count; ++eye)
+        for (std::uint32_t face = 0; face < kHemicubeFaces; ++face)
+            draw_face(commands, eyes, eye, face);
+    commands.end_pass();
+}
+
+void Hemicubes::look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
+                                std::uint32_t first, std::uint32_t last)
+{
+    for (std::uint32_t i = first; i < last; ++i) {
+        const std::uint32_t eye = i / kHemicubeFaces, face = i % kHemicubeFaces;
+        commands.begin_pass(nullptr, image_, face_area(eye, face));
+        draw_face(commands, eyes, eye, face);
+        commands.end_pass();
+    }
+}
+
+}  // namespace lumel

@@ -1,0 +1,20 @@
+// The five faces of a hemicube [CG85] and the question whether an eye sees a point.
+
+// Frame of a face: `axis` looks at its centre, `right` and `up` span it. On side faces `up` is
+// the normal and only the half above the horizon exists.
+struct Face {
+    vec3 right;
+    vec3 up;
+    vec3 axis;
+};
+
+Face hemicube_face(Eye eye, uint face)
+{
+    switch (face) {
+    case 0u: return Face(eye.tangent, eye.bitangent, eye.normal);
+    case 1u: return Face(eye.bitangent, eye.normal, eye.tangent);
+    case 2u: return Face(eye.bitangent, eye.normal, -eye.tangent);
+    case 3u: return Face(eye.tangent, eye.normal, eye.bitangent);
+    default: return Face(eye.tangent, eye.normal, -eye.bitangent);
+    }
+}

@@ -1,0 +1,143 @@
+#include "world/occluders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+
+namespace lumel {
+namespace {
+
+/// A point counts as on a plane within this part of the scene's diagonal: float positions of a
+/// few ten-thousand units keep about this much.
+constexpr float kPlaneTolerance = 2e-6f;
+
+struct WorldTriangle {
+    glm::vec3 a, b, c;
+};
+
+glm::vec3 to_world(const glm::mat4& transform, const glm::vec3& p)
+{
+    return glm::vec3(transform * glm::vec4(p, 1.0f));
+}
+
+/// Positions of the scene that are extreme in some direction of a fixed set: if one of them lies
+/// behind a plane, that plane is settled without looking at all the others.
+std::vector<glm::vec3> extremes(const std::vector<glm::vec3>& points)
+{
+    constexpr int kDirections = 128;
+    constexpr float kGoldenAngle = 2.39996323f;
+    std::vector<glm::vec3> result;
+    for (int i = 0; i < kDirections; ++i) {
+        const float z = 1.0f - 2.0f * (float(i) + 0.5f) / float(kDirections);
+        const float r = std::sqrt(1.0f - z * z), phi = kGoldenAngle * float(i);
+        const glm::vec3 direction(r * std::cos(phi), r * std::sin(phi), z);
+        result.push_back(*std::max_element(points.begin(), points.end(), [&](auto& p, auto& q) {
+            return glm::dot(p, direction) < glm::dot(q, direction);
+        }));
+    }
+    return result;
+}
+
+/// True if all points lie on one side of the triangle's plane.
+bool on_hull(const WorldTriangle& t, const std::vector<glm::vec3>& some,
+             const std::vector<glm::vec3>& all, float tolerance)
+{
+    const glm::vec3 cross = glm::cross(t.b - t.a, t.c - t.a);
+    const float length = glm::length(cross);
+    if (!(length > 0.0f))
+        return true;
+    const glm::vec3 normal = cross / length;
+    bool above = false, below = false;
+    const auto look = [&](const std::vector<glm::vec3>& points) {
+        for (const glm::vec3& p : points) {
+            const float height = glm::dot(p - t.a, normal);
+            above |= height > tolerance;
+            below |= height < -tolerance;
+            if (above && below)
+                return false;
+        }
+        return true;
+    };
+    return look(some) && look(all);
+}
+
+bool is_cut_out(const Material& material)
+{
+    return material.alpha_mode != AlphaMode::opaque &&
+           (material.base_color_texture.texture >= 0 || material.base_color.a < 1.0f);
+}
+
+/// Everything about one primitive of one instance, appended to the vertex arrays.
+std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::uint32_t instance,
+                              const Material& material)
+{
+    const auto base = std::uint32_t(out.positions.size());
+    const TextureUse& use = material.base_color_texture;
+    const auto& uv = primitive.texcoords[use.texcoord == 1 ? 1 : 0];
+    for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+        out.positions.push_back(primitive.positions[v]);
+        out.instances.push_back(instance);
+        const glm::vec3 at = uv.empty() ? glm::vec3(0.0f) : use.transform * glm::vec3(uv[v], 1.0f);
+        const float alpha = primitive.colors.empty() ? 1.0f : primitive.colors[v].a;
+        out.look.emplace_back(at.x, at.y, alpha * material.base_color.a);
+    }
+    return base;
+}
+
+}  // namespace
+
+Occluders find_occluders(const Scene& scene, bool leave_out_hull)
+{
+    std::vector<glm::vec3> points;
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
+            for (const std::uint32_t index : primitive.indices)
+                points.push_back(to_world(instance.transform, primitive.positions[index]));
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& p : points) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    const float tolerance = points.empty() ? 0.0f : kPlaneTolerance * glm::length(high - low);
+    const std::vector<glm::vec3> some = points.empty() ? points : extremes(points);
+
+    // Is each triangle, in scene order, on the hull?
+    std::vector<char> outer(points.size() / 3, 0);
+    if (leave_out_hull)
+        parallel_for(outer.size(), 256, [&](std::size_t first, std::size_t last) {
+            for (std::size_t t = first; t < last; ++t)
+                outer[t] = on_hull({points[3 * t], points[3 * t + 1], points[3 * t + 2]}, some,
+                                   points, tolerance);
+        });
+
+    Occluders out;
+    std::vector<std::vector<std::uint32_t>> per_material(scene.materials.size());
+    std::size_t triangle = 0;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
+            const Material& material = scene.materials[primitive.material];
+            const std::uint32_t base = append_vertices(out, primitive, i, material);
+            auto& indices = is_cut_out(material) ? per_material[primitive.material] : out.indices;
+            for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
+                if (outer[triangle]) {
+                    ++out.left_out;
+                    continue;
+                }
+                for (std::size_t c = 0; c < 3; ++c)
+                    indices.push_back(base + primitive.indices[k + c]);
+            }
+        }
+    out.opaque_index_count = std::uint32_t(out.indices.size());
+    for (std::size_t m = 0; m < per_material.size(); ++m) {
+        if (per_material[m].empty())
+            continue;
+        out.cut_outs.push_back({int(m), std::uint32_t(out.indices.size()),
+                                std::uint32_t(per_material[m].size())});
+        out.indices.insert(out.indices.end(), per_material[m].begin(), per_material[m].end());
+    }
+    return out;
+}
+
+}  // namespace lumel

@@ -1,0 +1,122 @@
+#include "world/world.h"
+
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kPlaceLumelsSpirv[] = {
+#include "world/world.place_lumels.comp.inc"
+};
+constexpr std::uint32_t kPlaceVerticesSpirv[] = {
+#include "world/world.place_vertices.comp.inc"
+};
+
+gpu::Address address_of(Wrap wrap)
+{
+    return wrap == Wrap::repeat     ? gpu::Address::repeat
+           : wrap == Wrap::mirrored ? gpu::Address::mirrored
+                                    : gpu::Address::clamp;
+}
+
+/// The material's base colour texture, or one white texel.
+gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const TextureUse& use)
+{
+    if (use.texture < 0) {
+        gpu::Target white(device, gpu::Pixel::rgba8, 1, 1);
+        const std::uint32_t texel = 0xffffffffu;
+        white.upload(&texel);
+        return white;
+    }
+    const Texture& texture = scene.textures[use.texture];
+    gpu::Target target(device, gpu::Pixel::rgba8, std::uint32_t(texture.width),
+                       std::uint32_t(texture.height));
+    target.upload(texture.rgba.data());
+    return target;
+}
+
+CutOutDraw make_draw(const gpu::Device& device, const Scene& scene, const CutOut& range)
+{
+    const Material& material = scene.materials[range.material];
+    const TextureUse& use = material.base_color_texture;
+    CutOutDraw draw;
+    draw.range = range;
+    draw.alpha = std::make_unique<gpu::Target>(upload_texture(device, scene, use));
+    draw.sampler = std::make_unique<gpu::Sampler>(device, gpu::Filter::linear,
+                                                  address_of(use.wrap_s), address_of(use.wrap_t));
+    draw.cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
+    return draw;
+}
+
+std::vector<Placement> placements_of(const Scene& scene)
+{
+    std::vector<Placement> placements;
+    for (const Instance& instance : scene.instances)
+        placements.push_back({instance.transform, instance.transform});
+    return placements;
+}
+
+float diagonal_of(const Scene& scene)
+{
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
+            for (const glm::vec3& p : primitive.positions) {
+                const glm::vec3 world(instance.transform * glm::vec4(p, 1.0f));
+                low = glm::min(low, world);
+                high = glm::max(high, world);
+            }
+    return low.x > high.x ? 0.0f : glm::length(high - low);
+}
+
+}  // namespace
+
+World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels)
+    : World(device, scene, lumels, find_occluders(scene))
+{
+}
+
+World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
+             const Occluders& occluders)
+    : device_(&device), placements_(placements_of(scene)),
+      placement_array_(device, std::span<const Placement>(placements_)),
+      local_lumels_(device, std::span<const Lumel>(lumels.lumels)),
+      lumels_(device, lumels.lumels.size()),
+      local_pieces_(device, std::span<const Piece>(lumels.pieces)),
+      pieces_(device, lumels.pieces.size()),
+      local_vertices_(device, std::span<const glm::vec3>(occluders.positions)),
+      vertices_(device, occluders.positions.size()),
+      vertex_instances_(device, std::span<const std::uint32_t>(occluders.instances)),
+      looks_(device, std::span<const glm::vec3>(occluders.look)),
+      indices_(device, std::span<const std::uint32_t>(occluders.indices)),
+      opaque_index_count_(occluders.opaque_index_count),
+      place_lumels_(device, "world.place_lumels", kPlaceLumelsSpirv, 5, sizeof(PlaceParams),
+                    kPlaceGroup),
+      place_vertices_(device, "world.place_vertices", kPlaceVerticesSpirv, 4, sizeof(PlaceParams),
+                      kPlaceGroup),
+      diagonal_(diagonal_of(scene))
+{
+    for (const CutOut& range : occluders.cut_outs)
+        cut_outs_.push_back(make_draw(device, scene, range));
+    std::vector<glm::mat4> transforms;
+    for (const Instance& instance : scene.instances)
+        transforms.push_back(instance.transform);
+    place(transforms);
+}
+
+void World::place(std::span<const glm::mat4> transforms)
+{
+    for (std::size_t i = 0; i < placements_.size(); ++i)
+        placements_[i] = {transforms[i], placements_[i].now};
+    placement_array_.upload(placements_);
+    gpu::Commands commands(*device_);
+    commands.stage("place");
+    commands.dispatch(place_lumels_, {placement_array_, local_lumels_, local_pieces_, lumels_, pieces_},
+                      PlaceParams{std::uint32_t(lumels_.size())}, lumels_.size());
+    commands.dispatch(place_vertices_,
+                      {placement_array_, local_vertices_, vertex_instances_, vertices_},
+                      PlaceParams{std::uint32_t(vertices_.size())}, vertices_.size());
+    commands.run();
+}
+
+}  // namespace lumel

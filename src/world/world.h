@@ -1,0 +1,61 @@
+#pragma once
+// The scene and its lumels, resident on the GPU.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "gpu/commands.h"
+#include "world/occluders.h"
+#include "world/world.shared.h"
+
+namespace lumel {
+
+/// One cut-out material's part of the occluders, with its alpha on the GPU.
+struct CutOutDraw {
+    CutOut range;
+    std::unique_ptr<gpu::Target> alpha;
+    std::unique_ptr<gpu::Sampler> sampler;
+    float cutoff = 0.5f;  ///< MASK: opaque where alpha ≥ cutoff; BLEND: < 0, opaque by chance
+};
+
+/// Local data stays; placed data (in the world) follows the instances' transforms.
+class World {
+public:
+    World(const gpu::Device& device, const Scene& scene, const Lumels& lumels);
+
+    /// Moves instances: transforms [instance count], the former ones are kept as `before`.
+    void place(std::span<const glm::mat4> transforms);
+
+    std::size_t lumel_count() const { return lumels_.size(); }
+    const gpu::Array<Lumel>& lumels() const { return lumels_; }        ///< [N] in the world
+    const gpu::Array<Piece>& pieces() const { return pieces_; }        ///< [P] in the world
+    const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
+    const gpu::Array<glm::vec3>& looks() const { return looks_; }
+    const gpu::Array<std::uint32_t>& indices() const { return indices_; }
+    std::uint32_t opaque_index_count() const { return opaque_index_count_; }
+    const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
+    std::uint32_t index_count() const { return std::uint32_t(indices_.size()); }
+    float diagonal() const { return diagonal_; }  ///< of the bounding box [m]
+
+private:
+    const gpu::Device* device_;
+    std::vector<Placement> placements_;
+    gpu::Array<Placement> placement_array_;
+    gpu::Array<Lumel> local_lumels_, lumels_;
+    gpu::Array<Piece> local_pieces_, pieces_;
+    gpu::Array<glm::vec3> local_vertices_, vertices_;
+    gpu::Array<std::uint32_t> vertex_instances_;
+    gpu::Array<glm::vec3> looks_;
+    gpu::Array<std::uint32_t> indices_;
+    std::uint32_t opaque_index_count_ = 0;
+    std::vector<CutOutDraw> cut_outs_;
+    gpu::Kernel place_lumels_, place_vertices_;
+    float diagonal_ = 0.0f;
+
+    World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
+          const Occluders& occluders);
+};
+
+}  // namespace lumel
