@@ -8,11 +8,11 @@ namespace lumel {
 /// All over texels whose alpha is above 0 in both maps, R, G and B alike.
 struct MapError {
     double relative_rmse = 0.0;  ///< √mean(d²) / mean(reference)
-    double rel_mse = 0.0;        ///< mean(d² / (reference² + ε²)), ε = 1 % of the mean reference
-    double bias = 0.0;           ///< mean(d) / mean(reference)
-    double p95 = 0.0;            ///< 95th percentile of |d| / mean(reference)
-    double max = 0.0;            ///< largest |d| / mean(reference)
-    std::size_t texels = 0;      ///< compared
+    double rel_mse = 0.0;    ///< mean(d² / (reference² + ε²)), ε = 1 % of the mean reference
+    double bias = 0.0;       ///< mean(d) / mean(reference)
+    double p95 = 0.0;        ///< 95th percentile of |d| / mean(reference)
+    double max = 0.0;        ///< largest |d| / mean(reference)
+    std::size_t texels = 0;  ///< compared
 };
 
 /// Throws Error{input} if sizes differ or nothing is covered in both.
