@@ -1,0 +1,172 @@
+#include "rays/ray_scene.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "../support/box_lumels.h"
+
+namespace lumel {
+namespace {
+
+using support::add_mesh;
+using support::add_quad;
+using support::Quad;
+
+constexpr float kFar = 1e9f;
+
+/// The unit square in the plane z = 0, seen from +z.
+Quad unit_square()
+{
+    return {};
+}
+
+/// A square whose texture is opaque on its left half and clear on its right half.
+Scene half_clear_square(AlphaMode mode)
+{
+    Scene scene;
+    scene.textures.push_back({2, 1, {255, 255, 255, 255, 255, 255, 255, 0}});
+    add_quad(scene, unit_square());
+    scene.materials[0].alpha_mode = mode;
+    scene.materials[0].base_color_texture.texture = 0;
+    scene.materials[0].base_color_texture.wrap_s = Wrap::clamp;
+    return scene;
+}
+
+bool hits_from_above(const RayScene& rays, float x, float y, std::uint32_t seed = 0)
+{
+    RayHit hit;
+    return rays.closest({x, y, 1.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, seed, hit);
+}
+
+TEST(RayScene, FindsTheNearestTriangleAndSaysWhereOnIt)
+{
+    Scene scene;
+    add_quad(scene, unit_square(), glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, -5.0f}));
+    add_mesh(scene, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}, {});
+    const RayScene rays(scene);
+    RayHit hit;
+    ASSERT_TRUE(rays.closest({0.25f, 0.5f, 2.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, 0, hit));
+    EXPECT_EQ(hit.instance, 1u);
+    EXPECT_EQ(hit.primitive, 0u);
+    EXPECT_EQ(hit.triangle, 0u);
+    EXPECT_FLOAT_EQ(hit.distance, 2.0f);
+    EXPECT_NEAR(hit.barycentric.x, 0.25f, 1e-6f);
+    EXPECT_NEAR(hit.barycentric.y, 0.5f, 1e-6f);
+    EXPECT_TRUE(hit.front);
+    EXPECT_NEAR(hit.normal.z, 1.0f, 1e-6f);
+
+    ASSERT_TRUE(rays.closest({0.75f, 0.5f, 2.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, 0, hit));
+    EXPECT_EQ(hit.instance, 0u);
+    EXPECT_FLOAT_EQ(hit.distance, 7.0f);
+    EXPECT_FALSE(rays.closest({1.25f, 0.5f, 2.0f}, {0.0f, 0.0f, -1.0f}, 0.0f, kFar, 0, hit));
+}
+
+TEST(RayScene, RespectsTheNearAndFarEndOfARay)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    const RayScene rays(scene);
+    RayHit hit;
+    const glm::vec3 origin(0.3f, 0.4f, 1.0f), down(0.0f, 0.0f, -1.0f);
+    EXPECT_TRUE(rays.closest(origin, down, 0.9f, 1.1f, 0, hit));
+    EXPECT_FALSE(rays.closest(origin, down, 1.1f, kFar, 0, hit));
+    EXPECT_FALSE(rays.closest(origin, down, 0.0f, 0.9f, 0, hit));
+}
+
+TEST(RayScene, TellsFrontFromBack)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    const RayScene rays(scene);
+    RayHit hit;
+    ASSERT_TRUE(rays.closest({0.3f, 0.4f, -1.0f}, {0.0f, 0.0f, 1.0f}, 0.0f, kFar, 0, hit));
+    EXPECT_FALSE(hit.front);
+    EXPECT_NEAR(hit.normal.z, 1.0f, 1e-6f) << "the normal stays with the front";
+}
+
+TEST(RayScene, KeepsTheFrontOfMirroredAndTurnedInstances)
+{
+    const glm::mat4 mirror_x = glm::scale(glm::mat4(1.0f), {-2.0f, 1.0f, 1.0f});
+    const glm::mat4 mirror_z = glm::scale(glm::mat4(1.0f), {1.0f, 1.0f, -1.0f});
+    const glm::mat4 turn = glm::rotate(glm::mat4(1.0f), support::kPi, {1.0f, 0.0f, 0.0f});
+    const struct {
+        glm::mat4 transform;
+        float normal_z;  // where the mesh's +z has gone
+    } cases[] = {{mirror_x, 1.0f}, {mirror_z, -1.0f}, {turn, -1.0f}, {turn * mirror_z, 1.0f}};
+    for (const auto& placed : cases) {
+        Scene scene;
+        add_quad(scene, unit_square(), placed.transform);
+        const RayScene rays(scene);
+        const glm::vec3 middle(placed.transform * glm::vec4(0.4f, 0.5f, 0.0f, 1.0f));
+        RayHit hit;
+        ASSERT_TRUE(rays.closest(middle + glm::vec3(0.0f, 0.0f, 1.0f), {0.0f, 0.0f, -1.0f}, 0.0f,
+                                 kFar, 0, hit));
+        EXPECT_NEAR(hit.normal.z, placed.normal_z, 1e-6f);
+        EXPECT_EQ(hit.front, placed.normal_z > 0.0f);
+    }
+}
+
+TEST(RayScene, SeesUnlessSomethingLiesBetween)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    const RayScene rays(scene);
+    const glm::vec3 above(0.5f, 0.5f, 1.0f), below(0.5f, 0.5f, -1.0f), aside(3.0f, 0.5f, 1.0f);
+    EXPECT_FALSE(rays.sees(above, below, 1e-4f, 0));
+    EXPECT_FALSE(rays.sees(below, above, 1e-4f, 0)) << "backs block as well";
+    EXPECT_TRUE(rays.sees(above, aside, 1e-4f, 0));
+    EXPECT_TRUE(rays.sees(above, {0.5f, 0.5f, 0.0f}, 1e-4f, 0)) << "ends are shortened";
+    EXPECT_FALSE(rays.sees(above, {0.5f, 0.5f, -0.01f}, 1e-4f, 0));
+}
+
+TEST(RayScene, CutsOutWhatMaskSaysExactly)
+{
+    const Scene scene = half_clear_square(AlphaMode::mask);
+    const RayScene rays(scene);
+    for (std::uint32_t seed = 0; seed < 20; ++seed) {
+        EXPECT_TRUE(hits_from_above(rays, 0.1f, 0.4f, seed));
+        EXPECT_FALSE(hits_from_above(rays, 0.9f, 0.4f, seed));
+        EXPECT_FALSE(rays.sees({0.1f, 0.4f, 1.0f}, {0.1f, 0.4f, -1.0f}, 0.0f, seed));
+        EXPECT_TRUE(rays.sees({0.9f, 0.4f, 1.0f}, {0.9f, 0.4f, -1.0f}, 0.0f, seed));
+    }
+}
+
+TEST(RayScene, IgnoresAlphaOfOpaqueSurfaces)
+{
+    const Scene scene = half_clear_square(AlphaMode::opaque);
+    EXPECT_TRUE(hits_from_above(RayScene(scene), 0.9f, 0.4f));
+}
+
+TEST(RayScene, HitsBlendedSurfacesAsOftenAsAlphaSays)
+{
+    Scene scene;
+    add_quad(scene, unit_square());
+    scene.materials[0].alpha_mode = AlphaMode::blend;
+    scene.materials[0].base_color.a = 0.3f;
+    const RayScene rays(scene);
+    constexpr int kQueries = 20000;
+    int hits = 0, seen = 0;
+    for (std::uint32_t seed = 0; seed < kQueries; ++seed) {
+        const bool hit = hits_from_above(rays, 0.4f, 0.3f, seed);
+        ASSERT_EQ(hit, hits_from_above(rays, 0.4f, 0.3f, seed)) << "one seed, one answer";
+        hits += hit;
+        seen += rays.sees({0.4f, 0.3f, 1.0f}, {0.4f, 0.3f, -1.0f}, 0.0f, seed);
+    }
+    const double deviation = std::sqrt(0.3 * 0.7 * kQueries);
+    EXPECT_NEAR(hits, 0.3 * kQueries, 4.0 * deviation);
+    EXPECT_NEAR(seen, 0.7 * kQueries, 4.0 * deviation);
+}
+
+TEST(RayScene, KnowsItsBounds)
+{
+    Scene scene;
+    EXPECT_EQ(RayScene(scene).low(), glm::vec3(0.0f));
+    add_quad(scene, unit_square(), glm::translate(glm::mat4(1.0f), {2.0f, 3.0f, 4.0f}));
+    RayScene rays(scene);
+    rays = RayScene(scene);
+    EXPECT_EQ(rays.low(), glm::vec3(2.0f, 3.0f, 4.0f));
+    EXPECT_EQ(rays.high(), glm::vec3(3.0f, 4.0f, 4.0f));
+}
+
+}  // namespace
+}  // namespace lumel
