@@ -1,1 +1,30 @@
-# The relocatable release archive: target `bundle`.
+# The relocatable release archive: target `bundle` makes lumel-<version>-linux-x86_64.tar.gz with the
+# programs (shaders inside), the libraries that are not part of a base system, their licences, the
+# scenes and the README. It needs a Vulkan driver and a C library no older than the build machine's.
+
+set(LUMEL_PROGRAMS lumel)
+if(TARGET lumel_bench)
+    list(APPEND LUMEL_PROGRAMS lumel_bench)
+endif()
+
+# DT_RPATH, not DT_RUNPATH: it also holds for what the bundled libraries themselves need.
+set_target_properties(${LUMEL_PROGRAMS} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+foreach(program ${LUMEL_PROGRAMS})
+    target_link_options(${program} PRIVATE -Wl,--disable-new-dtags)
+endforeach()
+
+install(TARGETS ${LUMEL_PROGRAMS} RUNTIME DESTINATION bin COMPONENT bundle)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION . COMPONENT bundle
+        PATTERN "*.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION .
+        COMPONENT bundle)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION . COMPONENT bundle)
+
+string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" LUMEL_PLATFORM)
+set(LUMEL_BUNDLE_NAME lumel-${PROJECT_VERSION}-${LUMEL_PLATFORM})
+add_custom_target(bundle
+    COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${LUMEL_BUNDLE_NAME}
+            -P ${PROJECT_SOURCE_DIR}/cmake/MakeBundle.cmake
+    DEPENDS ${LUMEL_PROGRAMS}
+    COMMENT "Making ${LUMEL_BUNDLE_NAME}.tar.gz"
+    VERBATIM)
