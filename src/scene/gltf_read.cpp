@@ -1,1 +1,186 @@
+#include <cmath>
+#include <new>
+
+#include "core/error.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_extensions.h"
+#include "scene/gltf_lights.h"
+#include "scene/gltf_material.h"
+#include "scene/gltf_mesh.h"
+#include "scene/gltf_nodes.h"
 #include "scene/scene.h"
+#include "scene/scene_hash.h"
+
+namespace lumel {
+
+namespace {
+
+/// Facts gathered while reading, that end in warnings.
+struct Notes {
+    MeshNotes mesh;
+    std::size_t flattened_instances = 0;
+    std::size_t skinned_instances = 0;
+    std::size_t weighted_instances = 0;
+    std::size_t unmapped_primitives = 0;
+};
+
+/// "3 meshes", "1 mesh".
+std::string counted(std::size_t count, const std::string& one, const std::string& many)
+{
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// A matrix whose columns (nearly) lie in a plane leaves no volume, nor normals.
+bool is_flat(const glm::dmat4& matrix)
+{
+    constexpr double kSmallestRelativeVolume = 1e-9;
+    const glm::dvec3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
+    const double box = glm::length(x) * glm::length(y) * glm::length(z);
+    return !(std::abs(glm::dot(x, glm::cross(y, z))) > kSmallestRelativeVolume * box);
+}
+
+/// Throws if an instance reaches so far out that float arithmetic breaks down.
+void check_extent(const JsonView& node, const Mesh& mesh, const glm::dmat4& world)
+{
+    for (const Primitive& primitive : mesh.primitives) {
+        glm::dvec3 low(primitive.positions.front());
+        glm::dvec3 high = low;
+        for (const glm::vec3& position : primitive.positions) {
+            low = glm::min(low, glm::dvec3(position));
+            high = glm::max(high, glm::dvec3(position));
+        }
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::dvec4 point((corner & 1 ? high : low).x, (corner & 2 ? high : low).y,
+                                   (corner & 4 ? high : low).z, 1.0);
+            const glm::dvec3 reach = glm::abs(glm::dvec3(world * point));
+            if (!(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate)))
+                node.fail("places its mesh more than 1e9 m from the origin, too far out to be "
+                          "computed");
+        }
+    }
+}
+
+/// Meshes and instances: only meshes that the default scene shows are read.
+void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene,
+                   Notes& notes)
+{
+    const JsonView root = document.root();
+    const std::size_t mesh_count = root.count("meshes");
+    const int default_material = int(root.count("materials"));
+    scene.meshes.resize(mesh_count);
+    std::vector<bool> loaded(mesh_count, false);
+    for (const PlacedNode& placed : nodes) {
+        const JsonView node = root.get("nodes").at(placed.node);
+        if (node.extension("EXT_mesh_gpu_instancing"))
+            refuse_extension(node, "EXT_mesh_gpu_instancing");
+        const auto reference = node.find("mesh");
+        if (!reference)
+            continue;
+        const std::size_t index = reference->index(mesh_count, "meshes");
+        Mesh& mesh = scene.meshes[index];
+        if (!loaded[index])
+            mesh = read_mesh(document, index, default_material, notes.mesh);
+        loaded[index] = true;
+        if (is_flat(placed.world)) {
+            ++notes.flattened_instances;
+            continue;
+        }
+        check_extent(node, mesh, placed.world);
+        notes.skinned_instances += node.find("skin").has_value();
+        notes.weighted_instances += node.find("weights").has_value();
+        if (!mesh.primitives.empty())
+            scene.instances.push_back({node.string_or("name", mesh.name), int(index),
+                                       int(placed.node), glm::mat4(placed.world)});
+    }
+    scene.dropped_triangles = notes.mesh.zero_area_triangles;
+}
+
+/// Materials and textures that the primitives name.
+MaterialList read_looks(const GltfDocument& document, Scene& scene, Notes& notes)
+{
+    const std::size_t default_material = document.root().count("materials");
+    std::vector<bool> used(default_material + 1, false);
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives)
+            used[std::size_t(primitive.material)] = true;
+    MaterialList list = read_materials(document, used);
+    scene.materials = list.materials;
+    if (used[default_material])
+        scene.materials.push_back({.name = "default"});
+    scene.textures = read_textures(document, list.images);
+
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives) {
+            const Material& material = scene.materials[std::size_t(primitive.material)];
+            for (const TextureUse* use : {&material.base_color_texture, &material.emissive_texture})
+                if (use->texture >= 0 && primitive.texcoords[use->texcoord].empty()) {
+                    ++notes.unmapped_primitives;
+                    break;
+                }
+        }
+    return list;
+}
+
+void warn(Scene& scene, std::size_t count, const std::string& one, const std::string& many,
+          const std::string& what)
+{
+    if (count > 0)
+        scene.warnings.push_back(counted(count, one, many) + " " + what);
+}
+
+void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
+{
+    const MeshNotes& mesh = notes.mesh;
+    warn(scene, mesh.zero_area_triangles, "triangle", "triangles", "of zero area dropped");
+    warn(scene, mesh.stray_indices, "index", "indices", "left over after whole triangles, ignored");
+    warn(scene, mesh.points_and_lines, "primitive", "primitives", "of points or lines skipped");
+    warn(scene, mesh.repaired_normals, "normal", "normals",
+         "without a direction replaced by those of the faces");
+    warn(scene, mesh.morphed_meshes, "mesh", "meshes",
+         "with morph targets baked at the default weights");
+    warn(scene, notes.weighted_instances, "node", "nodes",
+         "with morph weights of their own baked at those of the mesh");
+    warn(scene, notes.skinned_instances, "skinned mesh", "skinned meshes",
+         "baked in the pose of the mesh itself, without its skeleton");
+    warn(scene, notes.flattened_instances, "node", "nodes", "flattened by a scale of 0, left out");
+    warn(scene, notes.unmapped_primitives, "primitive", "primitives",
+         "with a texture but without its texture coordinates: the texture's corner is used");
+    warn(scene, looks.missing_textures, "texture", "textures", "without an image taken as white");
+    warn(scene, looks.transmissive, "transmissive material", "transmissive materials",
+         "treated as opaque");
+    if (looks.clamped)
+        scene.warnings.push_back("base colours outside 0 to 1 were clamped");
+    warn(scene, scene.lights.size(), "punctual light", "punctual lights",
+         "stored but not solved yet: no light comes from KHR_lights_punctual");
+}
+
+Scene read_scene(const std::string& path)
+{
+    const GltfDocument document = load_gltf_document(path);
+    Scene scene;
+    scene.path = path;
+    Notes notes;
+    const std::vector<PlacedNode> nodes = place_nodes(document);
+    read_geometry(document, nodes, scene, notes);
+    if (scene.instances.empty())
+        throw Error(ErrorKind::input, path,
+                    "its scene shows no triangles, there is nothing to bake");
+    const MaterialList looks = read_looks(document, scene, notes);
+    read_lights_and_cameras(document, nodes, scene);
+    write_warnings(notes, looks, scene);
+    scene.hash = hash_scene(scene);
+    return scene;
+}
+
+}  // namespace
+
+Scene read_gltf(const std::string& path)
+{
+    try {
+        return read_scene(path);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::input, path, "needs more memory than there is");
+    }
+}
+
+}  // namespace lumel

@@ -1,1 +1,109 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "scene/scene.h"
+
+namespace lumel {
+
+namespace {
+
+/// IEC 61966-2-1, from a stored byte to linear 0…1.
+const std::array<float, 256>& srgb_to_linear()
+{
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> values{};
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const double c = double(i) / 255.0;
+            values[i] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+        }
+        return values;
+    }();
+    return table;
+}
+
+/// Column or row of a texel that may lie outside the image.
+int wrapped(long long texel, int size, Wrap wrap)
+{
+    if (wrap == Wrap::clamp)
+        return int(std::clamp<long long>(texel, 0, size - 1));
+    const long long period = wrap == Wrap::mirrored ? 2LL * size : size;
+    const long long within = ((texel % period) + period) % period;
+    return int(within < size ? within : period - 1 - within);
+}
+
+glm::vec4 texel_at(const Texture& texture, int x, int y)
+{
+    const auto& linear = srgb_to_linear();
+    const std::size_t row = std::size_t(y) * std::size_t(texture.width);
+    const std::uint8_t* rgba = &texture.rgba[(row + std::size_t(x)) * 4];
+    return {linear[rgba[0]], linear[rgba[1]], linear[rgba[2]], float(rgba[3]) / 255.0f};
+}
+
+/// The two texels around a coordinate, and how far it is from the first.
+struct Span {
+    int first;
+    int second;
+    float fraction;
+};
+
+Span span_of(float coordinate, int size, Wrap wrap)
+{
+    // Beyond this the coordinate has no sub-texel precision left, nor a meaning.
+    constexpr double kFar = 1e12;
+    const double position = std::clamp(double(coordinate) * size - 0.5, -kFar, kFar);
+    const double floor = std::floor(position);
+    const auto texel = static_cast<long long>(floor);
+    return {wrapped(texel, size, wrap), wrapped(texel + 1, size, wrap), float(position - floor)};
+}
+
+/// Bilinear, linear light: white where there is no texture.
+glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::vec2 texcoord[2])
+{
+    if (use.texture < 0)
+        return glm::vec4(1.0f);
+    const Texture& texture = scene.textures[std::size_t(use.texture)];
+    const glm::vec3 uv = use.transform * glm::vec3(texcoord[use.texcoord], 1.0f);
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+        return texel_at(texture, 0, 0);
+    const Span x = span_of(uv.x, texture.width, use.wrap_s);
+    const Span y = span_of(uv.y, texture.height, use.wrap_t);
+    const glm::vec4 top = glm::mix(texel_at(texture, x.first, y.first),
+                                   texel_at(texture, x.second, y.first), x.fraction);
+    const glm::vec4 bottom = glm::mix(texel_at(texture, x.first, y.second),
+                                      texel_at(texture, x.second, y.second), x.fraction);
+    return glm::mix(top, bottom, y.fraction);
+}
+
+}  // namespace
+
+MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
+                               const glm::vec4& vertex_color)
+{
+    const Material& look = scene.materials[std::size_t(material)];
+    const glm::vec4 base =
+        look.base_color * vertex_color * sample_texture(scene, look.base_color_texture, texcoord);
+    MaterialSample sample;
+    sample.albedo = glm::clamp(glm::vec3(base), 0.0f, 1.0f);
+    switch (look.alpha_mode) {
+    case AlphaMode::opaque:
+        sample.opacity = 1.0f;
+        break;
+    case AlphaMode::mask:
+        sample.opacity = base.a >= look.alpha_cutoff ? 1.0f : 0.0f;
+        break;
+    case AlphaMode::blend:
+        sample.opacity = std::clamp(base.a, 0.0f, 1.0f);
+        break;
+    }
+    sample.emitted =
+        look.emitted * glm::vec3(sample_texture(scene, look.emissive_texture, texcoord));
+    return sample;
+}
+
+bool is_uniform(const Material& material)
+{
+    return material.base_color_texture.texture < 0 && material.emissive_texture.texture < 0;
+}
+
+}  // namespace lumel

@@ -1,0 +1,217 @@
+#include "scene/gltf_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_attributes.h"
+#include "scene/gltf_extensions.h"
+
+namespace lumel {
+
+namespace {
+
+enum Mode { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, kTriangleFan };
+
+/// A small file can name the same data many times; beyond this no scene can be baked anyway.
+constexpr std::size_t kLargestVertexTotal = std::size_t(1) << 28;
+/// Relative to its longest edge squared, twice the area that float coordinates cannot resolve.
+constexpr double kSmallestRelativeArea = 1e-7;
+/// Twice an area [mesh units²] whose square still is a normal float.
+constexpr double kSmallestArea = 1e-18;
+
+/// The primitive's vertices in drawing order.
+std::vector<std::uint32_t> read_corners(const GltfDocument& document, const JsonView& view,
+                                        std::size_t vertex_count)
+{
+    const auto indices = view.find("indices");
+    if (!indices) {
+        std::vector<std::uint32_t> corners(vertex_count);
+        std::iota(corners.begin(), corners.end(), 0u);
+        return corners;
+    }
+    const JsonView root = document.root();
+    const std::size_t accessor = indices->index(root.count("accessors"), "accessors");
+    const AccessorData data = read_accessor(document, accessor);
+    const bool is_unsigned = data.component_type == ComponentType::u8 ||
+                             data.component_type == ComponentType::u16 ||
+                             data.component_type == ComponentType::u32;
+    if (data.type != "SCALAR" || !is_unsigned || data.normalized)
+        indices->fail("must refer to an accessor of unsigned scalars");
+    const auto buffer_view = root.get("accessors").at(accessor).find("bufferView");
+    if (buffer_view)
+        if (root.get("bufferViews")
+                .at(std::size_t(buffer_view->integer(0, INT32_MAX)))
+                .find("byteStride"))
+            indices->fail("must not refer to a bufferView with a byteStride");
+
+    // The largest value of the type would mean "primitive restart", which glTF forbids.
+    const std::uint32_t restart = data.component_type == ComponentType::u8    ? 0xFFu
+                                  : data.component_type == ComponentType::u16 ? 0xFFFFu
+                                                                              : 0xFFFFFFFFu;
+    std::vector<std::uint32_t> corners = to_unsigned(data);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        if (corners[i] >= vertex_count || corners[i] == restart)
+            indices->fail("index " + std::to_string(i) + " is " + std::to_string(corners[i]) +
+                          (corners[i] == restart
+                               ? ", the primitive restart value, which glTF forbids"
+                               : ", but there are " + std::to_string(vertex_count) + " vertices"));
+    return corners;
+}
+
+/// Unrolls to three corners per triangle, with the winding of the glTF specification.
+std::vector<std::uint32_t> triangle_list(std::vector<std::uint32_t> corners, Mode mode,
+                                         MeshNotes& notes)
+{
+    if (mode == kTriangles) {
+        notes.stray_indices += corners.size() % 3;
+        corners.resize(corners.size() / 3 * 3);
+        return corners;
+    }
+    std::vector<std::uint32_t> list;
+    if (corners.size() < 3) {
+        notes.stray_indices += corners.size();
+        return list;
+    }
+    list.reserve((corners.size() - 2) * 3);
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+        if (mode == kTriangleStrip)
+            list.insert(list.end(), {corners[i], corners[i + 1 + i % 2], corners[i + 2 - i % 2]});
+        else
+            list.insert(list.end(), {corners[i + 1], corners[i + 2], corners[0]});
+    }
+    return list;
+}
+
+bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+{
+    const double area = glm::length(glm::cross(b - a, c - a));
+    const double longest =
+        std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+    return area > std::max(kSmallestArea, kSmallestRelativeArea * longest);
+}
+
+void drop_zero_area(Primitive& primitive, MeshNotes& notes)
+{
+    auto& indices = primitive.indices;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        const auto corner = [&](std::size_t k) {
+            return glm::dvec3(primitive.positions[indices[i + k]]);
+        };
+        if (!has_area(corner(0), corner(1), corner(2)))
+            continue;
+        std::copy_n(indices.begin() + std::ptrdiff_t(i), 3, indices.begin() + std::ptrdiff_t(kept));
+        kept += 3;
+    }
+    notes.zero_area_triangles += (indices.size() - kept) / 3;
+    indices.resize(kept);
+}
+
+/// Makes every normal a unit vector. Those that have no direction get that of their faces.
+void repair_normals(Primitive& primitive, MeshNotes& notes)
+{
+    auto& normals = primitive.normals;
+    std::vector<std::size_t> broken;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const double length = glm::length(glm::dvec3(normals[i]));
+        if (std::isfinite(length) && length > 0.0)
+            normals[i] = glm::vec3(glm::dvec3(normals[i]) / length);
+        else
+            broken.push_back(i);
+    }
+    if (broken.empty())
+        return;
+    notes.repaired_normals += broken.size();
+    if (broken.size() == normals.size()) {
+        normals.clear();
+        return;
+    }
+
+    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0.0));
+    for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+        const std::uint32_t* corners = &primitive.indices[i];
+        const glm::dvec3 a = primitive.positions[corners[0]];
+        const glm::dvec3 cross = glm::cross(glm::dvec3(primitive.positions[corners[1]]) - a,
+                                            glm::dvec3(primitive.positions[corners[2]]) - a);
+        for (int k = 0; k < 3; ++k)
+            sums[corners[k]] += cross;
+    }
+    for (std::size_t i : broken) {
+        const double length = glm::length(sums[i]);
+        normals[i] = length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0.0f, 0.0f, 1.0f);
+    }
+}
+
+/// Draco keeps geometry in its own stream, unless the file also brings plain accessors.
+void check_compression(const GltfDocument& document, const JsonView& view)
+{
+    constexpr const char* kDraco = "KHR_draco_mesh_compression";
+    if (!view.extension(kDraco))
+        return;
+    const JsonView root = document.root();
+    const auto check = [&](const JsonView& reference) {
+        const std::size_t index = reference.index(root.count("accessors"), "accessors");
+        const JsonView accessor = root.get("accessors").at(index);
+        if (!accessor.find("bufferView") && !accessor.find("sparse"))
+            refuse_extension(view, kDraco);
+    };
+    if (const auto indices = view.find("indices"))
+        check(*indices);
+    if (const auto position = view.get("attributes").find("POSITION"))
+        check(*position);
+}
+
+Primitive read_primitive(const GltfDocument& document, const JsonView& view, Mode mode,
+                         const std::vector<float>& weights, MeshNotes& notes)
+{
+    Primitive primitive;
+    check_compression(document, view);
+    read_attributes(document, view, weights, primitive);
+    notes.vertices += primitive.positions.size();
+    if (notes.vertices > kLargestVertexTotal)
+        view.fail("the scene has more than " + std::to_string(kLargestVertexTotal) + " vertices");
+    auto corners = read_corners(document, view, primitive.positions.size());
+    primitive.indices = triangle_list(std::move(corners), mode, notes);
+    drop_zero_area(primitive, notes);
+    repair_normals(primitive, notes);
+    return primitive;
+}
+
+}  // namespace
+
+Mesh read_mesh(const GltfDocument& document, std::size_t mesh, int default_material,
+               MeshNotes& notes)
+{
+    const JsonView root = document.root();
+    const JsonView view = root.get("meshes").at(mesh);
+    Mesh result;
+    result.name = view.string_or("name", "mesh " + std::to_string(mesh));
+    std::vector<float> weights(view.count("weights"));
+    view.numbers("weights", weights.data(), weights.size());
+
+    bool has_targets = false;
+    view.get("primitives").each([&](const JsonView& primitive_view, std::size_t i) {
+        const auto mode_view = primitive_view.find("mode");
+        const auto mode = mode_view ? Mode(mode_view->integer(kPoints, kTriangleFan)) : kTriangles;
+        if (mode < kTriangles) {
+            ++notes.points_and_lines;
+            return;
+        }
+        Primitive primitive = read_primitive(document, primitive_view, mode, weights, notes);
+        const auto material = primitive_view.find("material");
+        primitive.material = material ? int(material->index(root.count("materials"), "materials"))
+                                      : default_material;
+        primitive.source_primitive = int(i);
+        has_targets |= primitive_view.find("targets").has_value();
+        if (!primitive.indices.empty())
+            result.primitives.push_back(std::move(primitive));
+    });
+    notes.morphed_meshes += has_targets;
+    return result;
+}
+
+}  // namespace lumel
