@@ -1,1 +1,297 @@
+// The atlas: choose a layout for every surface, pack, number the charts.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include <fmt/format.h>
+
 #include "atlas/atlas.h"
+#include "atlas/authored.h"
+#include "atlas/layout.h"
+#include "atlas/morton.h"
+#include "atlas/pack.h"
+#include "core/error.h"
+#include "core/parallel.h"
+
+namespace lumel {
+
+namespace {
+
+// Charts end this close to a texel's border end on it: rounding shall not open another texel.
+constexpr double kSnapDistance = 1e-3;
+// Transforms that agree to this relative accuracy share their charts.
+constexpr double kSameScale = 1e-5;
+
+/// A surface on its way into the atlas.
+struct Plan {
+    std::uint32_t instance = 0;
+    std::uint32_t primitive = 0;
+    bool authored = false;
+    std::shared_ptr<const Layout> layout;
+    std::uint32_t first_item = 0;  ///< of its charts' rectangles; authored: the only one
+    glm::dvec2 origin{0.0};        ///< of the rectangle, in the layout's coordinates
+};
+
+/// Everything to be packed. Sizes in metres; `extent` is the same in the layout's coordinates.
+struct Plans {
+    std::vector<Plan> surfaces;
+    std::vector<glm::dvec2> size;
+    std::vector<glm::dvec2> extent;
+};
+
+void check(const Scene& scene, const AtlasOptions& options)
+{
+    if (options.max_size < 1 || options.size < 0 || options.gutter < 0 ||
+        !(options.texels_per_metre >= 0.0f) || !std::isfinite(options.texels_per_metre))
+        throw Error(ErrorKind::input, "", "sizes of the map must be positive");
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
+            if (!primitive.indices.empty())
+                return;
+    throw Error(ErrorKind::input, scene.path, "there is no triangle to light");
+}
+
+double world_area(const Mesh& mesh, const glm::mat4& transform)
+{
+    double area = 0.0;
+    for (const Primitive& primitive : mesh.primitives) {
+        const std::vector<glm::dvec3> world = world_positions(primitive, transform);
+        for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+            const glm::dvec3& a = world[primitive.indices[i]];
+            area += 0.5 * glm::length(glm::cross(world[primitive.indices[i + 1]] - a,
+                                                 world[primitive.indices[i + 2]] - a));
+        }
+    }
+    return area;
+}
+
+/// What lengths a transform makes, rounded: instances that differ only in place share charts.
+std::vector<long long> scale_key(const glm::mat4& transform)
+{
+    const glm::dmat3 linear(transform);
+    const glm::dmat3 metric = glm::transpose(linear) * linear;
+    const double trace = std::max(metric[0][0] + metric[1][1] + metric[2][2], 1e-300);
+    std::vector<long long> key{std::llround(std::log(trace) / kSameScale),
+                               glm::determinant(linear) < 0.0};
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j)
+            key.push_back(std::llround(metric[i][j] / trace / kSameScale));
+    return key;
+}
+
+/// Gives the mesh's own layout one rectangle for the instance, as dense as its surface asks for.
+void plan_authored(const Scene& scene, std::uint32_t instance_index, const AuthoredReport& report,
+                   Plans& plans)
+{
+    const Instance& instance = scene.instances[instance_index];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const std::size_t first = plans.surfaces.size();
+    glm::dvec2 low(1.0), high(0.0);
+    for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+        auto layout = std::make_shared<const Layout>(authored_layout(mesh.primitives[p]));
+        for (std::uint32_t index : layout->indices) {
+            low = glm::min(low, layout->place[index]);
+            high = glm::max(high, layout->place[index]);
+        }
+        plans.surfaces.push_back({instance_index, p, true, layout, 0, {}});
+    }
+    for (std::size_t s = first; s < plans.surfaces.size(); ++s) {
+        plans.surfaces[s].first_item = std::uint32_t(plans.size.size());
+        plans.surfaces[s].origin = low;
+    }
+    const double metres = std::sqrt(world_area(mesh, instance.transform) / report.area);
+    plans.extent.push_back(high - low);
+    plans.size.push_back(metres * (high - low));
+}
+
+/// Charts for every planned surface that has no layout yet, on all cores.
+void plan_charts(const Scene& scene, Plans& plans)
+{
+    using Key = std::pair<std::pair<int, std::uint32_t>, std::vector<long long>>;
+    std::map<Key, std::vector<std::size_t>> users;
+    for (std::size_t s = 0; s < plans.surfaces.size(); ++s) {
+        const Plan& plan = plans.surfaces[s];
+        const Instance& instance = scene.instances[plan.instance];
+        if (!plan.layout)
+            users[{{instance.mesh, plan.primitive}, scale_key(instance.transform)}].push_back(s);
+    }
+    std::vector<const std::vector<std::size_t>*> groups;
+    for (const auto& [key, surfaces] : users)
+        groups.push_back(&surfaces);
+    parallel_for(groups.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t g = first; g < last; ++g) {
+            const Plan& leader = plans.surfaces[groups[g]->front()];
+            const Instance& instance = scene.instances[leader.instance];
+            const Primitive& primitive = scene.meshes[instance.mesh].primitives[leader.primitive];
+            const auto layout = std::make_shared<const Layout>(
+                make_charts(primitive, world_positions(primitive, instance.transform),
+                            glm::determinant(glm::dmat3(instance.transform)) < 0.0));
+            for (std::size_t s : *groups[g])
+                plans.surfaces[s].layout = layout;
+        }
+    });
+}
+
+Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports)
+{
+    Plans plans;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const int mesh = scene.instances[i].mesh;
+        if (reports[mesh].valid()) {
+            plan_authored(scene, i, reports[mesh], plans);
+            continue;
+        }
+        for (std::uint32_t p = 0; p < scene.meshes[mesh].primitives.size(); ++p)
+            plans.surfaces.push_back({i, p, false, nullptr, 0, {}});
+    }
+    plan_charts(scene, plans);
+    for (Plan& surface : plans.surfaces) {
+        if (surface.authored)
+            continue;
+        surface.first_item = std::uint32_t(plans.size.size());
+        for (const glm::dvec2& size : surface.layout->chart_size) {
+            plans.size.push_back(size);
+            plans.extent.push_back(size);
+        }
+    }
+    return plans;
+}
+
+/// The file's one layout of the whole scene, kept over the whole map.
+Packing pack_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& reports,
+                        const AtlasOptions& options, Plans& plans, std::vector<std::string>& notes)
+{
+    double metres = 0.0, area = 0.0;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        metres += world_area(mesh, instance.transform);
+        area += reports[instance.mesh].area;
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p)
+            plans.surfaces.push_back(
+                {i,
+                 p,
+                 true,
+                 std::make_shared<const Layout>(authored_layout(mesh.primitives[p])),
+                 0,
+                 {}});
+    }
+    plans.extent = {glm::dvec2(1.0)};
+    plans.size = {glm::dvec2(std::sqrt(metres / area))};
+    AtlasOptions whole = options;
+    whole.gutter = 0;
+    Packing packing = pack(plans.size, whole, notes);
+    packing.rectangles[0] = {glm::ivec2(0), glm::ivec2(packing.side)};
+    return packing;
+}
+
+double snap(double texel, double side)
+{
+    if (std::abs(texel) < kSnapDistance)
+        return 0.0;
+    return std::abs(texel - side) < kSnapDistance ? side : texel;
+}
+
+Surface place(const Plan& plan, const Plans& plans, const Packing& packing)
+{
+    const Layout& layout = *plan.layout;
+    Surface surface{plan.instance,  plan.primitive, layout.source_vertex, {},
+                    layout.indices, layout.chart,   plan.authored};
+    surface.texcoord.reserve(layout.place.size());
+    for (std::size_t v = 0; v < layout.place.size(); ++v) {
+        const std::uint32_t item = plan.first_item + (plan.authored ? 0 : layout.vertex_chart[v]);
+        const PackedRectangle& rectangle = packing.rectangles[item];
+        const glm::dvec2 scale =
+            glm::dvec2(rectangle.size) / glm::max(plans.extent[item], glm::dvec2(1e-30));
+        const glm::dvec2 texel = (layout.place[v] - plan.origin) * scale;
+        surface.texcoord.emplace_back(
+            glm::dvec2(rectangle.corner) +
+            glm::dvec2(snap(texel.x, rectangle.size.x), snap(texel.y, rectangle.size.y)));
+    }
+    return surface;
+}
+
+/// Numbers the charts along a Morton curve through the world, so that neighbours in number are
+/// neighbours in space.
+void number_charts(const Scene& scene, Atlas& atlas)
+{
+    std::vector<glm::dvec4> centre;  // of each chart: area × position, area
+    for (Surface& surface : atlas.surfaces) {
+        const Instance& instance = scene.instances[surface.instance];
+        const Primitive& primitive = scene.meshes[instance.mesh].primitives[surface.primitive];
+        const std::vector<glm::dvec3> world = world_positions(primitive, instance.transform);
+        const std::uint32_t first = std::uint32_t(centre.size());
+        for (std::size_t t = 0; t < surface.chart.size(); ++t) {
+            surface.chart[t] += first;
+            centre.resize(std::max<std::size_t>(centre.size(), surface.chart[t] + 1));
+            const glm::dvec3& a = world[primitive.indices[3 * t]];
+            const glm::dvec3& b = world[primitive.indices[3 * t + 1]];
+            const glm::dvec3& c = world[primitive.indices[3 * t + 2]];
+            const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+            centre[surface.chart[t]] += area * glm::dvec4((a + b + c) / 3.0, 1.0);
+        }
+    }
+    glm::dvec3 low(1e300), high(-1e300);
+    for (glm::dvec4& point : centre) {
+        point = point / std::max(point.w, 1e-300);
+        low = glm::min(low, glm::dvec3(point));
+        high = glm::max(high, glm::dvec3(point));
+    }
+    const glm::dvec3 extent = high - low;
+    const double longest = std::max({extent.x, extent.y, extent.z, 1e-300});
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    for (std::uint32_t chart = 0; chart < centre.size(); ++chart)
+        order.push_back({morton_code((glm::dvec3(centre[chart]) - low) / longest), chart});
+    std::sort(order.begin(), order.end());
+    std::vector<std::uint32_t> number(centre.size());
+    for (std::uint32_t rank = 0; rank < order.size(); ++rank)
+        number[order[rank].second] = rank;
+    for (Surface& surface : atlas.surfaces)
+        for (std::uint32_t& chart : surface.chart)
+            chart = number[chart];
+    atlas.chart_count = std::uint32_t(centre.size());
+}
+
+}  // namespace
+
+Atlas make_atlas(const Scene& scene, const AtlasOptions& asked)
+{
+    check(scene, asked);
+    Atlas atlas;
+    AtlasOptions options = asked;
+    if (options.size > options.max_size) {
+        options.size = options.max_size;
+        atlas.notes.push_back(fmt::format("the map is limited to {} × {} texels, not {} × {}",
+                                          options.size, options.size, asked.size, asked.size));
+    }
+
+    // Look at the layouts that come with the file.
+    std::vector<AuthoredReport> reports;
+    for (const Mesh& mesh : scene.meshes) {
+        reports.push_back(check_authored(mesh));
+        if (reports.back().present && !reports.back().valid())
+            atlas.notes.push_back(fmt::format("mesh '{}': TEXCOORD_1 {}; charts are made instead",
+                                              mesh.name, reports.back().complaint()));
+    }
+
+    // Lay out and pack.
+    Plans plans;
+    Packing packing;
+    if (is_scene_wide(scene, reports)) {
+        packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
+    } else {
+        plans = plan(scene, reports);
+        packing = pack(plans.size, options, atlas.notes);
+    }
+    atlas.width = atlas.height = packing.side;
+    atlas.texels_per_metre = float(packing.density);
+    for (const Plan& surface : plans.surfaces)
+        atlas.surfaces.push_back(place(surface, plans, packing));
+    number_charts(scene, atlas);
+    return atlas;
+}
+
+}  // namespace lumel

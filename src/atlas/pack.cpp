@@ -1,0 +1,179 @@
+#include "atlas/pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+
+#define STB_RECT_PACK_IMPLEMENTATION
+#define STBRP_STATIC
+#include <stb/stb_rect_pack.h>
+
+namespace lumel {
+
+namespace {
+
+constexpr int kSideStep = 4;           // block-compressed textures need multiples of 4
+constexpr int kDefaultSide = 512;      // detail for a room, seconds to minutes on a small machine
+constexpr double kDefaultFill = 0.25;  // below this gutters and tiny charts eat a default map
+constexpr int kBisections = 9;         // density to 0.1 per cent
+constexpr double kSideGrowth = 1.02;
+
+/// The rectangles to place and the rules for doing so.
+struct Task {
+    const std::vector<glm::dvec2>& sizes;
+    int gutter;
+
+    glm::ivec2 texels(const glm::dvec2& size, double density) const
+    {
+        // No map is as large as this; it only keeps the conversion defined.
+        constexpr double kHuge = 1 << 24;
+        return glm::ivec2(glm::clamp(glm::round(size * density), 1.0, kHuge));
+    }
+
+    /// Texels taken by all rectangles and their gutters.
+    double footprint(double density) const
+    {
+        double sum = 0.0;
+        for (const glm::dvec2& size : sizes) {
+            const glm::dvec2 padded(texels(size, density) + gutter);
+            sum += padded.x * padded.y;
+        }
+        return sum;
+    }
+
+    double area() const
+    {
+        double sum = 0.0;
+        for (const glm::dvec2& size : sizes)
+            sum += size.x * size.y;
+        return std::max(sum, 1e-30);
+    }
+};
+
+std::optional<Packing> try_pack(const Task& task, double density, int side)
+{
+    if (task.footprint(density) > double(side) * side)
+        return std::nullopt;
+    std::vector<stbrp_rect> rectangles(task.sizes.size());
+    for (std::size_t i = 0; i < rectangles.size(); ++i) {
+        const glm::ivec2 padded = task.texels(task.sizes[i], density) + task.gutter;
+        if (padded.x > side || padded.y > side)
+            return std::nullopt;
+        rectangles[i] = {int(i), padded.x, padded.y, 0, 0, 0};
+    }
+    // The packer's own sort does not say what it does with equals: give it no choice.
+    std::stable_sort(rectangles.begin(), rectangles.end(),
+                     [](const stbrp_rect& a, const stbrp_rect& b) {
+                         return a.h > b.h || (a.h == b.h && a.w > b.w);
+                     });
+    std::vector<stbrp_node> nodes(std::size_t(side), stbrp_node{});
+    stbrp_context context{};
+    stbrp_init_target(&context, side, side, nodes.data(), side);
+    if (stbrp_pack_rects(&context, rectangles.data(), int(rectangles.size())) == 0)
+        return std::nullopt;
+
+    Packing packing{side, density, std::vector<PackedRectangle>(rectangles.size())};
+    for (const stbrp_rect& rectangle : rectangles)
+        packing.rectangles[rectangle.id] = {glm::ivec2(rectangle.x, rectangle.y) + task.gutter / 2,
+                                            glm::ivec2(rectangle.w, rectangle.h) - task.gutter};
+    return packing;
+}
+
+/// The densest packing that fits a square of this side, no denser than `limit` [texels/m].
+std::optional<Packing> fill(const Task& task, int side, double limit)
+{
+    // Even rounding down cannot bring more than this much of the rectangles into the square.
+    double above = std::min(2.0 * side / std::sqrt(task.area()), limit);
+    if (std::optional<Packing> packing = try_pack(task, above, side))
+        return packing;
+    // Below `least` every rectangle is a single texel.
+    double longest = 0.0;
+    for (const glm::dvec2& size : task.sizes)
+        longest = std::max({longest, size.x, size.y});
+    const double least = 1.0 / std::max(longest, 1e-30);
+    double below = above;
+    std::optional<Packing> best;
+    while (!best && below > least) {
+        above = below;
+        below = std::max(0.7 * below, least);
+        best = try_pack(task, below, side);
+    }
+    for (int i = 0; best && i < kBisections; ++i) {
+        const double middle = std::sqrt(below * above);
+        if (std::optional<Packing> packing = try_pack(task, middle, side)) {
+            best = std::move(packing);
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    return best;
+}
+
+[[noreturn]] void throw_too_small(const Task& task, int side)
+{
+    throw Error(ErrorKind::input, "",
+                fmt::format("{} charts do not fit into a map of {} × {} texels even at one texel "
+                            "each; raise the size of the map",
+                            task.sizes.size(), side, side));
+}
+
+int round_up_to_step(double side)
+{
+    return int(std::ceil(side / kSideStep)) * kSideStep;
+}
+
+/// The smallest square, in steps, that holds everything at this density.
+std::optional<Packing> grow_to_fit(const Task& task, double density, int max_side)
+{
+    const double start = std::sqrt(task.footprint(density));
+    for (int side = start < max_side ? round_up_to_step(start) : max_side + 1; side <= max_side;
+         side = std::min(round_up_to_step(kSideGrowth * side + 1.0),
+                         side < max_side ? max_side : max_side + 1))
+        if (std::optional<Packing> packing = try_pack(task, density, side))
+            return packing;
+    return std::nullopt;
+}
+
+std::optional<Packing> pack_default(const Task& task, int max_side)
+{
+    std::optional<Packing> packing;
+    for (int side = std::min(kDefaultSide, max_side);; side = std::min(2 * side, max_side)) {
+        packing = fill(task, side, 1e30);
+        const bool dense = packing && task.area() * packing->density * packing->density >
+                                          kDefaultFill * side * side;
+        if (dense || side == max_side)
+            return packing;
+    }
+}
+
+}  // namespace
+
+Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
+             std::vector<std::string>& notes)
+{
+    const Task task{sizes, options.gutter};
+    const double asked = options.texels_per_metre;
+    const int side = options.size > 0 ? options.size : options.max_size;
+    std::optional<Packing> packing;
+    if (options.size == 0 && asked > 0.0)
+        packing = grow_to_fit(task, asked, options.max_size);
+    else if (options.size == 0)
+        packing = pack_default(task, options.max_size);
+    if (!packing)
+        packing = fill(task, side, asked > 0.0 ? asked : 1e30);
+    if (!packing)
+        throw_too_small(task, side);
+    if (asked > 0.0 && packing->density < asked)
+        notes.push_back(fmt::format("the map is limited to {} × {} texels: density lowered from "
+                                    "{:.4g} to {:.4g} texels per metre",
+                                    side, side, asked, packing->density));
+    return *packing;
+}
+
+}  // namespace lumel

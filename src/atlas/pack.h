@@ -1,0 +1,30 @@
+#pragma once
+// Rectangles into a square.
+
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "atlas/atlas.h"
+
+namespace lumel {
+
+struct PackedRectangle {
+    glm::ivec2 corner{0};  ///< top left [texels]
+    glm::ivec2 size{1};    ///< whole texels, at least 1
+};
+
+struct Packing {
+    int side = 0;          ///< of the square [texels]
+    double density = 0.0;  ///< [texels/m]
+    std::vector<PackedRectangle> rectangles;
+};
+
+/// Places rectangles of the given sizes [m] with `options.gutter` empty texels between any two,
+/// and half as many along the rim. Each size is rounded to whole texels. Adds to `notes` where
+/// the density asked for could not be had. Throws Error{input} if they cannot be made to fit.
+Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
+             std::vector<std::string>& notes);
+
+}  // namespace lumel
