@@ -1,0 +1,151 @@
+// The main job from outside: files, JSON, silence, interruption, exit codes.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+const std::vector<std::string> kResults = {"lightmap.exr", "lightmap.png",    "preview.png",
+                                           "report.json",  "scene-baked.glb", "scene.glb"};
+
+std::vector<std::string> inside(const std::string& folder)
+{
+    std::vector<std::string> paths = {folder};
+    for (const std::string& name : kResults)
+        paths.push_back(folder + "/" + name);
+    return paths;
+}
+
+std::vector<std::string> small_bake(const std::string& folder, const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments = {
+        "bake", own_scene("cornell-box.gltf"), folder, "--size", "32", "--preview-width", "64"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+TEST(Bake, WritesAllItsFilesAndNothingElse)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "64"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    EXPECT_EQ(place.listing(), inside("out"));
+    EXPECT_EQ(bytes_of(place.path("out/lightmap.exr")).substr(0, 4), "\x76\x2f\x31\x01");
+    EXPECT_EQ(bytes_of(place.path("out/preview.png")).substr(1, 3), "PNG");
+    EXPECT_EQ(bytes_of(place.path("out/scene.glb")).substr(0, 4), "glTF");
+    EXPECT_EQ(bytes_of(place.path("out/scene-baked.glb")).substr(0, 4), "glTF");
+}
+
+TEST(Bake, PrintsTheReportItWritesAsJson)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "64", "--json"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    const auto printed = nlohmann::json::parse(bake.out, nullptr, false);
+    ASSERT_FALSE(printed.is_discarded()) << bake.out;
+    EXPECT_EQ(printed, nlohmann::json::parse(bytes_of(place.path("out/report.json"))));
+}
+
+TEST(Bake, SaysNothingWhenQuiet)
+{
+    const Workplace place;
+    const Outcome bake =
+        run_lumel(small_bake(place.path("out"), {"--shots", "64", "--quiet"}), {.terminal = true});
+    EXPECT_EQ(bake.code, 0);
+    EXPECT_EQ(bake.out, "");
+    EXPECT_EQ(bake.err, "");
+}
+
+TEST(Bake, DrawsItsProgressOnATerminalOnly)
+{
+    const Workplace place;
+    const auto arguments = small_bake(place.path("out"), {"--time", "1.5"});
+    EXPECT_NE(run_lumel(arguments, {.terminal = true}).err.find("iterations/s"), std::string::npos);
+    EXPECT_EQ(run_lumel(arguments).err.find("iterations/s"), std::string::npos);
+}
+
+TEST(Bake, OneSeedGivesOneMapByteForByte)
+{
+    const Workplace place;
+    ASSERT_EQ(run_lumel(small_bake(place.path("a"), {"--shots", "128", "--seed", "7"})).code, 0);
+    ASSERT_EQ(run_lumel(small_bake(place.path("b"), {"--shots", "128", "--seed", "7"})).code, 0);
+    EXPECT_EQ(bytes_of(place.path("a/lightmap.exr")), bytes_of(place.path("b/lightmap.exr")));
+}
+
+TEST(Bake, CtrlCWritesTheBestSolutionAndExits130)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "2000000000"}),
+                                   {.interrupt_after = 3.0});
+    EXPECT_EQ(bake.code, 130) << bake.err;
+    EXPECT_EQ(place.listing(), inside("out"));
+}
+
+TEST(Bake, StopsAtTheTimeGiven)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--time", "1", "--json"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    EXPECT_FALSE(nlohmann::json::parse(bake.out, nullptr, false).is_discarded());
+}
+
+TEST(Bake, ADeviceThatIsNotThereIsExitCode3)
+{
+    const Workplace place;
+    const auto arguments = small_bake(place.path("out"), {"--device", "no such device"});
+    expect_one_sentence(run_lumel(arguments), 3, {"no such device"});
+    EXPECT_TRUE(place.listing().empty());
+}
+
+TEST(Bake, APlaceThatCannotBeWrittenIsExitCode4)
+{
+    const Workplace place;
+    const std::string file = place.file("file", "not a folder");
+    expect_one_sentence(run_lumel(small_bake(file + "/out", {"--shots", "64"})), 4, {file});
+    EXPECT_EQ(bytes_of(file), "not a folder");
+}
+
+TEST(Reference, WritesItsMapAndCompareMeasuresIt)
+{
+    const Workplace place;
+    const Outcome reference = run_lumel({"reference", own_scene("cornell-box.gltf"),
+                                         place.path("ref"), "--spp", "4", "--size", "32"});
+    ASSERT_EQ(reference.code, 0) << reference.err;
+    const std::string map = place.path("ref/lightmap.exr");
+    const Outcome same = run_lumel({"compare", map, map, "-o", place.path("heat.png"), "--json"});
+    ASSERT_EQ(same.code, 0) << same.err;
+    const auto figures = nlohmann::json::parse(same.out, nullptr, false);
+    ASSERT_FALSE(figures.is_discarded()) << same.out;
+    EXPECT_EQ(figures["relative_rmse"], 0.0);
+    EXPECT_EQ(figures["max"], 0.0);
+    EXPECT_GT(figures["texels"], 100);
+    EXPECT_EQ(bytes_of(place.path("heat.png")).substr(1, 3), "PNG");
+}
+
+TEST(Info, SaysWhatABakeWouldTakeAndWritesNothing)
+{
+    const Outcome text = run_lumel({"info", own_scene("cornell-box.gltf"), "--size", "32"});
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_NE(text.out.find("lumels"), std::string::npos) << text.out;
+    const Outcome json =
+        run_lumel({"info", own_scene("cornell-box.gltf"), "--size", "32", "--json"});
+    EXPECT_FALSE(nlohmann::json::parse(json.out, nullptr, false).is_discarded()) << json.out;
+}
+
+TEST(Devices, ListsAtLeastOneThatCanBeUsed)
+{
+    const Outcome devices = run_lumel({"devices", "--json"});
+    ASSERT_EQ(devices.code, 0) << devices.err;
+    const auto list = nlohmann::json::parse(devices.out, nullptr, false);
+    ASSERT_TRUE(list.is_array()) << devices.out;
+    EXPECT_TRUE(
+        std::any_of(list.begin(), list.end(), [](const auto& device) { return device["usable"]; }));
+}
+
+}  // namespace
+}  // namespace lumel::test

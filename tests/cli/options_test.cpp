@@ -1,0 +1,85 @@
+// What the command line accepts, and what it says to what it does not.
+
+#include <gtest/gtest.h>
+
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+struct BadLine {
+    std::vector<std::string> arguments;
+    std::vector<std::string> words;  ///< the sentence must hold them
+};
+
+TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
+{
+    const std::string scene = own_scene("cornell-box.gltf");
+    const BadLine lines[] = {
+        {{}, {"--help"}},
+        {{"frobnicate"}, {"frobnicate"}},
+        {{"bake"}, {"scene"}},
+        {{"bake", scene}, {"folder"}},
+        {{"bake", scene, "out", "more"}, {"more"}},
+        {{"bake", scene, "out", "--siz", "32"}, {"--siz"}},
+        {{"bake", scene, "out", "--size"}, {"--size"}},
+        {{"bake", scene, "out", "--size", "0"}, {"--size", "0"}},
+        {{"bake", scene, "out", "--size", "nan"}, {"--size", "nan"}},
+        {{"bake", scene, "out", "--size", "3.5"}, {"--size", "3.5"}},
+        {{"bake", scene, "out", "--shots", "0"}, {"--shots"}},
+        {{"bake", scene, "out", "--shots", "1e99"}, {"--shots"}},
+        {{"bake", scene, "out", "--time", "-1"}, {"--time"}},
+        {{"bake", scene, "out", "--time", "inf"}, {"--time"}},
+        {{"bake", scene, "out", "--error", "0"}, {"--error"}},
+        {{"bake", scene, "out", "--texels-per-metre", "nan"}, {"--texels-per-metre"}},
+        {{"bake", scene, "out", "--seed", "-1"}, {"--seed"}},
+        {{"bake", scene, "out", "--seed", "4294967296"}, {"--seed"}},
+        {{"bake", scene, "out", "--solver", "magic"}, {"--solver", "magic"}},
+        {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
+        {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
+        {{"reference", scene, "out", "--spp", "0"}, {"--spp"}},
+        {{"compare", "one.exr"}, {"B"}},
+        {{"info"}, {"scene"}},
+    };
+    for (const BadLine& line : lines) {
+        SCOPED_TRACE(testing::PrintToString(line.arguments));
+        expect_one_sentence(run_lumel(line.arguments), 2, line.words);
+    }
+}
+
+TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
+{
+    const Outcome version = run_lumel({"--version"});
+    EXPECT_EQ(version.code, 0);
+    EXPECT_EQ(version.out.rfind("lumel ", 0), 0u);
+    EXPECT_EQ(version.err, "");
+    const Outcome help = run_lumel({"bake", "-h"});
+    EXPECT_EQ(help.code, 0);
+    for (const char* option :
+         {"--texels-per-metre", "--size", "--shots", "--time", "--error", "--json"})
+        EXPECT_NE(help.out.find(option), std::string::npos) << option;
+}
+
+TEST(Options, ReadmeExplainsEveryOptionThatHelpLists)
+{
+    const std::string readme = bytes_of(LUMEL_SOURCE_DIR "/README.md");
+    for (const char* command : {"bake", "reference", "info", "compare", "devices", "methods"}) {
+        const std::string help = run_lumel({command, "--help"}).out;
+        for (std::size_t at = help.find("--"); at != std::string::npos;
+             at = help.find("--", at + 2)) {
+            const std::string option = help.substr(at, help.find_first_of(" ,=\n", at) - at);
+            EXPECT_NE(readme.find("`" + option), std::string::npos)
+                << option << " of " << command << " is not in README.md";
+        }
+    }
+}
+
+TEST(Options, MethodsListsTheDefaultSolver)
+{
+    const Outcome methods = run_lumel({"methods"});
+    EXPECT_EQ(methods.code, 0);
+    EXPECT_NE(methods.out.find("stochastic"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace lumel::test

@@ -1,0 +1,166 @@
+#include "program.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lumel::test {
+namespace {
+
+struct Channel {
+    int ours = -1;
+    int theirs = -1;
+};
+
+Channel make_pipe()
+{
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw std::runtime_error("pipe2 failed");
+    return {ends[0], ends[1]};
+}
+
+Channel make_terminal()
+{
+    Channel channel;
+    winsize size = {};
+    size.ws_row = 25;
+    size.ws_col = 100;
+    if (openpty(&channel.ours, &channel.theirs, nullptr, nullptr, &size) != 0)
+        throw std::runtime_error("openpty failed");
+    return channel;
+}
+
+/// Reads both ends until the program has closed them.
+void collect(int out, int err, Outcome& outcome)
+{
+    std::array<pollfd, 2> ends = {pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}};
+    std::array<char, 4096> buffer;
+    while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+        poll(ends.data(), ends.size(), -1);
+        for (pollfd& end : ends) {
+            if (end.fd < 0 || end.revents == 0)
+                continue;
+            const ssize_t count = read(end.fd, buffer.data(), buffer.size());
+            // A terminal whose other side is closed gives an error, a pipe gives 0.
+            if (count <= 0)
+                end.fd = -1;
+            else
+                (&end == &ends[0] ? outcome.out : outcome.err)
+                    .append(buffer.data(), static_cast<std::size_t>(count));
+        }
+    }
+}
+
+[[noreturn]] void become_lumel(std::vector<std::string> arguments, int out, int err)
+{
+    arguments.insert(arguments.begin(), LUMEL_PROGRAM);
+    std::vector<char*> values;
+    for (std::string& argument : arguments)
+        values.push_back(argument.data());
+    values.push_back(nullptr);
+    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+    dup2(out, STDOUT_FILENO);
+    dup2(err, STDERR_FILENO);
+    // Whatever the test runner ignores, a user's shell does not.
+    signal(SIGINT, SIG_DFL);
+    execv(values[0], values.data());
+    _exit(127);
+}
+
+}  // namespace
+
+Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& options)
+{
+    const Channel out = make_pipe();
+    const Channel err = options.terminal ? make_terminal() : make_pipe();
+    const pid_t child = fork();
+    if (child == 0)
+        become_lumel(arguments, out.theirs, err.theirs);
+    close(out.theirs);
+    close(err.theirs);
+
+    std::thread interrupter;
+    if (options.interrupt_after)
+        interrupter = std::thread([child, seconds = *options.interrupt_after] {
+            std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+            kill(child, SIGINT);
+        });
+    Outcome outcome;
+    collect(out.ours, err.ours, outcome);
+    // Wait for the interrupter first: the child's number stays its own until it is reaped.
+    if (interrupter.joinable())
+        interrupter.join();
+    int status = 0;
+    waitpid(child, &status, 0);
+    close(out.ours);
+    close(err.ours);
+    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return outcome;
+}
+
+Workplace::Workplace()
+{
+    std::string name = (std::filesystem::temp_directory_path() / "lumel-cli-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+        throw std::runtime_error("mkdtemp failed");
+    folder_ = name;
+}
+
+Workplace::~Workplace()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+}
+
+std::string Workplace::file(const std::string& name, const std::string& bytes) const
+{
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+}
+
+std::vector<std::string> Workplace::listing() const
+{
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_))
+        names.push_back(std::filesystem::relative(entry.path(), folder_).string());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string own_scene(const std::string& name)
+{
+    return LUMEL_SOURCE_DIR "/scenes/" + name;
+}
+
+std::string bytes_of(const std::string& path)
+{
+    std::ostringstream bytes;
+    bytes << std::ifstream(path, std::ios::binary).rdbuf();
+    return bytes.str();
+}
+
+void expect_one_sentence(const Outcome& outcome, int code, const std::vector<std::string>& words)
+{
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    for (const std::string& word : words)
+        EXPECT_NE(outcome.err.find(word), std::string::npos)
+            << word << " is not in: " << outcome.err;
+}
+
+}  // namespace lumel::test

@@ -1,0 +1,53 @@
+#pragma once
+// The built program as a user meets it: arguments in, exit code, stdout, stderr and files out.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lumel::test {
+
+struct RunOptions {
+    bool terminal = false;                    ///< stderr is a terminal of 100 columns
+    std::optional<double> interrupt_after{};  ///< send SIGINT after this long [s]
+};
+
+struct Outcome {
+    int code = -1;  ///< exit code, or 128 + the signal that ended it
+    std::string out;
+    std::string err;
+};
+
+/// Runs lumel to its end.
+Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& options = {});
+
+/// A fresh folder for one test, removed with all it holds.
+class Workplace {
+public:
+    Workplace();
+    ~Workplace();
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    /// Writes a file and gives its path.
+    std::string file(const std::string& name, const std::string& bytes) const;
+    /// Names of everything in it, hidden files included, sorted.
+    std::vector<std::string> listing() const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// A scene of the project's own.
+std::string own_scene(const std::string& name);
+
+/// All bytes of a file; empty if there is none.
+std::string bytes_of(const std::string& path);
+
+/// Passes if `outcome` is a failure with this exit code that says one line on stderr, nothing on
+/// stdout, and names all of `words`.
+void expect_one_sentence(const Outcome& outcome, int code, const std::vector<std::string>& words);
+
+}  // namespace lumel::test
