@@ -58,22 +58,18 @@ double noise(std::uint32_t a, std::uint32_t b)
     return double(hash ^ hash >> 15) / 4294967296.0;
 }
 
-/// Running mean of one part.
-struct PartLook {
-    Look sum;
-    double count = 0.0;
+/// Adds a sample that stands for this much area.
+void add(Look& sum, const MaterialSample& sample, double area)
+{
+    sum.albedo += area * double(sample.opacity) * glm::dvec3(sample.albedo);
+    sum.luminance += area * double(sample.opacity) * glm::dvec3(sample.emitted);
+    sum.opacity += area * double(sample.opacity);
+    sum.area += area;
+}
 
-    void add(const MaterialSample& sample)
-    {
-        sum.albedo += double(sample.opacity) * glm::dvec3(sample.albedo);
-        sum.luminance += double(sample.opacity) * glm::dvec3(sample.emitted);
-        sum.opacity += sample.opacity;
-        count += 1.0;
-    }
-};
-
-void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, int y,
-                    std::vector<PartLook>& looks)
+/// Samples all parts on a grid over the texel. Notes in `met` which of them a sample fell into.
+void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, int y, Look& sum,
+                    std::vector<bool>& met)
 {
     const Part* largest = &parts.front();
     for (const Part& part : parts)
@@ -93,9 +89,14 @@ void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, i
                                    jitter * (noise(texel, stratum + 1u) - 0.5));
             const glm::dvec2 point =
                 glm::dvec2(x, y) + (glm::dvec2(i + 0.5, j + 0.5) + shift) / double(grid);
-            for (std::size_t p = 0; p < parts.size(); ++p)
-                if (!parts[p].triangle.collapsed && parts[p].polygon.contains(point))
-                    looks[p].add(sample_at(scene, parts[p], point));
+            for (std::size_t p = 0; p < parts.size(); ++p) {
+                if (parts[p].triangle.collapsed || !parts[p].polygon.contains(point))
+                    continue;
+                add(sum, sample_at(scene, parts[p], point),
+                    parts[p].world_area / (parts[p].polygon.area() * grid * grid));
+                met[p] = true;
+                break;
+            }
         }
 }
 
@@ -103,28 +104,21 @@ void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, i
 
 Look mean_look(const Scene& scene, const std::vector<Part>& parts, int x, int y)
 {
-    std::vector<PartLook> looks(parts.size());
+    Look mean;
+    std::vector<bool> met(parts.size(), false);
     const bool uniform = std::all_of(parts.begin(), parts.end(),
                                      [](const Part& part) { return is_uniform(*part.material); });
     if (!uniform && parts.size() <= kManyParts)
-        sample_on_grid(scene, parts, x, y, looks);
+        sample_on_grid(scene, parts, x, y, mean, met);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+        if (!met[p])
+            add(mean, sample_at(scene, parts[p], parts[p].polygon.centroid()), parts[p].world_area);
 
-    Look mean;
-    double area = 0.0;
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-        if (looks[p].count == 0.0)
-            looks[p].add(sample_at(scene, parts[p], parts[p].polygon.centroid()));
-        const double weight = parts[p].world_area / looks[p].count;
-        mean.albedo += weight * looks[p].sum.albedo;
-        mean.luminance += weight * looks[p].sum.luminance;
-        mean.opacity += weight * looks[p].sum.opacity;
-        area += parts[p].world_area;
-    }
     if (mean.opacity > 0.0) {
         mean.albedo /= mean.opacity;
         mean.luminance /= mean.opacity;
     }
-    mean.opacity = area > 0.0 ? mean.opacity / area : 0.0;
+    mean.opacity = mean.area > 0.0 ? mean.opacity / mean.area : 0.0;
     return mean;
 }
 

