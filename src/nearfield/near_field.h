@@ -11,18 +11,19 @@
 namespace lumel {
 
 struct NearFieldOptions {
-    float radius = 4.0f;        ///< pairs closer than this × the larger of the two lumel sizes
-    int samples = 16;           ///< points per receiver (area rule); 1 at the centroid (centre rule)
-    bool centre = false;        ///< centre rule: receivers at their centroid
+    float radius = 4.0f;  ///< pairs closer than this × the larger of the two lumel sizes
+    int samples = 16;     ///< most points per pair; distant pairs take fewer
+    bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
 };
 
 /// Sparse form factors, one row per receiver i (compressed rows):
 /// H_i(near) = Σ_k factor[k] B[column[k]], k in [first[i], first[i + 1]).
 struct NearField {
-    std::vector<std::uint32_t> first;    ///< [N + 1]
-    std::vector<std::uint32_t> column;   ///< [nnz] shooter j, ascending within a row
-    std::vector<float> factor;           ///< [nnz] F_ij × visible fraction
+    float radius = 0.0f;                ///< NearFieldOptions::radius it was built with
+    std::vector<std::uint32_t> first;   ///< [N + 1]
+    std::vector<std::uint32_t> column;  ///< [nnz] shooter j, ascending within a row
+    std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
 };
 
 /// The rule that the receiver kernel repeats: centres (world) closer than
@@ -39,9 +40,5 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
 /// the side that sees its corners counter-clockwise; from the other side the result is 0.
 float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec3* corners,
                           int count);
-
-/// Marks lumels no light can reach (kLumelBuried): those that lie under or inside other
-/// geometry over all of their sampled area.
-void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels);
 
 }  // namespace lumel

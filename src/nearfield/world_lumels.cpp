@@ -1,0 +1,95 @@
+#include "nearfield/world_lumels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace lumel {
+
+namespace {
+
+/// Rays start this far above their lumel, in its sizes: too little to see past anything.
+constexpr float kLift = 1e-4f;
+/// The same, in units of the largest coordinate: a few roundings of a float.
+constexpr float kLiftOfExtent = 1e-6f;
+/// A lumel is flat if no corner is farther from its plane than this, in its sizes.
+constexpr float kFlat = 1e-4f;
+/// Opacities this close to 1 are rounding.
+constexpr float kOpaque = 0.999f;
+
+glm::vec3 area_vector(const Facet& facet)
+{
+    const glm::vec3* c = facet.corner;
+    if (facet.count == 3)
+        return 0.5f * glm::cross(c[1] - c[0], c[2] - c[0]);
+    return glm::cross(c[1] - c[0], c[3] - c[0]);
+}
+
+}  // namespace
+
+WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels)
+    : source_(lumels),
+      lumels_(lumels.lumels.size()),
+      facets_(lumels.pieces.size())
+{
+    for (const Instance& instance : scene.instances) {
+        const glm::mat3 linear(instance.transform);
+        placements_.push_back({instance.transform, glm::transpose(glm::inverse(linear))});
+    }
+    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
+    const float extent = std::max({reach.x, reach.y, reach.z});
+    parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Lumel& lumel = source_.lumels[i];
+            const Placement& placement = placements_[lumel.instance];
+            WorldLumel& world = lumels_[i];
+            world.centre = glm::vec3(placement.points * glm::vec4(lumel.position, 1.0f));
+            world.normal = glm::normalize(placement.normals * lumel.normal);
+            world.size = lumel.size;
+            world.lift = std::max(kLift * lumel.size, kLiftOfExtent * extent);
+            place_facets(i, glm::determinant(glm::mat3(placement.points)) < 0.0f);
+        }
+    });
+}
+
+void WorldLumels::place_facets(std::size_t i, bool mirrored)
+{
+    const Lumel& lumel = source_.lumels[i];
+    const glm::mat4& to_world = placements_[lumel.instance].points;
+    WorldLumel& world = lumels_[i];
+    world.first_facet = lumel.first_piece;
+    world.facet_count = lumel.piece_count;
+    float area = 0.0f, bump = 0.0f;
+    for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
+        const Piece& piece = source_.pieces[lumel.first_piece + p];
+        Facet& facet = facets_[lumel.first_piece + p];
+        const glm::vec3 origin(to_world * glm::vec4(piece.origin, 1.0f));
+        const glm::vec3 u = glm::mat3(to_world) * piece.edge_u;
+        const glm::vec3 v = glm::mat3(to_world) * piece.edge_v;
+        if (piece.parallelogram != 0)
+            facet = {{origin, origin + u, origin + u + v, origin + v}, 4};
+        else
+            facet = {{origin, origin + u, origin + v, origin}, 3};
+        if (mirrored)
+            std::reverse(facet.corner, facet.corner + facet.count);
+
+        area += glm::length(area_vector(facet));
+        for (int k = 0; k < facet.count; ++k)
+            bump = std::max(bump, std::abs(glm::dot(world.normal, facet.corner[k] - world.centre)));
+    }
+    world.flat = bump <= kFlat * world.size;
+    const float opacity = area > 0.0f ? lumel.area / area : 0.0f;
+    world.opacity = opacity < kOpaque ? opacity : 1.0f;
+}
+
+LumelPoint WorldLumels::point_on(std::size_t i, const glm::vec2& st) const
+{
+    const Lumel& lumel = source_.lumels[i];
+    const Placement& placement = placements_[lumel.instance];
+    const LumelPoint local = lumel::point_on(source_, lumel, st.x, st.y);
+    return {glm::vec3(placement.points * glm::vec4(local.position, 1.0f)),
+            glm::normalize(placement.normals * local.normal)};
+}
+
+}  // namespace lumel

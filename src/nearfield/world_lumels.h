@@ -1,0 +1,59 @@
+#pragma once
+// Lumels where they stand in the world, ready for geometry.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "atlas/atlas.h"
+#include "atlas/sampling.h"
+#include "rays/ray_scene.h"
+#include "scene/scene.h"
+
+namespace lumel {
+
+/// A piece of a lumel in the world: corners counter-clockwise as seen from its front.
+struct Facet {
+    glm::vec3 corner[4];
+    int count = 0;  ///< 3 or 4
+};
+
+struct WorldLumel {
+    glm::vec3 centre;      ///< [m]
+    glm::vec3 normal;      ///< unit, mean over the lumel
+    float size = 0.0f;     ///< [m]
+    float lift = 0.0f;     ///< [m] how far above the surface rays start, to miss the surface
+    float opacity = 1.0f;  ///< area / area of its facets: below 1 where it is cut out
+    bool flat = false;     ///< all facets lie in the plane through `centre` along `normal`
+    std::uint32_t first_facet = 0;
+    std::uint32_t facet_count = 0;
+};
+
+class WorldLumels {
+public:
+    WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
+
+    std::size_t size() const { return lumels_.size(); }
+    const WorldLumel& operator[](std::size_t i) const { return lumels_[i]; }
+    const Facet* begin(const WorldLumel& lumel) const { return &facets_[lumel.first_facet]; }
+    const Facet* end(const WorldLumel& lumel) const { return begin(lumel) + lumel.facet_count; }
+
+    /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
+    LumelPoint point_on(std::size_t i, const glm::vec2& st) const;
+
+private:
+    struct Placement {
+        glm::mat4 points;
+        glm::mat3 normals;
+    };
+
+    void place_facets(std::size_t i, bool mirrored);
+
+    const Lumels& source_;
+    std::vector<Placement> placements_;  ///< by instance
+    std::vector<WorldLumel> lumels_;
+    std::vector<Facet> facets_;  ///< one for each piece, same index
+};
+
+}  // namespace lumel
