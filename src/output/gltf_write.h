@@ -1,5 +1,11 @@
 #pragma once
-// The lit glTF.
+// The lit glTF: the input file with a lightmap, or with its light baked in.
+//
+// Both files are one self-contained .glb. All of the input's content stays (nodes, cameras,
+// animations, skins, extras, images), but every baked primitive of every instance becomes a
+// triangle list of its own with TEXCOORD_1 = its place in the atlas, (0, 0) at the top left.
+// Materials that read their own textures through the old TEXCOORD_1 find it under the next free
+// number.
 
 #include <string>
 
@@ -9,16 +15,21 @@
 
 namespace lumel {
 
-/// scene.glb: the input file with every baked mesh given TEXCOORD_1 and the map bound by
-/// MOZ_lightmap (in extensionsUsed, never extensionsRequired). `map`: irradiance [lx], RGBA,
-/// stored as 8-bit linear PNG scaled to its brightest texel; intensity = that scale / π × …
-/// (see gltf_write.cpp for the exact convention). Throws Error.
-void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas, const Image& map);
+/// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
+/// material; the extension is listed in extensionsUsed only, so that a viewer without it shows
+/// the scene unlit. The PNG holds irradiance / intensity, 8 bits, linear; intensity [lx] is the
+/// brightest covered texel, but at most twice the map's bright end (see bright_end), beyond which
+/// the PNG clips. As in three.js, the radiance that a surface reflects is
+///     albedo / π × texel × intensity.
+/// `map`: irradiance [lx], RGBA. Throws Error.
+void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
+                     const Image& map);
 
-/// scene-baked.glb: core glTF only (plus KHR_materials_emissive_strength as an option of the
-/// viewer): each surface shows albedo × irradiance / π + its own emission as emissive texture on
-/// TEXCOORD_1, with black base colour, so that any viewer shows it lit. `radiance`: RGBA map of
-/// reflected plus emitted radiance [cd/m²].
+/// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
+/// metallic and rough, so that it reflects nothing, and emits a texture on TEXCOORD_1: the
+/// radiance map under tone_map's exposure and curve, 8 bits, sRGB. Cut-outs and blending keep
+/// their alpha. Lights and material extensions are left out: the light is in the colours.
+/// `radiance`: reflected plus emitted [cd/m²], RGBA. Throws Error.
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& radiance);
 

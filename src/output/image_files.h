@@ -34,8 +34,11 @@ std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding =
 /// `exposure` 0: chosen from the covered texels. Alpha stays as it is.
 Image tone_map(const Image& linear, float exposure = 0.0f);
 
-/// The factor tone_map chooses: it puts the bright end of the covered, lit texels below white
-/// and takes lamps for lamps. 1 if nothing is lit.
+/// Luminance that is bright in this image, in its own unit: the 98th percentile of the covered,
+/// lit texels, but no more than 8 times their median, which takes lamps for lamps. 0: nothing lit.
+float bright_end(const Image& linear);
+
+/// The factor tone_map chooses: it puts the bright end just below white. 1 if nothing is lit.
 float choose_exposure(const Image& linear);
 
 /// tone_map's curve for one value that exposure was applied to: display code 0…1.

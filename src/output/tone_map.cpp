@@ -54,7 +54,7 @@ float display_from_linear(float exposed)
     return srgb_from_linear(y);
 }
 
-float choose_exposure(const Image& linear)
+float bright_end(const Image& linear)
 {
     // Black texels say nothing about how bright the light is.
     std::vector<float> lit;
@@ -66,10 +66,14 @@ float choose_exposure(const Image& linear)
             lit.push_back(luminance(texel));
     }
     if (lit.empty())
-        return 1.0f;
-    const float bright =
-        std::min(percentile(lit, kBrightShare), kBrightOverMedian * percentile(lit, 0.5));
-    return kBrightEnd / bright;
+        return 0.0f;
+    return std::min(percentile(lit, kBrightShare), kBrightOverMedian * percentile(lit, 0.5));
+}
+
+float choose_exposure(const Image& linear)
+{
+    const float bright = bright_end(linear);
+    return bright > 0.0f ? kBrightEnd / bright : 1.0f;
 }
 
 Image tone_map(const Image& linear, float exposure)

@@ -1,0 +1,215 @@
+#include "output/baked_meshes.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "output/baked_materials.h"
+#include "output/vertex_gather.h"
+
+namespace lumel {
+namespace {
+
+using PrimitiveKey = std::pair<std::size_t, std::size_t>;  // mesh, primitive
+using NodesOfMesh = std::map<std::size_t, std::vector<std::size_t>>;
+
+[[noreturn]] void fail_changed(const std::string& path)
+{
+    throw Error(ErrorKind::input, path, "has changed while it was baked; bake it again");
+}
+
+const Json* source_primitive(const Json& json, const BakedPrimitive& baked)
+{
+    const auto nodes = json.find("nodes");
+    const auto meshes = json.find("meshes");
+    if (nodes == json.end() || meshes == json.end() || baked.node >= nodes->size() ||
+        (*nodes)[baked.node].value("mesh", meshes->size()) != baked.mesh ||
+        baked.mesh >= meshes->size())
+        return nullptr;
+    const Json& primitives = (*meshes)[baked.mesh].at("primitives");
+    return baked.primitive < primitives.size() ? &primitives[baked.primitive] : nullptr;
+}
+
+// TEXCOORD numbers must go up without a gap.
+int first_free_texcoord(const Json& attributes)
+{
+    int number = 2;
+    while (attributes.contains("TEXCOORD_" + std::to_string(number)))
+        ++number;
+    return number;
+}
+
+NodesOfMesh nodes_of_meshes(const Json& json)
+{
+    NodesOfMesh nodes;
+    const Json& list = json.at("nodes");
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (list[i].contains("mesh"))
+            nodes[list[i].at("mesh").get<std::size_t>()].push_back(i);
+    return nodes;
+}
+
+// Builds primitives one after another. Instances whose charts are split alike share all of their
+// arrays but TEXCOORD_1.
+class PrimitiveWriter {
+public:
+    PrimitiveWriter(GlbBuilder& builder, const Atlas& atlas)
+        : builder_(builder),
+          gather_(builder),
+          atlas_(atlas)
+    {
+    }
+
+    Json write(const BakedPrimitive& baked)
+    {
+        const Surface& surface = *baked.surface;
+        const auto shared = written_.find({baked.mesh, baked.primitive});
+        const bool alike = shared != written_.end() &&
+                           shared->second.surface->source_vertex == surface.source_vertex &&
+                           shared->second.surface->indices == surface.indices;
+        Json primitive = alike ? shared->second.json : write_arrays(baked);
+        if (!alike)
+            written_[{baked.mesh, baked.primitive}] = {&surface, primitive};
+
+        std::vector<glm::vec2> places;
+        for (const glm::vec2& texcoord : surface.texcoord)
+            places.push_back(texcoord / glm::vec2(atlas_.width, atlas_.height));
+        const std::size_t lightmap_uv = gather_.add_texcoords(places);
+        Json& attributes = primitive["attributes"];
+        if (!attributes.contains("TEXCOORD_0"))
+            lone_texcoord_.insert({baked.mesh, baked.primitive});
+        if (lone_texcoord_.contains({baked.mesh, baked.primitive}))
+            attributes["TEXCOORD_0"] = lightmap_uv;
+        attributes["TEXCOORD_1"] = lightmap_uv;
+        primitive["material"] = baked.material.value();
+        for_variants(primitive, [&](Json& mapping) {
+            mapping["material"] = baked.copies.at(mapping["material"].get<std::size_t>());
+        });
+        return primitive;
+    }
+
+private:
+    struct Written {
+        const Surface* surface;
+        Json json;
+    };
+
+    Json write_arrays(const BakedPrimitive& baked)
+    {
+        const Surface& surface = *baked.surface;
+        Json primitive =
+            builder_.document().json.at("meshes")[baked.mesh]["primitives"][baked.primitive];
+        Json attributes = Json::object();
+        for (const auto& [name, accessor] : primitive.at("attributes").items()) {
+            std::string kept_as = name;
+            if (name == "TEXCOORD_1" && baked.moved_texcoord == 0)
+                continue;
+            if (name == "TEXCOORD_1")
+                kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
+            attributes[kept_as] = gather_.gather(accessor, surface.source_vertex, name);
+        }
+        primitive["attributes"] = attributes;
+        if (primitive.contains("targets"))
+            for (Json& target : primitive["targets"])
+                for (auto& [name, accessor] : target.items())
+                    accessor = gather_.gather(accessor, surface.source_vertex, name);
+        primitive["indices"] = gather_.add_indices(surface.indices, surface.source_vertex.size());
+        primitive.erase("mode");
+        if (primitive.contains("extensions"))
+            primitive["extensions"].erase("KHR_draco_mesh_compression");
+        return primitive;
+    }
+
+    GlbBuilder& builder_;
+    VertexGather gather_;
+    const Atlas& atlas_;
+    std::map<PrimitiveKey, Written> written_;
+    std::set<PrimitiveKey> lone_texcoord_;
+};
+
+}  // namespace
+
+std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, const Scene& scene,
+                                                  const Atlas& atlas)
+{
+    std::vector<BakedPrimitive> list;
+    for (const Surface& surface : atlas.surfaces) {
+        const Instance& instance = scene.instances[surface.instance];
+        const Primitive& primitive =
+            scene.meshes[std::size_t(instance.mesh)].primitives[surface.primitive];
+        const Json& nodes = document.json.at("nodes");
+        BakedPrimitive baked;
+        baked.surface = &surface;
+        baked.node = std::size_t(instance.node);
+        if (baked.node >= nodes.size() || !nodes[baked.node].contains("mesh"))
+            fail_changed(document.path);
+        baked.mesh = nodes[baked.node].at("mesh").get<std::size_t>();
+        baked.primitive = std::size_t(primitive.source_primitive);
+
+        const Json* source = source_primitive(document.json, baked);
+        if (!source)
+            fail_changed(document.path);
+        if (source->contains("material"))
+            baked.material = source->at("material").get<std::size_t>();
+        const Json& attributes = source->at("attributes");
+        baked.file_materials = materials_of(*source);
+        const bool reads = std::any_of(
+            baked.file_materials.begin(), baked.file_materials.end(), [&](std::size_t material) {
+                return reads_texcoord_1(document.json.at("materials").at(material));
+            });
+        if (reads && attributes.contains("TEXCOORD_1"))
+            baked.moved_texcoord = first_free_texcoord(attributes);
+        list.push_back(baked);
+    }
+    return list;
+}
+
+void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked)
+{
+    std::map<PrimitiveKey, std::size_t> uses;
+    for (const BakedPrimitive& b : baked)
+        ++uses[{b.mesh, b.primitive}];
+    const NodesOfMesh nodes = nodes_of_meshes(json);
+    for (const auto& [key, count] : uses)
+        if (count == nodes.at(key.first).size())
+            json["meshes"][key.first]["primitives"][key.second] = Json::object();
+}
+
+void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
+                            const Atlas& atlas)
+{
+    // Fill a copy of the mesh for each node.
+    std::map<std::size_t, Json> mesh_of_node;
+    PrimitiveWriter writer(builder, atlas);
+    for (const BakedPrimitive& b : baked) {
+        Json& mesh = mesh_of_node[b.node];
+        if (mesh.is_null())
+            mesh = builder.document().json.at("meshes")[b.mesh];
+        mesh["primitives"][b.primitive] = writer.write(b);
+    }
+
+    // The first copy takes the place of its mesh where nothing else needs that.
+    const NodesOfMesh nodes_of_mesh = nodes_of_meshes(builder.json);
+    for (const auto& [mesh, nodes] : nodes_of_mesh) {
+        bool needed = std::any_of(nodes.begin(), nodes.end(),
+                                  [&](std::size_t n) { return !mesh_of_node.contains(n); });
+        for (const std::size_t node : nodes) {
+            const auto copy = mesh_of_node.find(node);
+            if (copy == mesh_of_node.end())
+                continue;
+            Json& meshes = builder.json["meshes"];
+            if (needed) {
+                builder.json["nodes"][node]["mesh"] = meshes.size();
+                meshes.push_back(std::move(copy->second));
+            } else {
+                meshes[mesh] = std::move(copy->second);
+                needed = true;
+            }
+        }
+    }
+}
+
+}  // namespace lumel

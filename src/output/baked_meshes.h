@@ -1,0 +1,39 @@
+#pragma once
+// Giving every baked primitive of every instance a mesh entry of its own.
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "output/glb_builder.h"
+#include "scene/scene.h"
+
+namespace lumel {
+
+/// A primitive of the file that is baked for one instance.
+struct BakedPrimitive {
+    const Surface* surface = nullptr;
+    std::size_t node = 0;                       ///< index into the file's nodes
+    std::size_t mesh = 0;                       ///< index into the file's meshes
+    std::size_t primitive = 0;                  ///< index into that mesh's primitives
+    int moved_texcoord = 0;                     ///< new number of the old TEXCOORD_1, 0: not needed
+    std::optional<std::size_t> material;        ///< in the file; after separate_materials: its copy
+    std::vector<std::size_t> file_materials;    ///< the same and those of its variants
+    std::map<std::size_t, std::size_t> copies;  ///< file material to its copy
+};
+
+/// What the atlas covers, in its order. Throws Error{input} if the file is not the one that the
+/// scene was read from.
+std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, const Scene& scene,
+                                                  const Atlas& atlas);
+
+/// Empties primitives whose every use is baked, so that their data can be released.
+void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked);
+
+/// Puts the split triangle lists in: a mesh per instance, bound to its node.
+void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
+                            const Atlas& atlas);
+
+}  // namespace lumel

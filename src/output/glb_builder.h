@@ -1,0 +1,70 @@
+#pragma once
+// A glTF document under change, on its way into one .glb file.
+
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_document.h"
+
+namespace lumel {
+
+/// glTF's numbers for what a bufferView is for.
+enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
+
+/// Starts as a copy of a document, whose JSON may then be changed at will; release() lets go of
+/// what the changed JSON no longer refers to; after it, new data is added. Indices never move:
+/// what is released gives its number to what is added. The document must outlive the builder.
+class GlbBuilder {
+public:
+    explicit GlbBuilder(const GltfDocument& document);
+
+    Json json;
+    const GltfDocument& document() const { return document_; }
+
+    /// Drops the data of accessors and bufferViews that the document referred to and the JSON no
+    /// longer does, and puts the files of all images into the buffer. Images that cannot be read
+    /// keep their URI. Call once.
+    void release();
+
+    /// Appends data as a bufferView of its own. `stride` [bytes]: of vertex arrays, else 0.
+    std::size_t add_view(std::span<const std::uint8_t> bytes, ViewTarget target,
+                         std::size_t stride = 0);
+    std::size_t add_accessor(Json accessor);
+    /// Appends a PNG, a bilinear and clamping sampler, and the texture that joins them.
+    std::size_t add_texture(const std::string& name, std::span<const std::uint8_t> png);
+
+    /// The finished file. Throws Error{output} if it is beyond GLB's 4 GiB.
+    std::vector<std::uint8_t> finish();
+
+private:
+    void free_accessors();
+    void free_views();
+    void copy_views();
+    void embed_images();
+    std::size_t append(std::span<const std::uint8_t> bytes);
+
+    const GltfDocument& document_;
+    std::vector<std::uint8_t> binary_;
+    std::set<std::size_t> free_views_, free_accessors_;
+};
+
+/// Every accessor that meshes, skins, animations and instancing of a glTF refer to.
+std::set<std::size_t> used_accessors(const Json& json);
+
+/// Calls visit(object) for `value` and every object inside it, but not inside extras.
+template <class Value, class Visit>
+void for_objects(Value& value, const Visit& visit)
+{
+    if (value.is_object())
+        visit(value);
+    if (value.is_structured())
+        for (auto member = value.begin(); member != value.end(); ++member)
+            if (!value.is_object() || member.key() != "extras")
+                for_objects(*member, visit);
+}
+
+}  // namespace lumel
