@@ -157,8 +157,14 @@ void Commands::fill(const Buffer& buffer, std::uint32_t word)
 
 void Commands::copy(const Buffer& from, const Buffer& to, std::uint64_t bytes)
 {
+    copy_part(from, 0, to, 0, bytes);
+}
+
+void Commands::copy_part(const Buffer& from, std::uint64_t from_byte, const Buffer& to,
+                         std::uint64_t to_byte, std::uint64_t bytes)
+{
     begin();
-    const VkBufferCopy region{.size = bytes};
+    const VkBufferCopy region{.srcOffset = from_byte, .dstOffset = to_byte, .size = bytes};
     vkCmdCopyBuffer(buffer_, from.handle(), to.handle(), 1, &region);
     barrier();
 }

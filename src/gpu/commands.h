@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gpu/array.h"
@@ -68,6 +69,8 @@ public:
 
     void fill(const Buffer& buffer, std::uint32_t word = 0);
     void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes);
+    void copy_part(const Buffer& from, std::uint64_t from_byte, const Buffer& to,
+                   std::uint64_t to_byte, std::uint64_t bytes);
     void copy(const Buffer& from, const Target& to);  ///< level 0, then makes the smaller levels
     void copy(const Target& from, const Buffer& to);  ///< level 0
     void prepare(const Target& target);               ///< a new image's first use
@@ -92,8 +95,8 @@ public:
     /// submit() and wait().
     void run();
 
-    /// Adds up over all finished submissions of this object.
-    const StageTimes& times() const { return times_; }
+    /// Stage times of the submissions finished since the last call.
+    StageTimes take_times() { return std::exchange(times_, {}); }
     double last_milliseconds() const { return last_milliseconds_; }  ///< of the last submission
 
 private:

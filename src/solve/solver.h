@@ -2,20 +2,23 @@
 // What every method offers, and the one table of methods.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "gpu/pacer.h"
+#include "nearfield/near_field.h"
 #include "reference/reference.h"
+#include "world/world.h"
 
 namespace lumel {
 
 enum class Scheme {
     phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
-    paper,   ///< the papers' iteration: one random shooter, running average, no near table
+    paper,   ///< the papers' iteration: random shooters, running average, no near field
 };
 
 struct SolverOptions {
@@ -30,17 +33,51 @@ struct SolverOptions {
     double target_error = 0.02;         ///< estimated relative error to stop at, 0: never
 };
 
-/// A method of the table: what the user can ask for by --solver.
+/// Where a solver stands, as last heard from the device.
+struct SolverState {
+    std::uint64_t shots = 0;       ///< shooters so far
+    std::uint64_t iterations = 0;  ///< steps so far
+    double error = -1.0;           ///< estimated relative RMSE of the irradiance, < 0: not known yet
+};
+
+/// A method at work on one world. Every method fills the same result.
+class Solver {
+public:
+    virtual ~Solver() = default;
+
+    /// One pass of the paper's outer loop, recorded and submitted.
+    virtual void step() = 0;
+    virtual SolverState state() const = 0;
+    /// H [N] [lx] of the solution so far. Waits for the device.
+    virtual std::vector<glm::vec3> irradiance() = 0;
+    /// Device time per stage [ms] so far.
+    virtual const gpu::StageTimes& times() const = 0;
+    /// Longest submission so far [ms].
+    virtual double longest_submission() const = 0;
+};
+
+/// A method of the table: what --solver takes.
 struct MethodInfo {
     const char* id;
     const char* title;
-    const char* paper;
-    const char* advice;
+    const char* paper;   ///< keys of docs/references.md
+    const char* advice;  ///< when to use it
 };
 
 inline constexpr MethodInfo kMethods[] = {
     {"stochastic", "Stochastic radiosity by perspective ray bundles", "[SKB03], [BSS05]",
      "the default: any scene with diffuse surfaces and emissive lights"},
 };
+
+/// Throws Error{input} if options.method is not in the table. `near` may be empty for methods
+/// and schemes without a near field.
+std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
+                                    const Lumels& lumels, const NearField& near,
+                                    const SolverOptions& options);
+
+/// Steps until a limit of the options is met or `go_on` returns false. Returns true unless
+/// go_on ended it.
+bool solve(Solver& solver, const SolverOptions& options,
+           const std::function<bool(const SolverState&)>& go_on = {});
 
 }  // namespace lumel

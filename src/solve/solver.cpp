@@ -1,0 +1,41 @@
+#include "solve/solver.h"
+
+#include <chrono>
+
+#include "solve/stochastic.h"
+
+namespace lumel {
+
+std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
+                                    const Lumels& lumels, const NearField& near,
+                                    const SolverOptions& options)
+{
+    if (options.method == "stochastic")
+        return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
+    std::string known;
+    for (const MethodInfo& method : kMethods)
+        known += std::string(known.empty() ? "" : ", ") + method.id;
+    throw Error(ErrorKind::input, "--solver " + options.method, "no such method; there are: " + known);
+}
+
+bool solve(Solver& solver, const SolverOptions& options,
+           const std::function<bool(const SolverState&)>& go_on)
+{
+    const auto start = std::chrono::steady_clock::now();
+    for (;;) {
+        const SolverState state = solver.state();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (go_on && !go_on(state))
+            return false;
+        if (options.max_shots > 0 && state.shots >= options.max_shots)
+            return true;
+        if (options.max_seconds > 0.0 && seconds >= options.max_seconds)
+            return true;
+        if (options.target_error > 0.0 && state.error >= 0.0 && state.error <= options.target_error)
+            return true;
+        solver.step();
+    }
+}
+
+}  // namespace lumel

@@ -1,0 +1,44 @@
+#version 460
+#include "solve/stochastic.shared.h"
+
+// Sums of the energy balance (stochastic.glsl): Σ A ρ D and Σ A ρ T X of both half-solutions,
+// and Σ A X.
+
+layout(local_size_x = kSumGroup) in;
+layout(push_constant, scalar) uniform Params { AverageParams p; };
+layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(binding = 1, scalar) readonly buffer Direct { vec3 direct[]; };
+layout(binding = 2, scalar) readonly buffer Indirect { vec3 indirect[]; };
+layout(binding = 3, scalar) readonly buffer NearEmission { vec3 near_emission[]; };
+layout(binding = 4, scalar) readonly buffer NearSource { vec3 near_source[]; };
+layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };
+layout(binding = 6, scalar) writeonly buffer Parts { Terms parts[]; };
+
+#include "solve/sum.glsl"
+
+vec3 mean(vec3 sum, float shots)
+{
+    return shots > 0.0 ? sum / shots : vec3(0.0);
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    Terms terms;
+    for (int c = 0; c < 5; ++c)
+        terms.column[c] = vec4(0.0);
+    if (i < p.count) {
+        const vec3 reflecting = surface[i].rgb * surface[i].w;
+        for (uint h = 0u; h < 2u; ++h) {
+            const uint at = h * p.count + i;
+            const vec3 from_emission = mean(direct[at], p.averages.emission_shots[h]);
+            const vec3 from_source = mean(indirect[at], p.averages.source_shots[h]);
+            terms.column[h].rgb = reflecting * (from_emission + near_emission[i]);
+            terms.column[2u + h].rgb = reflecting * (from_source + near_source[i]);
+        }
+        terms.column[4].rgb = source[i] * surface[i].w;
+    }
+    terms = add_over_group(terms);
+    if (gl_LocalInvocationID.x == 0u)
+        parts[gl_WorkGroupID.x] = terms;
+}

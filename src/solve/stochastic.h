@@ -1,0 +1,90 @@
+#pragma once
+// Stochastic radiosity by perspective ray bundles [SKB03], [BSS05]. See stochastic.cpp.
+
+#include <array>
+
+#include "gpu/pacer.h"
+#include "solve/power_pyramid.h"
+#include "solve/solver.h"
+#include "solve/stochastic.shared.h"
+#include "visibility/hemicube.h"
+
+namespace lumel {
+
+/// Shooters drawn by power send their light through hemicubes to every lumel at once.
+class StochasticRadiosity final : public Solver {
+public:
+    StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
+                        const NearField& near, const SolverOptions& options);
+
+    void step() override;
+    SolverState state() const override { return state_; }
+    std::vector<glm::vec3> irradiance() override;
+    const gpu::StageTimes& times() const override { return pacer_.times(); }
+    double longest_submission() const override { return pacer_.longest_ms(); }
+
+private:
+    struct Kernels {
+        explicit Kernels(const gpu::Device& device);
+        gpu::Kernel select, receive, near, balance, total, evaluate, advance, polish;
+    };
+
+    /// A convergence figure on its way back from the device.
+    struct PendingFigures {
+        bool waiting = false;
+        std::uint64_t ticket = 0;
+        std::uint64_t read_at = 0;  ///< iteration at which it is taken
+    };
+
+    void shoot();
+    void select(gpu::Commands& commands, std::uint32_t emission_shots);
+    void near_light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
+                    const gpu::Array<glm::vec3>& result);
+    void evaluate(gpu::Commands& commands);
+    void advance();
+    void ask_figures();
+    void take_figures();
+    std::uint32_t emission_shots_of_batch();
+    Averages averages() const;
+
+    SolverOptions options_;
+    std::uint32_t count_;          ///< N lumels
+    std::uint32_t batch_;          ///< K
+    bool paper_;
+    float near_radius_;
+    float reflecting_area_ = 0.0f; ///< Σ A of lumels with albedo > 0 [m²]
+    double emitted_power_ = 0.0;   ///< Σ A 𝓛(E) [lm]
+
+    const World* world_;
+    gpu::Pacer pacer_;
+    Kernels kernels_;
+    Hemicubes hemicubes_;
+    gpu::Array<Eye> eyes_;
+    gpu::Array<Shot> shots_;
+    gpu::Array<glm::vec4> surface_;        ///< ρ, A; A = 0 for buried lumels
+    gpu::Array<glm::vec3> emission_;       ///< E
+    gpu::Array<glm::vec3> source_;         ///< X: what indirect shooters send
+    gpu::Array<glm::vec3> direct_;         ///< [2][N] sums over shots drawn from E
+    gpu::Array<glm::vec3> indirect_;       ///< [2][N] sums over shots drawn from X, this phase
+    gpu::Array<glm::vec3> earlier_;        ///< [2][N] far indirect light of earlier phases
+    gpu::Array<glm::vec3> near_emission_;  ///< near light of E
+    gpu::Array<glm::vec3> near_source_;    ///< near light of X
+    gpu::Array<glm::vec3> far_, irradiance_, scratch_source_, scratch_near_;
+    gpu::Array<std::uint32_t> near_first_, near_column_;
+    gpu::Array<float> near_factor_;
+    gpu::Array<Terms> parts_, totals_, figures_, figures_host_;
+    PowerPyramid emission_power_pyramid_, source_power_pyramid_;
+
+    SolverState state_;
+    PendingFigures pending_;
+    std::uint64_t next_figures_ = 0;       ///< iteration to ask again
+    std::uint32_t phase_ = 0;
+    std::uint32_t phase_batch_ = 0;        ///< batches done in this phase
+    std::uint32_t phase_length_;           ///< batches in this phase
+    double emission_share_ = 1.0;          ///< of the shooters that are drawn from E
+    double emission_owed_ = 0.0;           ///< fraction of a shooter carried to the next batch
+    std::array<std::uint32_t, 2> emission_index_{}, source_index_{};
+    std::array<float, 2> phase_source_shots_{}, earlier_weight_{};
+};
+
+}  // namespace lumel

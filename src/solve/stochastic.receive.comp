@@ -1,0 +1,92 @@
+#version 460
+#include "solve/stochastic.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+
+// Every lumel i takes its share of all K shots of a batch ([SKB03] Eq. (3), [BSS05] Eq. (4)):
+//
+//     H_i += Σ_k  X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π),       j = j(k).
+//
+// Pairs of the near field are left out, and with them the disc term A_j/π: the near field holds
+// them exactly. The point x moves over the lumel from batch to batch.
+
+layout(local_size_x = kReceiveGroup) in;
+layout(push_constant, scalar) uniform Params { ReceiveParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 3, scalar) readonly buffer Shots { Shot shots[]; };
+layout(binding = 4) uniform sampler2D hemicubes;
+layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
+layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+
+#include "world/lumel.glsl"
+#include "visibility/sees.glsl"
+
+struct Receiver {
+    vec3 x, normal, facing;
+    vec3 centre;
+    float size;
+    uint lumel;
+};
+
+// One point of the lumel for this batch: additive recurrence (R2 sequence) with a start of its
+// own for every lumel.
+LumelPoint receiving_point(Lumel lumel, uint i)
+{
+    const uint start = hash(i ^ hash(p.seed));
+    const float s = unit_float(start + p.iteration * 3242174889u);
+    const float t = unit_float(hash(start) + p.iteration * 2447445414u);
+    LumelPoint point = point_on(lumel, s, t);
+    if (p.centre != 0u) {
+        point.position = lumel.position;
+        point.normal = lumel.normal;
+    }
+    return point;
+}
+
+vec3 receive(Receiver r, uint k)
+{
+    const Eye eye = eyes[k];
+    const vec3 d = r.x - eye.position;
+    const float toward_j = dot(d, eye.normal);
+    const float toward_i = -dot(d, r.normal);
+    if (toward_j <= 0.0 || toward_i <= 0.0)
+        return vec3(0.0);
+
+    const Shot shot = shots[k];
+    const vec3 between = r.centre - shot.centre;
+    const float reach = p.near_radius * max(r.size, shot.size);
+    if (dot(between, between) < reach * reach || shot.lumel == r.lumel)
+        return vec3(0.0);
+
+    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
+    if (!sees(p.hemicubes, k, d * frame, r.facing * frame))
+        return vec3(0.0);
+    const float r2 = dot(d, d);
+    return shot.power * (toward_i * toward_j / (r2 * (r2 + shot.disc)));
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    const LumelPoint point = receiving_point(lumel, i);
+    const Receiver r = Receiver(point.position, point.normal, point.facing, lumel.position,
+                                lumel.size, i);
+    const uint at = p.half_ * p.count + i;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < p.emission_shots; ++k)
+        sum += receive(r, k);
+    if (p.emission_shots > 0u)
+        direct[at] += sum;
+    sum = vec3(0.0);
+    for (uint k = p.emission_shots; k < p.shots; ++k)
+        sum += receive(r, k);
+    if (p.emission_shots < p.shots)
+        indirect[at] += sum;
+}

@@ -1,0 +1,78 @@
+#version 460
+#include "solve/stochastic.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "solve/radiosity.glsl"
+#include "solve/low_discrepancy.glsl"
+#include "solve/power_pyramid.glsl"
+
+// Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [SKB03] section 3.1), the
+// point y uniform on lumel j, the hemicube turned at random about the normal.
+
+layout(local_size_x = kSelectGroup) in;
+layout(push_constant, scalar) uniform Params { SelectParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 3, scalar) readonly buffer Source { vec3 source[]; };
+layout(binding = 4, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(binding = 5, scalar) readonly buffer EmissionPower { float emission_power[]; };
+layout(binding = 6, scalar) readonly buffer SourcePower { float source_power[]; };
+layout(binding = 7, scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(binding = 8, scalar) writeonly buffer Shots { Shot shots[]; };
+
+#include "world/lumel.glsl"
+
+// A point of the unit cube for shooter k, independent of all others or from a sequence.
+vec3 draw_point(uint index, uint stream)
+{
+    const uint seed = hash(p.seed ^ stream);
+    if (p.random == 0u)
+        return low_discrepancy_point(index, seed);
+    const uint a = hash(seed ^ hash(index));
+    const uint b = hash(a ^ 0x9e3779b9u);
+    return vec3(unit_float(a), unit_float(b), unit_float(hash(b ^ 0x9e3779b9u)));
+}
+
+// Frame about the normal, turned by a random angle.
+Eye make_eye(vec3 position, vec3 normal, uint random)
+{
+    const vec3 other = abs(normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const vec3 t0 = normalize(cross(other, normal));
+    const vec3 b0 = cross(normal, t0);
+    const float angle = unit_float(random) * 0.5 * kPi;  // a hemicube repeats every quarter turn
+    const vec3 t = cos(angle) * t0 + sin(angle) * b0;
+    return Eye(position, t, cross(normal, t), normal, random);
+}
+
+void main()
+{
+    const uint k = gl_GlobalInvocationID.x;
+    if (k >= p.count)
+        return;
+    const bool emits = k < p.emission_count;
+    const uint index = emits ? p.emission_index + k : p.source_index + k - p.emission_count;
+    const vec3 u = draw_point(index, emits ? 0u : 1u);
+
+    const PyramidLayout layout_ = p.layout_;
+    Drawn drawn;
+    if (emits)
+        DRAW_FROM(emission_power, u.x)
+    else
+        DRAW_FROM(source_power, u.x)
+
+    const uint j = drawn.lumel;
+    const Lumel lumel = lumels[j];
+    const float area = surface[j].w;
+    LumelPoint y = point_on(lumel, u.y, u.z);
+    if (p.centre != 0u) {
+        y.position = lumel.position;
+        y.normal = lumel.normal;
+    }
+    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ p.seed) + (emits ? 1u : 2u)));
+
+    const vec3 radiosity = emits ? emission[j] : source[j];
+    const float scale = drawn.probability > 0.0 ? area / (kPi * drawn.probability) : 0.0;
+    shots[k] = Shot(radiosity * scale, lumel.position, lumel.size,
+                    p.disc != 0u ? area / kPi : 0.0, j);
+}

@@ -1,0 +1,86 @@
+#ifndef LUMEL_SOLVE_STOCHASTIC_SHARED_H
+#define LUMEL_SOLVE_STOCHASTIC_SHARED_H
+#include "solve/power_pyramid.shared.h"
+#include "visibility/hemicube.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kSelectGroup = 32u;
+LUMEL_CONST uint kReceiveGroup = 64u;
+LUMEL_CONST uint kSumGroup = 64u;  ///< of the kernels that reduce; a power of two
+
+/// The energy side of a shooter; its Eye is the geometric side.
+struct Shot {
+    vec3 power;  ///< X_j A_j / (π p_j): what a receiver multiplies by V cosθ cosθ' / r²
+    vec3 centre; ///< of the lumel [m], world: the near field's rule is about centres
+    float size;  ///< of the lumel [m]
+    float disc;  ///< A_j / π [m²] added to r² where there is no near field, else 0
+    uint lumel;  ///< j
+};
+
+/// Push constants of stochastic.select.comp.
+struct SelectParams {
+    PyramidLayout layout_;
+    uint count;            ///< K shooters
+    uint emission_count;   ///< of these, the first are drawn from the emission
+    uint emission_index;   ///< next point of the emission's sequence
+    uint source_index;     ///< next point of the source's sequence
+    uint seed;             ///< of this half of the solution
+    uint random;           ///< 1: independent random numbers, as in the papers
+    uint disc;             ///< 1: point-to-disc form factor
+    uint centre;           ///< 1: shoot from the centroid
+};
+
+/// Push constants of stochastic.receive.comp.
+struct ReceiveParams {
+    HemicubeLayout hemicubes;
+    uint first;           ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;           ///< N
+    uint shots;           ///< K
+    uint emission_shots;  ///< the first of them
+    uint half_;           ///< 0 or 1: which half-solution takes this batch
+    uint iteration;       ///< numbers the batches
+    uint seed;
+    uint centre;          ///< 1: receive at the centroid
+    float near_radius;    ///< pairs closer than this × the larger size belong to the near field
+};
+
+/// Push constants of stochastic.near.comp.
+struct NearParams {
+    uint count;  ///< rows
+};
+
+/// How far the running averages are. Per half-solution h = 0, 1.
+struct Averages {
+    float emission_shots[2];  ///< shots in direct[h]
+    float source_shots[2];    ///< shots in indirect[h], this phase
+    float earlier_weight[2];  ///< weight of earlier[h], in shots
+    uint balance;             ///< 1: scale indirect light by the energy balance
+};
+
+/// Push constants of stochastic.balance.comp and stochastic.evaluate.comp.
+struct AverageParams {
+    Averages averages;
+    uint count;  ///< N
+};
+
+/// Push constants of stochastic.total.comp.
+struct TotalParams {
+    uint parts;
+};
+
+/// Push constants of stochastic.advance.comp.
+struct AdvanceParams {
+    Averages averages;
+    uint count;
+    uint end_phase;      ///< 1: fold indirect into earlier and clear it
+    uint with_emission;  ///< 1: the source is B = E + ρH (the papers), 0: ρH
+};
+
+/// Sums over all lumels, five columns of four.
+struct Terms {
+    vec4 column[5];
+};
+
+LUMEL_SHARED_END
+#endif
