@@ -18,7 +18,8 @@ enum class ErrorKind {
 class Error : public std::runtime_error {
 public:
     Error(ErrorKind kind, const std::string& where, const std::string& what)
-        : std::runtime_error(where.empty() ? what : where + ": " + what), kind_(kind)
+        : std::runtime_error(where.empty() ? what : where + ": " + what),
+          kind_(kind)
     {
     }
 

@@ -15,17 +15,22 @@ struct Image {
 
     Image() = default;
     Image(int w, int h, int c)
-        : width(w), height(h), channels(c), values(std::size_t(w) * std::size_t(h) * std::size_t(c))
+        : width(w),
+          height(h),
+          channels(c),
+          values(std::size_t(w) * std::size_t(h) * std::size_t(c))
     {
     }
 
     float* at(int x, int y)
     {
-        return values.data() + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+        return values.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
     }
     const float* at(int x, int y) const
     {
-        return values.data() + (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
+        return values.data() +
+               (std::size_t(y) * std::size_t(width) + std::size_t(x)) * std::size_t(channels);
     }
 };
 
