@@ -67,7 +67,7 @@ TEST(Options, ReadmeExplainsEveryOptionThatHelpLists)
         const std::string help = run_lumel({command, "--help"}).out;
         for (std::size_t at = help.find("--"); at != std::string::npos;
              at = help.find("--", at + 2)) {
-            const std::string option = help.substr(at, help.find_first_of(" ,=\n", at) - at);
+            const std::string option = help.substr(at, help.find_first_of(" ,=)\n", at) - at);
             EXPECT_NE(readme.find("`" + option), std::string::npos)
                 << option << " of " << command << " is not in README.md";
         }
