@@ -19,7 +19,7 @@ struct ReferenceOptions {
     int samples_per_lumel = 256;
     std::uint32_t seed = 1;
     SampleRule rule = SampleRule::area;
-    int max_bounces = 64;  ///< Russian roulette starts earlier; this only guards
+    int max_bounces = 1024;  ///< Russian roulette ends paths; this guards albedo 1
 };
 
 /// H [N] [lx] of every lumel. Unbiased: emission is what the surfaces' materials say at each
