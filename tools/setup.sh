@@ -51,6 +51,11 @@ missing_by_probe() {
         [[ " $* " == *" ${pair%%:*} "* ]] || continue
         command -v "${pair#*:}" >/dev/null || echo "${pair%%:*}"
     done
+    [[ " $* " != *" mesa-vulkan-drivers "* ]] || compgen -G "/*/*/vulkan/icd.d/*.json" >/dev/null ||
+        compgen -G "/etc/vulkan/icd.d/*.json" >/dev/null || echo mesa-vulkan-drivers
+    [[ " $* " != *" vulkan-validationlayers "* ]] ||
+        compgen -G "/usr/share/vulkan/explicit_layer.d/*validation*.json" >/dev/null ||
+        echo vulkan-validationlayers
     command -v g++ >/dev/null || return 0
     for pair in $package_headers; do
         [[ " $* " == *" ${pair%%:*} "* ]] || continue
