@@ -14,17 +14,33 @@ constexpr const char* kLightmap = "MOZ_lightmap";
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
-bool names_texcoord_1(const Json& object)
+// Calls visit(texture info) for every use of a texture, in core members and in extensions.
+template <class Value, class Visit>
+void for_texture_uses(Value& material, const Visit& visit)
 {
-    const auto texcoord = object.find("texCoord");
-    return texcoord != object.end() && texcoord->is_number_integer() && *texcoord == 1;
+    for_objects(material, [&](auto& object) {
+        for (auto& [name, use] : object.items())
+            if (name.ends_with("Texture") && use.is_object() && use.contains("index"))
+                visit(use);
+    });
+}
+
+// KHR_texture_transform may overrule the number.
+template <class Value>
+auto* texcoord_of(Value& use)
+{
+    using Found = decltype(&use["texCoord"]);
+    if (use.contains("extensions") && use["extensions"].contains(kTextureTransform) &&
+        use["extensions"][kTextureTransform].contains("texCoord"))
+        return Found(&use["extensions"][kTextureTransform]["texCoord"]);
+    return use.contains("texCoord") ? Found(&use["texCoord"]) : Found(nullptr);
 }
 
 void renumber_texcoord_1(Json& material, int number)
 {
-    for_objects(material, [&](Json& object) {
-        if (names_texcoord_1(object))
-            object["texCoord"] = number;
+    for_texture_uses(material, [&](Json& use) {
+        if (Json* texcoord = texcoord_of(use); texcoord && *texcoord == 1)
+            *texcoord = number;
     });
 }
 
@@ -44,7 +60,7 @@ std::set<std::size_t> materials_in_use(const Json& json)
     return used;
 }
 
-// Moves extras-free copies of what is used to the front, and says where each went.
+// Moves what is used to the front, and says where each went.
 class Compactor {
 public:
     explicit Compactor(Json& array) : array_(array) {}
@@ -70,10 +86,8 @@ void drop_unused_textures(Json& json)
     if (!json.contains("textures"))
         return;
     Compactor textures(json["textures"]);
-    for_objects(json["materials"], [&](Json& object) {
-        for (auto& [name, use] : object.items())
-            if (name.ends_with("Texture") && use.is_object() && use.contains("index"))
-                use["index"] = textures.keep(use["index"].get<std::size_t>());
+    for_texture_uses(json["materials"], [&](Json& use) {
+        use["index"] = textures.keep(use["index"].get<std::size_t>());
     });
     if (json.contains("images")) {
         Compactor images(json["images"]);
@@ -181,13 +195,14 @@ std::vector<std::size_t> materials_of(const Json& primitive)
     return materials;
 }
 
-bool reads_texcoord_1(const Json& material)
+std::set<int> texcoords_read_by(const Json& material)
 {
-    Json own = material;
-    drop_lightmap(own);
-    bool reads = false;
-    for_objects(own, [&](const Json& object) { reads = reads || names_texcoord_1(object); });
-    return reads;
+    std::set<int> numbers;
+    for_texture_uses(material, [&](const Json& use) {
+        const Json* texcoord = texcoord_of(use);
+        numbers.insert(texcoord ? texcoord->get<int>() : 0);
+    });
+    return numbers;
 }
 
 std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimitive>& baked)
@@ -204,7 +219,7 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
             return copy->second;
         Json own = material ? originals.at(*material) : Json::object();
         drop_lightmap(own);
-        if (moved_texcoord > 0)
+        if (moved_texcoord != kNotMoved)
             renumber_texcoord_1(own, moved_texcoord);
         if (material && taken.insert(*material).second) {
             copy->second = *material;

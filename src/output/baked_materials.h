@@ -2,6 +2,7 @@
 // Materials of baked primitives.
 
 #include <cstddef>
+#include <set>
 #include <vector>
 
 #include "output/baked_meshes.h"
@@ -22,8 +23,9 @@ void for_variants(Value& primitive, const Visit& visit)
         visit(mapping);
 }
 
-/// True if any texture of the material is read through TEXCOORD_1 (an older lightmap aside).
-bool reads_texcoord_1(const Json& material);
+/// Numbers n of the TEXCOORD_n that the material's textures are read through (an older lightmap
+/// aside).
+std::set<int> texcoords_read_by(const Json& material);
 
 /// Gives every baked primitive materials that nothing unbaked uses, copied only where needed,
 /// with their texture coordinates renumbered as the primitive asks. Fills `copies` and `material`

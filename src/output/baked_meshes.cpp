@@ -33,11 +33,18 @@ const Json* source_primitive(const Json& json, const BakedPrimitive& baked)
     return baked.primitive < primitives.size() ? &primitives[baked.primitive] : nullptr;
 }
 
-// TEXCOORD numbers must go up without a gap.
-int first_free_texcoord(const Json& attributes)
+// Where the old TEXCOORD_1 goes: to number 0 if no texture reads that, as many viewers know only
+// two; else to the next free number, as glTF allows no gap.
+int new_texcoord(const Json& attributes, const Json& json,
+                 const std::vector<std::size_t>& materials)
 {
-    int number = 2;
-    while (attributes.contains("TEXCOORD_" + std::to_string(number)))
+    std::set<int> read;
+    for (const std::size_t material : materials)
+        read.merge(texcoords_read_by(json.at("materials").at(material)));
+    if (!read.contains(1) || !attributes.contains("TEXCOORD_1"))
+        return kNotMoved;
+    int number = read.contains(0) ? 2 : 0;
+    while (number > 0 && attributes.contains("TEXCOORD_" + std::to_string(number)))
         ++number;
     return number;
 }
@@ -105,7 +112,9 @@ private:
         Json attributes = Json::object();
         for (const auto& [name, accessor] : primitive.at("attributes").items()) {
             std::string kept_as = name;
-            if (name == "TEXCOORD_1" && baked.moved_texcoord == 0)
+            if (name == "TEXCOORD_1" && baked.moved_texcoord == kNotMoved)
+                continue;
+            if (name == "TEXCOORD_0" && baked.moved_texcoord == 0)
                 continue;
             if (name == "TEXCOORD_1")
                 kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
@@ -154,14 +163,9 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
             fail_changed(document.path);
         if (source->contains("material"))
             baked.material = source->at("material").get<std::size_t>();
-        const Json& attributes = source->at("attributes");
         baked.file_materials = materials_of(*source);
-        const bool reads = std::any_of(
-            baked.file_materials.begin(), baked.file_materials.end(), [&](std::size_t material) {
-                return reads_texcoord_1(document.json.at("materials").at(material));
-            });
-        if (reads && attributes.contains("TEXCOORD_1"))
-            baked.moved_texcoord = first_free_texcoord(attributes);
+        baked.moved_texcoord =
+            new_texcoord(source->at("attributes"), document.json, baked.file_materials);
         list.push_back(baked);
     }
     return list;

@@ -12,13 +12,16 @@
 
 namespace lumel {
 
+/// The old TEXCOORD_1 is not needed by any texture.
+inline constexpr int kNotMoved = -1;
+
 /// A primitive of the file that is baked for one instance.
 struct BakedPrimitive {
     const Surface* surface = nullptr;
     std::size_t node = 0;                       ///< index into the file's nodes
     std::size_t mesh = 0;                       ///< index into the file's meshes
     std::size_t primitive = 0;                  ///< index into that mesh's primitives
-    int moved_texcoord = 0;                     ///< new number of the old TEXCOORD_1, 0: not needed
+    int moved_texcoord = kNotMoved;             ///< new number of the old TEXCOORD_1
     std::optional<std::size_t> material;        ///< in the file; after separate_materials: its copy
     std::vector<std::size_t> file_materials;    ///< the same and those of its variants
     std::map<std::size_t, std::size_t> copies;  ///< file material to its copy

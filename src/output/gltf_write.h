@@ -4,8 +4,8 @@
 // Both files are one self-contained .glb. All of the input's content stays (nodes, cameras,
 // animations, skins, extras, images), but every baked primitive of every instance becomes a
 // triangle list of its own with TEXCOORD_1 = its place in the atlas, (0, 0) at the top left.
-// Materials that read their own textures through the old TEXCOORD_1 find it under the next free
-// number.
+// Materials that read their own textures through the old TEXCOORD_1 find it under TEXCOORD_0, or
+// under the next free number where that is read too.
 
 #include <string>
 

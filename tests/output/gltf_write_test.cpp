@@ -1,0 +1,349 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "hand_atlas.h"
+#include "output/gltf_write.h"
+#include "output/image_files.h"
+#include "scene/gltf_document.h"
+#include "temporary_folder.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kConformance = fs::path(LUMEL_SOURCE_DIR) / "../shared/data/gltf_conformance";
+
+std::vector<std::string> conformance_files()
+{
+    std::vector<std::string> files;
+    if (fs::exists(kConformance))
+        for (const auto& entry : fs::recursive_directory_iterator(kConformance))
+            if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+                files.push_back(entry.path().string());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::optional<Scene> try_read(const std::string& path)
+{
+    try {
+        return read_gltf(path);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+const Primitive& primitive_of(const Scene& scene, const Surface& surface)
+{
+    const Instance& instance = scene.instances.at(surface.instance);
+    return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
+}
+
+// Colour, emission and opacity at a corner, read the way a renderer would.
+MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
+{
+    glm::vec2 texcoords[2];
+    for (int set = 0; set < 2; ++set)
+        if (!primitive.texcoords[set].empty())
+            texcoords[set] = primitive.texcoords[set][vertex];
+    const glm::vec4 color = primitive.colors.empty() ? glm::vec4(1.0f) : primitive.colors[vertex];
+    return sample_material(scene, primitive.material, texcoords, color);
+}
+
+bool reads_texcoord_1(const Scene& scene, const Primitive& primitive)
+{
+    const Material& material = scene.materials.at(std::size_t(primitive.material));
+    return material.base_color_texture.texcoord == 1 || material.emissive_texture.texcoord == 1;
+}
+
+// The corners that `surface` names in `before` are, in order, those of the triangle list in
+// `after`.
+void expect_same_triangles(const Scene& before, const Scene& after, const Atlas& atlas,
+                           const Surface& surface)
+{
+    const Primitive& old_list = primitive_of(before, surface);
+    const Primitive& new_list = primitive_of(after, surface);
+    ASSERT_EQ(new_list.indices.size(), surface.indices.size());
+    ASSERT_EQ(new_list.texcoords[1].size(), new_list.positions.size());
+    for (std::size_t i = 0; i < surface.indices.size(); ++i) {
+        const std::uint32_t old_vertex = surface.source_vertex[surface.indices[i]];
+        const std::uint32_t new_vertex = new_list.indices[i];
+        ASSERT_EQ(new_list.positions[new_vertex], old_list.positions[old_vertex]);
+        ASSERT_EQ(new_list.texcoords[1][new_vertex],
+                  surface.texcoord[surface.indices[i]] / glm::vec2(atlas.width, atlas.height));
+        if (!old_list.texcoords[0].empty() && !reads_texcoord_1(before, old_list)) {
+            ASSERT_EQ(new_list.texcoords[0][new_vertex], old_list.texcoords[0][old_vertex]);
+        }
+        if (!old_list.colors.empty()) {
+            ASSERT_EQ(new_list.colors[new_vertex], old_list.colors[old_vertex]);
+        }
+        if (!old_list.normals.empty()) {
+            ASSERT_LT(glm::distance(new_list.normals[new_vertex], old_list.normals[old_vertex]),
+                      1e-5f);
+        }
+    }
+}
+
+void expect_same_instances(const Scene& before, const Scene& after)
+{
+    ASSERT_EQ(after.instances.size(), before.instances.size());
+    for (std::size_t i = 0; i < before.instances.size(); ++i) {
+        EXPECT_EQ(after.instances[i].node, before.instances[i].node);
+        EXPECT_EQ(after.instances[i].transform, before.instances[i].transform);
+    }
+    EXPECT_EQ(after.cameras.size(), before.cameras.size());
+}
+
+TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
+{
+    if (conformance_files().empty())
+        GTEST_SKIP() << "no conformance files at " << kConformance;
+    const test::TemporaryFolder folder;
+    std::size_t tried = 0;
+    for (const std::string& path : conformance_files()) {
+        SCOPED_TRACE(path);
+        const std::optional<Scene> scene = try_read(path);
+        if (!scene)
+            continue;
+        ++tried;
+        const Atlas atlas = test::corner_atlas(*scene);
+        write_scene_glb(folder / "scene.glb", *scene, atlas, test::any_map(atlas));
+        write_baked_glb(folder / "baked.glb", *scene, atlas, test::any_map(atlas));
+        for (const char* name : {"scene.glb", "baked.glb"}) {
+            SCOPED_TRACE(name);
+            const Scene after = read_gltf(folder / name);
+            expect_same_instances(*scene, after);
+            for (const Surface& surface : atlas.surfaces)
+                expect_same_triangles(*scene, after, atlas, surface);
+            if (HasFatalFailure())
+                return;
+        }
+    }
+    EXPECT_GT(tried, 100u);
+}
+
+TEST(GltfWrite, MaterialsLookAsBeforeInSceneGlb)
+{
+    if (conformance_files().empty())
+        GTEST_SKIP() << "no conformance files at " << kConformance;
+    const test::TemporaryFolder folder;
+    for (const std::string& path : conformance_files()) {
+        SCOPED_TRACE(path);
+        const std::optional<Scene> scene = try_read(path);
+        if (!scene)
+            continue;
+        const Atlas atlas = test::corner_atlas(*scene);
+        write_scene_glb(folder / "scene.glb", *scene, atlas, test::any_map(atlas));
+        const Scene after = read_gltf(folder / "scene.glb");
+        for (const Surface& surface : atlas.surfaces) {
+            const Primitive& old_list = primitive_of(*scene, surface);
+            const Primitive& new_list = primitive_of(after, surface);
+            for (std::size_t i = 0; i < surface.indices.size(); i += 7) {
+                const std::uint32_t vertex = surface.source_vertex[surface.indices[i]];
+                const MaterialSample a = look(*scene, old_list, vertex);
+                const MaterialSample b = look(after, new_list, new_list.indices[i]);
+                ASSERT_EQ(a.albedo, b.albedo);
+                ASSERT_EQ(a.emitted, b.emitted);
+                ASSERT_EQ(a.opacity, b.opacity);
+            }
+        }
+    }
+}
+
+// A file of its own: two nodes show one mesh of one quad, whose colour is read through TEXCOORD_1.
+class TwoQuads : public testing::Test {
+protected:
+    void SetUp() override
+    {
+        std::ofstream(folder_ / "quad.bin", std::ios::binary)
+            .write(reinterpret_cast<const char*>(kData), sizeof kData);
+        Image texture(1, 1, 3);
+        texture.values = {1.0f, 0.0f, 0.0f};
+        write_png(folder_ / "red.png", texture);
+    }
+
+    Json file() const
+    {
+        return Json::parse(R"({
+            "asset": {"version": "2.0", "generator": "a test", "copyright": "nobody"},
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point"}]}},
+            "scene": 0, "scenes": [{"nodes": [0, 1, 3]}],
+            "nodes": [{"mesh": 0, "name": "left"},
+                      {"mesh": 0, "translation": [2, 0, 0]},
+                      {"mesh": 0, "name": "outside"},
+                      {"extensions": {"KHR_lights_punctual": {"light": 0}}}],
+            "meshes": [{"name": "quad", "extras": {"kept": true}, "primitives": [{
+                "attributes": {"POSITION": 0, "TEXCOORD_0": 1, "TEXCOORD_1": 1}, "mode": 5,
+                "material": 0, "extras": {"also": "kept"}}]}],
+            "materials": [{"name": "red", "pbrMetallicRoughness": {"baseColorTexture":
+                {"index": 0, "texCoord": 1}}}],
+            "textures": [{"source": 0}], "images": [{"uri": "red.png"}],
+            "buffers": [{"uri": "quad.bin", "byteLength": 80}],
+            "bufferViews": [{"buffer": 0, "byteLength": 48},
+                            {"buffer": 0, "byteOffset": 48, "byteLength": 32}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                           "min": [0, 0, 0], "max": [1, 1, 0]},
+                          {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"}]
+        })");
+    }
+
+    Scene scene(const Json& json) const
+    {
+        std::ofstream(folder_ / "quads.gltf") << json.dump();
+        return read_gltf(folder_ / "quads.gltf");
+    }
+
+    Json lit(const Json& json) const
+    {
+        const Scene read = scene(json);
+        const Atlas atlas = test::corner_atlas(read);
+        write_scene_glb(folder_ / "scene.glb", read, atlas, test::any_map(atlas));
+        return load_gltf_document(folder_ / "scene.glb").json;
+    }
+
+    Json baked(const Json& json) const
+    {
+        const Scene read = scene(json);
+        const Atlas atlas = test::corner_atlas(read);
+        write_baked_glb(folder_ / "baked.glb", read, atlas, test::any_map(atlas));
+        return load_gltf_document(folder_ / "baked.glb").json;
+    }
+
+    static constexpr float kData[20] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 0, 0, 1, 1, 1};
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(TwoQuads, EachInstanceGetsItsOwnMeshAndOthersKeepTheirs)
+{
+    const Json json = lit(file());
+    EXPECT_EQ(json["nodes"][2]["mesh"], 0);
+    EXPECT_NE(json["nodes"][0]["mesh"], 0);
+    EXPECT_NE(json["nodes"][1]["mesh"], 0);
+    EXPECT_NE(json["nodes"][0]["mesh"], json["nodes"][1]["mesh"]);
+    EXPECT_EQ(json["meshes"][0], file()["meshes"][0]);
+}
+
+TEST_F(TwoQuads, NamesExtrasAndLightsAreKept)
+{
+    const Json json = lit(file());
+    const Json& mesh = json["meshes"][json["nodes"][1]["mesh"].get<std::size_t>()];
+    EXPECT_EQ(mesh["name"], "quad");
+    EXPECT_EQ(mesh["extras"]["kept"], true);
+    EXPECT_EQ(mesh["primitives"][0]["extras"]["also"], "kept");
+    EXPECT_EQ(json["asset"]["copyright"], "nobody");
+    EXPECT_EQ(json["extensions"], file()["extensions"]);
+    EXPECT_EQ(json["nodes"][3], file()["nodes"][3]);
+}
+
+TEST_F(TwoQuads, TheLightmapIsBoundByAnOptionalExtension)
+{
+    const Json json = lit(file());
+    EXPECT_EQ(json["extensionsUsed"], Json({"KHR_lights_punctual", "MOZ_lightmap"}));
+    EXPECT_FALSE(json.contains("extensionsRequired"));
+    const Json& primitive =
+        json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    const Json& material = json["materials"][primitive["material"].get<std::size_t>()];
+    const Json& lightmap = material["extensions"]["MOZ_lightmap"];
+    EXPECT_EQ(lightmap["texCoord"], 1);
+    EXPECT_EQ(lightmap["intensity"].get<float>(), 131.0f);
+    const Json& texture = json["textures"][lightmap["index"].get<std::size_t>()];
+    EXPECT_EQ(json["images"][texture["source"].get<std::size_t>()]["mimeType"], "image/png");
+}
+
+TEST_F(TwoQuads, AColourThatWasReadThroughTexcoord1MovesWithItsTexcoords)
+{
+    const Json json = lit(file());
+    const Json& primitive =
+        json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    const Json& material = json["materials"][primitive["material"].get<std::size_t>()];
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 0);
+    EXPECT_FALSE(primitive["attributes"].contains("TEXCOORD_2"));
+    // The mesh outside the scene still reads its own, so its material is as it was.
+    EXPECT_EQ(json["materials"][0], file()["materials"][0]);
+}
+
+TEST_F(TwoQuads, WhereBothTexcoordsAreReadTheOlderLightmapPlaceGetsTheNextNumber)
+{
+    Json both = file();
+    both["materials"][0]["normalTexture"] = {{"index", 0}};
+    const Json json = lit(both);
+    const Json& primitive =
+        json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    const Json& material = json["materials"][primitive["material"].get<std::size_t>()];
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 2);
+    EXPECT_FALSE(material["normalTexture"].contains("texCoord"));
+    EXPECT_TRUE(primitive["attributes"].contains("TEXCOORD_2"));
+}
+
+TEST_F(TwoQuads, AMaterialThatOnlyBakedMeshesUseIsNotCopied)
+{
+    Json alone = file();
+    alone["nodes"][2].erase("mesh");
+    EXPECT_EQ(lit(alone)["materials"].size(), 1u);
+}
+
+TEST_F(TwoQuads, ReplacedArraysLeaveTheFile)
+{
+    Json alone = file();
+    alone["nodes"][2].erase("mesh");
+    const auto size = [](const Json& json) {
+        return json["buffers"][0]["byteLength"].get<std::size_t>();
+    };
+    // Four vertices of 20 bytes stay with the mesh outside the scene, and only with it.
+    EXPECT_EQ(size(lit(file())), size(lit(alone)) + 80u);
+}
+
+TEST_F(TwoQuads, BakedMaterialsReflectNothingAndEmitTheMap)
+{
+    const Json json = baked(file());
+    EXPECT_FALSE(json.contains("extensionsUsed"));
+    EXPECT_FALSE(json.contains("extensions"));
+    const Json& primitive =
+        json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
+    const Json& material = json["materials"][primitive["material"].get<std::size_t>()];
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorFactor"], Json({0.0, 0.0, 0.0, 1.0}));
+    EXPECT_FALSE(material["pbrMetallicRoughness"].contains("baseColorTexture"));
+    EXPECT_EQ(material["emissiveTexture"]["texCoord"], 1);
+}
+
+TEST_F(TwoQuads, CutOutsKeepTheirAlphaWhenBaked)
+{
+    Json cut_out = file();
+    cut_out["materials"][0]["alphaMode"] = "MASK";
+    cut_out["materials"][0]["alphaCutoff"] = 0.25;
+    cut_out["nodes"][2].erase("mesh");
+    const Json json = baked(cut_out);
+    const Json& material = json["materials"][0];
+    EXPECT_EQ(material["alphaMode"], "MASK");
+    EXPECT_EQ(material["alphaCutoff"], 0.25);
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 0);
+}
+
+TEST_F(TwoQuads, TheSameInputGivesTheSameBytes)
+{
+    lit(file());
+    const std::vector<char> first = test::bytes_of(folder_ / "scene.glb");
+    lit(file());
+    EXPECT_EQ(test::bytes_of(folder_ / "scene.glb"), first);
+}
+
+TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
+{
+    const Scene before = scene(file());
+    const Atlas atlas = test::corner_atlas(before);
+    Json other = file();
+    other["nodes"][0].erase("mesh");
+    scene(other);
+    EXPECT_THROW(write_scene_glb(folder_ / "scene.glb", before, atlas, test::any_map(atlas)),
+                 Error);
+}
+
+}  // namespace
+}  // namespace lumel
