@@ -88,9 +88,11 @@ glm::dvec3 projection_axis(const Cutting& cutting, const std::vector<std::uint32
 }
 
 /// Keeps the members that lie side by side in the plane; the others are free again.
-void keep_flat(Cutting& cutting, std::vector<std::uint32_t>& members, const PlaneFrame& frame,
-               const glm::dvec3& axis)
+/// Returns the triangles of those kept, in the plane.
+std::vector<Polygon> keep_flat(Cutting& cutting, std::vector<std::uint32_t>& members,
+                               const PlaneFrame& frame, const glm::dvec3& axis)
 {
+    std::vector<Polygon> kept;
     const auto corner = [&](std::uint32_t t, int i) {
         return frame.project(cutting.positions[cutting.indices[3 * t + i]]);
     };
@@ -111,17 +113,20 @@ void keep_flat(Cutting& cutting, std::vector<std::uint32_t>& members, const Plan
             return true;
         }
         grid.insert(triangle);
+        kept.push_back(triangle);
         return false;
     });
+    return kept;
 }
 
 /// Adds the members' vertices to the layout, turned so that their bounding rectangle is tight.
-void lay_out(const Cutting& cutting, const std::vector<std::uint32_t>& members,
-             const PlaneFrame& frame, std::vector<std::uint32_t>& vertex_of, Layout& layout)
+void lay_out(Cutting& cutting, const std::vector<std::uint32_t>& members, const PlaneFrame& frame,
+             std::vector<std::uint32_t>& vertex_of, Layout& layout)
 {
     const std::uint32_t chart = std::uint32_t(layout.chart_size.size());
     const std::uint32_t first = std::uint32_t(layout.source_vertex.size());
-    for (std::uint32_t t : members)
+    for (std::uint32_t t : members) {
+        cutting.chart[t] = chart;
         for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
             const std::uint32_t source = cutting.indices[corner];
             // vertex_of remembers the last copy made of each vertex, perhaps for another chart.
@@ -133,6 +138,7 @@ void lay_out(const Cutting& cutting, const std::vector<std::uint32_t>& members,
             }
             layout.indices[corner] = vertex_of[source];
         }
+    }
     layout.chart_size.push_back(
         turn_to_tight_rectangle({layout.place.begin() + first, layout.place.end()}));
 }
@@ -140,7 +146,7 @@ void lay_out(const Cutting& cutting, const std::vector<std::uint32_t>& members,
 }  // namespace
 
 Layout make_charts(const Primitive& primitive, const std::vector<glm::dvec3>& positions,
-                   bool mirrored)
+                   bool mirrored, const ChartCost& cost)
 {
     Cutting cutting{primitive.indices,
                     positions,
@@ -168,13 +174,19 @@ Layout make_charts(const Primitive& primitive, const std::vector<glm::dvec3>& po
             std::vector<std::uint32_t> members = grow(cutting, seed, chart);
             const glm::dvec3 axis = projection_axis(cutting, members);
             const PlaneFrame frame(axis, positions[primitive.indices[3 * seed]]);
-            keep_flat(cutting, members, frame, axis);
-            lay_out(cutting, members, frame, vertex_of, layout);
+            const std::vector<Polygon> flat = keep_flat(cutting, members, frame, axis);
+            for (const std::vector<std::uint32_t>& group : split_sparse(flat, cost)) {
+                std::vector<std::uint32_t> part;
+                for (std::uint32_t i : group)
+                    part.push_back(members[i]);
+                lay_out(cutting, part, frame, vertex_of, layout);
+            }
         }
         // Triangles given back by one chart start others.
         std::erase_if(seeds, [&](std::uint32_t t) { return cutting.chart[t] != kNoChart; });
     }
     layout.chart = std::move(cutting.chart);
+    bundle_thin_charts(layout, positions, cost.texels_per_metre);
     return layout;
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "atlas/split.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -35,6 +36,10 @@ std::vector<std::uint32_t> neighbours(const std::vector<std::uint32_t>& welded,
 /// Cuts a primitive into charts, each seen from its front and true to world scale.
 /// `positions` [V] in the world; `mirrored`: the instance's transform flips the winding.
 Layout make_charts(const Primitive& primitive, const std::vector<glm::dvec3>& positions,
-                   bool mirrored);
+                   bool mirrored, const ChartCost& cost);
+
+/// Lets neighbouring charts that are thinner than a texel at this density [texels/m] share one
+/// chart, lying over each other.
+void bundle_thin_charts(Layout& layout, const std::vector<glm::dvec3>& positions, double density);
 
 }  // namespace lumel

@@ -22,6 +22,8 @@ namespace {
 
 // Charts end this close to a texel's border end on it: rounding shall not open another texel.
 constexpr double kSnapDistance = 1e-3;
+// Share of a map that charts of an ordinary scene cover.
+constexpr double kLikelyFill = 0.5;
 // Transforms that agree to this relative accuracy share their charts.
 constexpr double kSameScale = 1e-5;
 
@@ -68,6 +70,19 @@ double world_area(const Mesh& mesh, const glm::mat4& transform)
     return area;
 }
 
+/// The density that packing will come to, roughly [texels/m].
+double likely_density(const Scene& scene, const AtlasOptions& options)
+{
+    double area = 0.0;
+    for (const Instance& instance : scene.instances)
+        area += world_area(scene.meshes[instance.mesh], instance.transform);
+    const double asked = options.texels_per_metre > 0.0f ? options.texels_per_metre : 1e30;
+    const int side = options.size > 0 ? options.size
+                     : asked < 1e30   ? options.max_size
+                                      : std::min(kDefaultSide, options.max_size);
+    return std::min(asked, side * std::sqrt(kLikelyFill / std::max(area, 1e-30)));
+}
+
 /// What lengths a transform makes, rounded: instances that differ only in place share charts.
 std::vector<long long> scale_key(const glm::mat4& transform)
 {
@@ -108,7 +123,7 @@ void plan_authored(const Scene& scene, std::uint32_t instance_index, const Autho
 }
 
 /// Charts for every planned surface that has no layout yet, on all cores.
-void plan_charts(const Scene& scene, Plans& plans)
+void plan_charts(const Scene& scene, const ChartCost& cost, Plans& plans)
 {
     using Key = std::pair<std::pair<int, std::uint32_t>, std::vector<long long>>;
     std::map<Key, std::vector<std::size_t>> users;
@@ -128,14 +143,15 @@ void plan_charts(const Scene& scene, Plans& plans)
             const Primitive& primitive = scene.meshes[instance.mesh].primitives[leader.primitive];
             const auto layout = std::make_shared<const Layout>(
                 make_charts(primitive, world_positions(primitive, instance.transform),
-                            glm::determinant(glm::dmat3(instance.transform)) < 0.0));
+                            glm::determinant(glm::dmat3(instance.transform)) < 0.0, cost));
             for (std::size_t s : *groups[g])
                 plans.surfaces[s].layout = layout;
         }
     });
 }
 
-Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports)
+Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports,
+           const AtlasOptions& options)
 {
     Plans plans;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -147,7 +163,7 @@ Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports)
         for (std::uint32_t p = 0; p < scene.meshes[mesh].primitives.size(); ++p)
             plans.surfaces.push_back({i, p, false, nullptr, 0, {}});
     }
-    plan_charts(scene, plans);
+    plan_charts(scene, {likely_density(scene, options), options.gutter}, plans);
     for (Plan& surface : plans.surfaces) {
         if (surface.authored)
             continue;
@@ -283,7 +299,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& asked)
     if (is_scene_wide(scene, reports)) {
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
-        plans = plan(scene, reports);
+        plans = plan(scene, reports, options);
         packing = pack(plans.size, options, atlas.notes);
     }
     atlas.width = atlas.height = packing.side;

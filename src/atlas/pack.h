@@ -10,6 +10,10 @@
 
 namespace lumel {
 
+/// Side of the map where nothing is asked for: detail for a room, seconds to minutes on a small
+/// machine. It is doubled while charts do not fit well.
+constexpr int kDefaultSide = 512;
+
 struct PackedRectangle {
     glm::ivec2 corner{0};  ///< top left [texels]
     glm::ivec2 size{1};    ///< whole texels, at least 1
