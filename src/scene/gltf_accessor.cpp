@@ -85,7 +85,7 @@ AccessorData head_of(const JsonView& view)
     const auto* known = std::find_if(kElementTypes.begin(), kElementTypes.end(),
                                      [&](const ElementType& t) { return t.name == type.string(); });
     if (known == kElementTypes.end())
-        type.fail("is \"" + type.string() + "\", which is no glTF element type");
+        type.fail("is " + quoted(type.string()) + ", which is no glTF element type");
     head.type = known->name;
     head.components = known->rows * known->columns;
 

@@ -31,7 +31,7 @@ std::uint32_t read_u32(const Bytes& bytes, std::size_t offset)
 /// Checks the 12-byte header; returns the size of the container [bytes].
 std::size_t container_size(const std::string& path, const Bytes& bytes)
 {
-    if (bytes.size() < kHeaderSize + kChunkHeaderSize)
+    if (bytes.size() < kHeaderSize)
         fail(path, "is cut short: the GLB header is not complete");
     const std::uint32_t version = read_u32(bytes, 4);
     if (version != kVersion)

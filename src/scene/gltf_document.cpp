@@ -37,10 +37,11 @@ void check_asset(const JsonView& root)
     const JsonView asset = root.get("asset");
     const JsonView version = asset.get("version");
     if (version_of(version).first != 2)
-        version.fail("is glTF " + version.string() + ", but only glTF 2 is read");
+        version.fail("is glTF " + quoted(version.string()) + ", but only glTF 2 is read");
     const auto minimum = asset.find("minVersion");
     if (minimum && version_of(*minimum) > std::pair(2, 0))
-        minimum->fail("the file needs glTF " + minimum->string() + ", but only 2.0 is read");
+        minimum->fail("the file needs glTF " + quoted(minimum->string()) +
+                      ", but only 2.0 is read");
 }
 
 /// Every list of the file that is read must be a list of objects.
@@ -105,8 +106,8 @@ GltfDocument load_gltf_document(const std::string& path)
     const JsonView root = document.root();
     root.as_object();
     check_asset(root);
-    check_required_extensions(root);
     check_collections(root);
+    check_extensions(root);
 
     // Bring in the data, then prove that every view and accessor lies inside it.
     Bytes binary_chunk;

@@ -34,18 +34,23 @@ constexpr std::array<std::string_view, 20> kSupported = {
 
 }  // namespace
 
-void check_required_extensions(const JsonView& root)
+void check_extensions(const JsonView& root)
 {
     root.each("extensionsUsed", [](const JsonView& name, std::size_t) { name.string(); });
     root.each("extensionsRequired", [](const JsonView& name, std::size_t) {
         if (std::find(kSupported.begin(), kSupported.end(), name.string()) == kSupported.end())
-            refuse_extension(name, name.string().c_str());
+            refuse_extension(name, quoted(name.string()));
+    });
+    root.each("nodes", [](const JsonView& node, std::size_t) {
+        constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+        if (node.extension(kInstancing))
+            refuse_extension(node, kInstancing);
     });
 }
 
-void refuse_extension(const JsonView& place, const char* name)
+void refuse_extension(const JsonView& place, const std::string& name)
 {
-    place.fail(std::string("needs the extension ") + name +
+    place.fail("needs the extension " + name +
                ", which is not supported; export the scene without it");
 }
 

@@ -5,11 +5,12 @@
 
 namespace lumel {
 
-/// Throws Error{input} naming the first extension that the file requires and Lumel cannot honour.
-void check_required_extensions(const JsonView& root);
+/// Throws Error{input} naming the first extension that the file requires and Lumel cannot honour,
+/// or that would change what its nodes show even where it is optional.
+void check_extensions(const JsonView& root);
 
 /// Refuses an extension that the file needs at this place.
-[[noreturn]] void refuse_extension(const JsonView& place, const char* name);
+[[noreturn]] void refuse_extension(const JsonView& place, const std::string& name);
 
 /// True if extensionsUsed names it.
 bool uses_extension(const JsonView& root, const char* name);

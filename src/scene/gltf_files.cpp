@@ -144,8 +144,8 @@ Bytes read_uri(const JsonView& uri, const std::string& scene_path)
     if (text.substr(0, kData.size()) == kData)
         return read_data_uri(uri, text.substr(kData.size()));
     if (const std::size_t length = scheme_length(text))
-        uri.fail("has the scheme \"" + std::string(text.substr(0, length)) +
-                 "\"; only files in the scene's folder and data: URIs are read");
+        uri.fail("has the scheme " + quoted(std::string(text.substr(0, length))) +
+                 "; only files in the scene's folder and data: URIs are read");
 
     // A path counts as inside only after its links and its ".." are resolved.
     const std::string name = percent_decoded(uri, text);
@@ -157,10 +157,10 @@ Bytes read_uri(const JsonView& uri, const std::string& scene_path)
     const fs::path folder = fs::canonical(fs::absolute(scene_path).parent_path(), error);
     const fs::path file = error ? fs::path() : fs::weakly_canonical(folder / name, error);
     if (error)
-        uri.fail("names the file \"" + name + "\", which cannot be found");
+        uri.fail("names the file " + quoted(name) + ", which cannot be found");
     if (!lies_in(folder, file))
-        uri.fail("names \"" + name + "\", which lies outside the scene's folder");
-    return read_file(file.string(), uri.place() + ": the file \"" + name + "\"");
+        uri.fail("names " + quoted(name) + ", which lies outside the scene's folder");
+    return read_file(file.string(), uri.place() + ": the file " + quoted(name));
 }
 
 }  // namespace lumel

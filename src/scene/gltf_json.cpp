@@ -182,6 +182,21 @@ bool JsonView::numbers(const char* key, float* values, std::size_t length) const
     return true;
 }
 
+std::string quoted(const std::string& text)
+{
+    constexpr std::size_t kLongest = 120;
+    constexpr unsigned char kContinuation = 0x80;  // UTF-8 bytes 10xxxxxx do not start a character
+    std::size_t length = std::min(text.size(), kLongest);
+    while (length > 0 && length < text.size() &&
+           (static_cast<unsigned char>(text[length]) & 0xC0) == kContinuation)
+        --length;
+    std::string shown = text.substr(0, length);
+    for (char& c : shown)
+        if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
+            c = '?';
+    return "\"" + shown + (length < text.size() ? "…" : "") + "\"";
+}
+
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size)
 {
     try {

@@ -73,6 +73,9 @@ private:
     std::string pointer_;
 };
 
+/// A string of the file as messages show it: in quotes, on one line, shortened.
+std::string quoted(const std::string& text);
+
 /// Parses JSON text; throws Error{input} naming line and column of a mistake.
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size);
 

@@ -32,7 +32,7 @@ PunctualLight read_light(const JsonView& view)
     else if (type.string() == "spot")
         light.kind = PunctualLight::Kind::spot;
     else if (type.string() != "point")
-        type.fail("is \"" + type.string() + "\", but must be directional, point or spot");
+        type.fail("is " + quoted(type.string()) + ", but must be directional, point or spot");
     view.numbers("color", &light.color.x, 3);
     light.intensity = view.number_or("intensity", light.intensity);
     if (light.color.x < 0.0f || light.color.y < 0.0f || light.color.z < 0.0f ||
@@ -70,7 +70,7 @@ Camera read_camera(const JsonView& view)
         camera.orthographic_height = 2.0f * half_height;
         camera.aspect = half_width / half_height;
     } else {
-        type.fail("is \"" + type.string() + "\", but must be perspective or orthographic");
+        type.fail("is " + quoted(type.string()) + ", but must be perspective or orthographic");
     }
     return camera;
 }

@@ -79,7 +79,8 @@ private:
         else if (mode == "BLEND")
             material.alpha_mode = AlphaMode::blend;
         else if (mode != "OPAQUE")
-            view.get("alphaMode").fail("is \"" + mode + "\", but must be OPAQUE, MASK or BLEND");
+            view.get("alphaMode")
+                .fail("is " + quoted(mode) + ", but must be OPAQUE, MASK or BLEND");
         material.alpha_cutoff = view.number_or("alphaCutoff", material.alpha_cutoff);
         if (material.alpha_cutoff < 0.0f)
             view.get("alphaCutoff").fail("must not be negative");

@@ -1,9 +1,10 @@
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "core/error.h"
 #include "scene/gltf_document.h"
-#include "scene/gltf_extensions.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
@@ -39,24 +40,34 @@ bool is_flat(const glm::dmat4& matrix)
     return !(std::abs(glm::dot(x, glm::cross(y, z))) > kSmallestRelativeVolume * box);
 }
 
-/// Throws if an instance reaches so far out that float arithmetic breaks down.
-void check_extent(const JsonView& node, const Mesh& mesh, const glm::dmat4& world)
+struct Box {
+    glm::dvec3 low{0.0};
+    glm::dvec3 high{0.0};
+};
+
+Box bounds_of(const Mesh& mesh)
 {
-    for (const Primitive& primitive : mesh.primitives) {
-        glm::dvec3 low(primitive.positions.front());
-        glm::dvec3 high = low;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+    for (const Primitive& primitive : mesh.primitives)
         for (const glm::vec3& position : primitive.positions) {
-            low = glm::min(low, glm::dvec3(position));
-            high = glm::max(high, glm::dvec3(position));
+            box.low = glm::min(box.low, glm::dvec3(position));
+            box.high = glm::max(box.high, glm::dvec3(position));
         }
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec4 point((corner & 1 ? high : low).x, (corner & 2 ? high : low).y,
-                                   (corner & 4 ? high : low).z, 1.0);
-            const glm::dvec3 reach = glm::abs(glm::dvec3(world * point));
-            if (!(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate)))
-                node.fail("places its mesh more than 1e9 m from the origin, too far out to be "
-                          "computed");
-        }
+    return mesh.primitives.empty() ? Box{} : box;
+}
+
+/// Throws if an instance reaches so far out that float arithmetic breaks down.
+void check_extent(const JsonView& node, const Box& box, const glm::dmat4& world)
+{
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 point((corner & 1 ? box.high : box.low).x,
+                               (corner & 2 ? box.high : box.low).y,
+                               (corner & 4 ? box.high : box.low).z, 1.0);
+        const glm::dvec3 reach = glm::abs(glm::dvec3(world * point));
+        if (!(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate)))
+            node.fail(
+                "places its mesh more than 1e9 m from the origin, too far out to be computed");
     }
 }
 
@@ -68,24 +79,23 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
     const std::size_t mesh_count = root.count("meshes");
     const int default_material = int(root.count("materials"));
     scene.meshes.resize(mesh_count);
-    std::vector<bool> loaded(mesh_count, false);
+    std::vector<std::optional<Box>> bounds(mesh_count);
     for (const PlacedNode& placed : nodes) {
         const JsonView node = root.get("nodes").at(placed.node);
-        if (node.extension("EXT_mesh_gpu_instancing"))
-            refuse_extension(node, "EXT_mesh_gpu_instancing");
         const auto reference = node.find("mesh");
         if (!reference)
             continue;
         const std::size_t index = reference->index(mesh_count, "meshes");
         Mesh& mesh = scene.meshes[index];
-        if (!loaded[index])
+        if (!bounds[index]) {
             mesh = read_mesh(document, index, default_material, notes.mesh);
-        loaded[index] = true;
+            bounds[index] = bounds_of(mesh);
+        }
         if (is_flat(placed.world)) {
             ++notes.flattened_instances;
             continue;
         }
-        check_extent(node, mesh, placed.world);
+        check_extent(node, *bounds[index], placed.world);
         notes.skinned_instances += node.find("skin").has_value();
         notes.weighted_instances += node.find("weights").has_value();
         if (!mesh.primitives.empty())

@@ -1,0 +1,240 @@
+// Materials as the file says, and how they look at a point.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "gltf_builder.h"
+
+using namespace lumel;
+using namespace lumel::test;
+
+namespace {
+
+constexpr glm::vec2 kNowhere[2] = {glm::vec2(0.0f), glm::vec2(0.0f)};
+
+/// One triangle with the given material.
+GltfBuilder with_material(const Json& material)
+{
+    GltfBuilder builder = one_triangle();
+    builder.push("materials", material);
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    return builder;
+}
+
+/// Two texels side by side (black, then white), read as base colour.
+GltfBuilder with_black_and_white(const Json& info = {{"index", 0}}, const Json& sampler = nullptr)
+{
+    GltfBuilder builder = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", info}}}});
+    const Bytes png = make_png(2, 1, {0, 0, 0, 255, 255, 255, 255, 255});
+    const int view = builder.add_view(png.data(), png.size());
+    builder.push("images", {{"bufferView", view}, {"mimeType", "image/png"}});
+    builder.push("textures", {{"source", 0}});
+    if (!sampler.is_null()) {
+        builder.push("samplers", sampler);
+        builder.json["textures"][0]["sampler"] = 0;
+    }
+    builder.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2", 5126, 3);
+    auto& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["TEXCOORD_0"] = 1;
+    attributes["TEXCOORD_1"] = 1;
+    return builder;
+}
+
+float albedo_at(const Scene& scene, float u, float v)
+{
+    const glm::vec2 texcoord[2] = {{u, v}, {0, 0}};
+    return sample_material(scene, 0, texcoord, glm::vec4(1)).albedo.g;
+}
+
+}  // namespace
+
+TEST(Materials, AMeshWithoutMaterialIsWhiteAndOpaque)
+{
+    const Scene scene = one_triangle().read();
+    ASSERT_EQ(scene.materials.size(), 1u);
+    const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
+    EXPECT_EQ(sample.albedo, glm::vec3(1));
+    EXPECT_EQ(sample.opacity, 1.0f);
+    EXPECT_EQ(sample.emitted, glm::vec3(0));
+    EXPECT_TRUE(is_uniform(scene.materials[0]));
+}
+
+TEST(Materials, FactorsAndVertexColoursMultiply)
+{
+    const Scene scene =
+        with_material({{"pbrMetallicRoughness",
+                        {{"baseColorFactor", {0.5, 0.25, 1, 0.5}}, {"metallicFactor", 1}}},
+                       {"doubleSided", true}})
+            .read();
+    const MaterialSample sample =
+        sample_material(scene, 0, kNowhere, glm::vec4(0.5f, 1.0f, 0.0f, 1.0f));
+    EXPECT_EQ(sample.albedo, glm::vec3(0.25f, 0.25f, 0.0f));
+    EXPECT_EQ(sample.opacity, 1.0f);
+    EXPECT_TRUE(scene.materials[0].double_sided);
+}
+
+TEST(Materials, EmissiveStrengthScalesTheFactor)
+{
+    const Scene scene =
+        with_material(
+            {{"emissiveFactor", {1, 0.5, 0}},
+             {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 40}}}}}})
+            .read();
+    EXPECT_EQ(sample_material(scene, 0, kNowhere, glm::vec4(1)).emitted, glm::vec3(40, 20, 0));
+}
+
+TEST(Materials, AlphaModesDecideOpacity)
+{
+    const auto opacity = [](const char* mode, float alpha) {
+        GltfBuilder builder =
+            with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, alpha}}}},
+                           {"alphaMode", mode},
+                           {"alphaCutoff", 0.4}});
+        return sample_material(builder.read(), 0, kNowhere, glm::vec4(1)).opacity;
+    };
+    EXPECT_EQ(opacity("OPAQUE", 0.2f), 1.0f);
+    EXPECT_EQ(opacity("MASK", 0.39f), 0.0f);
+    EXPECT_EQ(opacity("MASK", 0.41f), 1.0f);
+    EXPECT_FLOAT_EQ(opacity("BLEND", 0.2f), 0.2f);
+}
+
+TEST(Materials, SrgbTexelsAreDecodedByTheExactCurve)
+{
+    Scene scene;
+    scene.materials.push_back({.base_color_texture = {.texture = 0}});
+    for (int value : {0, 5, 10, 11, 128, 188, 255}) {
+        const auto byte = std::uint8_t(value);
+        scene.textures = {{1, 1, {byte, byte, byte, 255}}};
+        const double c = value / 255.0;
+        const double linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        EXPECT_NEAR(albedo_at(scene, 0.5f, 0.5f), linear, 1e-6);
+    }
+}
+
+TEST(Materials, TexturesAreInterpolatedInLinearLight)
+{
+    const Scene scene = with_black_and_white().read();
+    EXPECT_FALSE(is_uniform(scene.materials[0]));
+    EXPECT_NEAR(albedo_at(scene, 0.25f, 0.5f), 0.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(scene, 0.5f, 0.5f), 0.5f, 1e-6f);
+    EXPECT_NEAR(albedo_at(scene, 0.75f, 0.5f), 1.0f, 1e-6f);
+}
+
+TEST(Materials, WrapModesDecideWhatLiesOutside)
+{
+    const auto scene_with = [](int mode) {
+        return with_black_and_white({{"index", 0}}, {{"wrapS", mode}, {"wrapT", mode}}).read();
+    };
+    const Scene repeat = scene_with(10497);
+    EXPECT_NEAR(albedo_at(repeat, 1.25f, 0.5f), 0.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(repeat, -0.25f, -7.5f), 1.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(repeat, 0.0f, 0.5f), 0.5f, 1e-6f);
+    const Scene clamped = scene_with(33071);
+    EXPECT_NEAR(albedo_at(clamped, 1.25f, 0.5f), 1.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(clamped, -3.0f, 0.5f), 0.0f, 1e-6f);
+    const Scene mirrored = scene_with(33648);
+    EXPECT_NEAR(albedo_at(mirrored, 1.25f, 0.5f), 1.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(mirrored, -0.25f, 0.5f), 0.0f, 1e-6f);
+    EXPECT_NEAR(albedo_at(mirrored, 2.25f, 0.5f), 0.0f, 1e-6f);
+}
+
+TEST(Materials, FarAndBrokenCoordinatesGiveSomeTexel)
+{
+    const Scene scene = with_black_and_white().read();
+    for (float u : {1e30f, -1e30f, INFINITY, NAN}) {
+        const float albedo = albedo_at(scene, u, u);
+        EXPECT_TRUE(albedo >= 0.0f && albedo <= 1.0f);
+    }
+}
+
+TEST(Materials, TextureTransformsScaleThenTurnThenMove)
+{
+    // The lower left quadrant, turned clockwise, as the extension's own text gives it.
+    const Scene scene =
+        with_black_and_white(
+            {{"index", 0},
+             {"extensions",
+              {{"KHR_texture_transform",
+                {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}}}}}})
+            .read();
+    const glm::mat3& transform = scene.materials[0].base_color_texture.transform;
+    const auto mapped = [&](float u, float v) { return glm::vec2(transform * glm::vec3(u, v, 1)); };
+    EXPECT_NEAR(glm::distance(mapped(0, 0), glm::vec2(0, 1)), 0.0f, 1e-6f);
+    EXPECT_NEAR(glm::distance(mapped(1, 0), glm::vec2(0, 0.5f)), 0.0f, 1e-6f);
+    EXPECT_NEAR(glm::distance(mapped(0, 1), glm::vec2(0.5f, 1)), 0.0f, 1e-6f);
+}
+
+TEST(Materials, TextureTransformsMayChooseTheOtherCoordinates)
+{
+    Json info = {{"index", 0}, {"texCoord", 0}};
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+    EXPECT_EQ(with_black_and_white(info).read().materials[0].base_color_texture.texcoord, 1);
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 2;
+    EXPECT_TRUE(contains(error_of(with_black_and_white(info)), "TEXCOORD_2"));
+}
+
+TEST(Materials, SpecularGlossinessGivesItsDiffuseColour)
+{
+    const Scene scene =
+        with_material(
+            {{"extensions",
+              {{"KHR_materials_pbrSpecularGlossiness", {{"diffuseFactor", {0.1, 0.2, 0.3, 1}}}}}}})
+            .read();
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(0.1f, 0.2f, 0.3f, 1));
+}
+
+TEST(Materials, ImagesAreDecodedOnceAndOnlyWhereUsed)
+{
+    GltfBuilder builder = with_black_and_white();
+    builder.push("textures", {{"source", 0}});
+    builder.json["materials"][0]["emissiveTexture"] = {{"index", 1}};
+    builder.push("images", {{"uri", "not_there.png"}});
+    builder.push("textures", {{"source", 1}});
+    builder.json["materials"][0]["normalTexture"] = {{"index", 2}};
+    builder.push("materials", {{"emissiveTexture", {{"index", 2}}}});
+    const Scene scene = builder.read();
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.materials[0].base_color_texture.texture, 0);
+    EXPECT_EQ(scene.materials[0].emissive_texture.texture, 0);
+}
+
+TEST(Materials, ATexturedMeshWithoutTexcoordsIsReadWithAWarning)
+{
+    GltfBuilder builder = with_black_and_white();
+    builder.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    EXPECT_TRUE(warns(builder.read(), "texture coordinates"));
+}
+
+TEST(Materials, TransmissionIsTakenAsOpaqueWithAWarning)
+{
+    const Scene scene =
+        with_material(
+            {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}})
+            .read();
+    EXPECT_TRUE(warns(scene, "treated as opaque"));
+}
+
+TEST(Materials, TexturesThatNeedAnotherFormatAreRefusedByName)
+{
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
+        GltfBuilder builder = with_black_and_white();
+        builder.json["textures"][0]["extensions"][name]["source"] = 0;
+        EXPECT_EQ(error_of(builder), "") << "the plain source is there";
+        builder.json["textures"][0].erase("source");
+        EXPECT_TRUE(contains(error_of(builder), name));
+    }
+}
+
+TEST(Materials, ValuesThatMakeNoSenseAreErrors)
+{
+    const auto error_with = [](const Json& material) { return error_of(with_material(material)); };
+    EXPECT_TRUE(contains(error_with({{"alphaMode", "GLASS"}}), "/materials/0/alphaMode"));
+    EXPECT_TRUE(contains(error_with({{"emissiveFactor", {-1, 0, 0}}}), "negative"));
+    EXPECT_TRUE(contains(error_with({{"emissiveFactor", 1}}), "must be a JSON array"));
+    EXPECT_TRUE(contains(error_with({{"emissiveTexture", {{"index", 3}}}}), "textures[3]"));
+    EXPECT_TRUE(contains(error_with({{"pbrMetallicRoughness", 1}}), "must be a JSON object"));
+    EXPECT_TRUE(contains(error_with({{"doubleSided", 1}}), "true or false"));
+    EXPECT_TRUE(contains(error_of(with_black_and_white({{"index", 0}}, {{"wrapS", 1}})),
+                         "/samplers/0/wrapS"));
+}
