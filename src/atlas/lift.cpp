@@ -19,6 +19,10 @@ constexpr double kThinPart = 1e-6;  // [texels²]
 constexpr double kThinShare = 1e-3;
 // Texels for a core to do at once.
 constexpr std::size_t kGrain = 1024;
+// Texels lifted before they are collected: bounds what is held twice.
+constexpr std::size_t kTexelsAtATime = 1 << 17;
+// Parts of different charts in one texel are one surface if they face within 45 degrees.
+const double kCosContinues = std::cos(glm::radians(45.0));
 // Up to this many corners a lumel's diameter is measured exactly.
 constexpr std::size_t kExactDiameter = 32;
 
@@ -182,24 +186,63 @@ struct Lifted {
     Lumel lumel{};
     std::vector<Piece> pieces;
     float coverage = 0.0f;
-    bool double_sided = false;
 };
+
+bool is_double_sided(const Scene& scene, const Atlas& atlas, const std::vector<Touch>& touches,
+                     const TexelTouches& texel)
+{
+    for (std::uint32_t i = texel.first; i < texel.last; ++i)
+        if (chart_of(atlas, touches[i]) == texel.chart) {
+            const Surface& surface = atlas.surfaces[touches[i].surface];
+            const Mesh& mesh = scene.meshes[scene.instances[surface.instance].mesh];
+            return scene.materials[mesh.primitives[surface.primitive].material].double_sided;
+        }
+    return false;
+}
+
+/// True if a part of another chart belongs to the same place: layouts of the file may have
+/// parts of one surface side by side without a gap, and then they meet inside a texel.
+bool continues(const Part& main, const Part& other, int x, int y)
+{
+    if (main.surface->instance != other.surface->instance || main.triangle.collapsed ||
+        glm::dot(main.triangle.front, other.triangle.front) < kCosContinues)
+        return false;
+    const double texel_diagonal =
+        glm::distance(main.position(glm::dvec2(x, y)), main.position(glm::dvec2(x + 1, y + 1)));
+    return glm::distance(main.position(main.polygon.centroid()),
+                         other.position(other.polygon.centroid())) < 2.0 * texel_diagonal;
+}
+
+/// The texel's square clipped to the triangles of its main chart and to what continues it.
+std::vector<Part> clip_to_texel(const Scene& scene, const Atlas& atlas,
+                                const std::vector<Touch>& touches, const TexelTouches& texel,
+                                double& covered)
+{
+    const std::uint32_t index = touches[texel.first].texel, width = std::uint32_t(atlas.width);
+    const int x = int(index % width), y = int(index / width);
+    std::vector<Part> parts;
+    covered = 0.0;
+    for (const bool main : {true, false})
+        for (std::uint32_t i = texel.first; i < texel.last; ++i) {
+            if ((chart_of(atlas, touches[i]) == texel.chart) != main)
+                continue;
+            const Part part =
+                make_part(scene, atlas.surfaces[touches[i].surface], touches[i].triangle, x, y);
+            if (!main && !continues(parts.front(), part, x, y))
+                continue;
+            parts.push_back(part);
+            covered += touches[i].area;
+        }
+    return parts;
+}
 
 Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touch>& touches,
                   const TexelTouches& texel)
 {
-    // Clip the main chart's triangles to the texel.
-    const std::uint32_t index = touches[texel.first].texel;
-    const int x = int(index) % atlas.width, y = int(index) / atlas.width;
-    std::vector<Part> parts;
+    const std::uint32_t index = touches[texel.first].texel, width = std::uint32_t(atlas.width);
+    const int x = int(index % width), y = int(index / width);
     double covered = 0.0;
-    for (std::uint32_t i = texel.first; i < texel.last; ++i) {
-        if (chart_of(atlas, touches[i]) != texel.chart)
-            continue;
-        parts.push_back(
-            make_part(scene, atlas.surfaces[touches[i].surface], touches[i].triangle, x, y));
-        covered += touches[i].area;
-    }
+    const std::vector<Part> parts = clip_to_texel(scene, atlas, touches, texel, covered);
 
     // Measure position, area and extent.
     const Instance& instance = scene.instances[parts.front().surface->instance];
@@ -222,7 +265,6 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
 
     result.pieces = cut_into_pieces(parts, x, y);
     result.coverage = float(std::min(covered, 1.0) * look.opacity);
-    result.double_sided = parts.front().material->double_sided;
     Lumel& lumel = result.lumel;
     lumel.position = position / area;
     lumel.normal = glm::length(normal) > 1e-3 * area ? glm::normalize(normal)
@@ -238,21 +280,32 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
     return result;
 }
 
-void append(const Lifted& lifted, bool back, Lumels& lumels)
+void append_front(const Lifted& lifted, Lumels& lumels)
 {
     Lumel lumel = lifted.lumel;
     lumel.first_piece = std::uint32_t(lumels.pieces.size());
     lumel.piece_count = std::uint32_t(lifted.pieces.size());
-    lumel.flags = back ? kLumelBack : 0u;
-    if (back)
-        lumel.normal = -lumel.normal;
     lumels.lumels.push_back(lumel);
-    for (Piece piece : lifted.pieces) {
-        if (back) {
+    lumels.pieces.insert(lumels.pieces.end(), lifted.pieces.begin(), lifted.pieces.end());
+}
+
+/// Adds the other sides of the lumels from `first` on.
+void append_backs(std::size_t first, Lumels& lumels)
+{
+    const std::size_t last = lumels.lumels.size();
+    for (std::size_t i = first; i < last; ++i) {
+        Lumel lumel = lumels.lumels[i];
+        const std::uint32_t front_piece = lumel.first_piece;
+        lumel.first_piece = std::uint32_t(lumels.pieces.size());
+        lumel.flags = kLumelBack;
+        lumel.normal = -lumel.normal;
+        lumels.lumels.push_back(lumel);
+        for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
+            Piece piece = lumels.pieces[front_piece + p];
             std::swap(piece.edge_u, piece.edge_v);
             piece.normal = -piece.normal;
+            lumels.pieces.push_back(piece);
         }
-        lumels.pieces.push_back(piece);
     }
 }
 
@@ -264,25 +317,31 @@ Lumels lift(const Scene& scene, const Atlas& atlas)
     lumels.width = atlas.width;
     lumels.height = atlas.height;
     lumels.coverage.assign(std::size_t(atlas.width) * atlas.height, 0.0f);
-
     const std::vector<Touch> touches = find_touches(scene, atlas);
     const std::vector<TexelTouches> texels = order_texels(atlas, touches);
-    std::vector<Lifted> lifted(texels.size());
-    parallel_for(texels.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            lifted[i] = lift_texel(scene, atlas, touches, texels[i]);
-    });
 
-    // Chart by chart, the fronts, then the backs.
-    for (std::size_t first = 0, last; first < texels.size(); first = last) {
-        for (last = first; last < texels.size() && texels[last].chart == texels[first].chart;)
-            ++last;
-        for (const bool back : {false, true})
-            for (std::size_t i = first; i < last; ++i)
-                if (!lifted[i].pieces.empty() && (!back || lifted[i].double_sided))
-                    append(lifted[i], back, lumels);
-        for (std::size_t i = first; i < last; ++i)
-            lumels.coverage[touches[texels[i].first].texel] = lifted[i].coverage;
+    // Lift on all cores, some texels at a time; collect in order, each chart's fronts, then its
+    // backs. All of a chart has one material.
+    std::vector<Lifted> lifted;
+    std::size_t chart_first = 0;
+    for (std::size_t first = 0; first < texels.size(); first += kTexelsAtATime) {
+        lifted.assign(std::min(kTexelsAtATime, texels.size() - first), {});
+        parallel_for(lifted.size(), kGrain, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i)
+                lifted[i] = lift_texel(scene, atlas, touches, texels[first + i]);
+        });
+        for (std::size_t i = 0; i < lifted.size(); ++i) {
+            const TexelTouches& texel = texels[first + i];
+            lumels.coverage[touches[texel.first].texel] = lifted[i].coverage;
+            if (!lifted[i].pieces.empty())
+                append_front(lifted[i], lumels);
+            const bool chart_ends =
+                first + i + 1 == texels.size() || texels[first + i + 1].chart != texel.chart;
+            if (chart_ends && is_double_sided(scene, atlas, touches, texel))
+                append_backs(chart_first, lumels);
+            if (chart_ends)
+                chart_first = lumels.lumels.size();
+        }
     }
     return lumels;
 }

@@ -20,6 +20,8 @@ namespace lumel {
 
 namespace {
 
+constexpr int kLargestSide = 16384;  // what common GPUs take as an image
+constexpr int kLargestGutter = 64;   // clean down to the sixth mip level
 // Charts end this close to a texel's border end on it: rounding shall not open another texel.
 constexpr double kSnapDistance = 1e-3;
 // Share of a map that charts of an ordinary scene cover.
@@ -49,6 +51,10 @@ void check(const Scene& scene, const AtlasOptions& options)
     if (options.max_size < 1 || options.size < 0 || options.gutter < 0 ||
         !(options.texels_per_metre >= 0.0f) || !std::isfinite(options.texels_per_metre))
         throw Error(ErrorKind::input, "", "sizes of the map must be positive");
+    if (std::max(options.size, options.max_size) > kLargestSide || options.gutter > kLargestGutter)
+        throw Error(ErrorKind::input, "",
+                    fmt::format("a map can have at most {} texels a side and gutters of {}",
+                                kLargestSide, kLargestGutter));
     for (const Instance& instance : scene.instances)
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             if (!primitive.indices.empty())

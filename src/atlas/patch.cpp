@@ -92,7 +92,7 @@ bool share_one_map(const std::vector<Part>& parts, int x, int y)
 /// One parallelogram for all parts, if together they fill a rectangle of the texel.
 bool merge(const std::vector<Part>& parts, int x, int y, std::vector<Piece>& pieces)
 {
-    if (parts.size() < 2 || !share_one_map(parts, x, y))
+    if (!share_one_map(parts, x, y))
         return false;
     glm::dvec2 low(1e300), high(-1e300), centroid(0.0);
     double area = 0.0, world_area = 0.0;
