@@ -63,7 +63,7 @@ public:
     void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings,
                   const Params& params, std::size_t threads)
     {
-        static_assert(std::is_trivially_copyable_v<Params> && sizeof(Params) <= kMaxParamBytes);
+        static_assert(std::is_standard_layout_v<Params> && sizeof(Params) <= kMaxParamBytes);
         dispatch_bytes(kernel, bindings, &params, sizeof(Params), threads);
     }
 
@@ -83,7 +83,7 @@ public:
     void draw(const Raster& raster, std::initializer_list<Binding> bindings, const Params& params,
               const Triangles& triangles)
     {
-        static_assert(std::is_trivially_copyable_v<Params> && sizeof(Params) <= kMaxParamBytes);
+        static_assert(std::is_standard_layout_v<Params> && sizeof(Params) <= kMaxParamBytes);
         draw_bytes(raster, bindings, &params, sizeof(Params), triangles);
     }
     void end_pass();

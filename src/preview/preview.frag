@@ -1,0 +1,24 @@
+#version 460
+#include "preview/preview.shared.h"
+
+// Reflected plus emitted radiance of a diffuse surface:  L = ρ H / π + L_e.
+
+layout(push_constant, scalar) uniform Params { PreviewParams p; };
+layout(binding = 0) uniform sampler2D base_color;
+layout(binding = 1) uniform sampler2D emissive;
+layout(binding = 2) uniform sampler2D irradiance;
+layout(location = 0) in vec4 look;
+layout(location = 1) in vec2 lightmap;
+layout(location = 2) in vec4 color;
+layout(location = 0) out vec4 radiance;
+
+void main()
+{
+    const vec4 base = texture(base_color, look.xy) * p.base_color * color;
+    if (base.a < p.cutoff)
+        discard;
+    const vec3 albedo = clamp(base.rgb, 0.0, 1.0);
+    const vec3 reflected = albedo * textureLod(irradiance, lightmap, 0.0).rgb / 3.14159265358979;
+    const bool shows = gl_FrontFacing || p.double_sided != 0u;
+    radiance = vec4(shows ? reflected + p.emitted * texture(emissive, look.zw).rgb : vec3(0.0), 1.0);
+}
