@@ -1,5 +1,6 @@
 #include "core/usage.h"
 
+#include <chrono>
 #include <thread>
 #include <vector>
 
