@@ -19,7 +19,8 @@ class PathSamples {
 public:
     PathSamples(std::uint32_t stream, std::uint32_t index)
         : stream_(stream),
-          index_(reverse_bits(index))
+          index_(reverse_bits(index)),
+          path_(hash(stream, index))
     {
     }
 
@@ -51,7 +52,7 @@ public:
     }
 
     /// 32 random bits.
-    std::uint32_t bits(std::uint32_t pair) const { return hash(hash(stream_, pair), index_); }
+    std::uint32_t bits(std::uint32_t pair) const { return hash(path_, pair); }
 
     static float to_unit(std::uint32_t x) { return float(x >> 8) * 0x1p-24f; }
 
@@ -90,7 +91,8 @@ private:
     }
 
     std::uint32_t stream_;
-    std::uint32_t index_;  ///< bit-reversed, as every use wants it
+    std::uint32_t index_;  ///< bit-reversed, as the scrambles want it
+    std::uint32_t path_;   ///< key of this point's random numbers
 };
 
 }  // namespace lumel

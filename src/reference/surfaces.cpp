@@ -36,11 +36,9 @@ Surfaces::Surfaces(const Scene& scene) : scene_(&scene)
     }
 }
 
-MaterialSample Surfaces::look_at(const PlacedSurface& surface, std::uint32_t triangle,
-                                 const glm::vec2& barycentric) const
+MaterialSample Surfaces::textured_look(const PlacedSurface& surface, std::uint32_t triangle,
+                                       const glm::vec2& barycentric) const
 {
-    if (surface.uniform)
-        return surface.look;
     const Primitive& source = *surface.source;
     const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
     glm::vec2 texcoord[2]{};

@@ -45,12 +45,18 @@ public:
 
     /// Look of a surface at a point of one of its triangles.
     MaterialSample look_at(const PlacedSurface& surface, std::uint32_t triangle,
-                           const glm::vec2& barycentric) const;
+                           const glm::vec2& barycentric) const
+    {
+        return surface.uniform ? surface.look : textured_look(surface, triangle, barycentric);
+    }
 
     /// Shading where a ray hit. The back of a single-sided surface is black and does not emit.
     Shading shade(const RayHit& hit) const;
 
 private:
+    MaterialSample textured_look(const PlacedSurface& surface, std::uint32_t triangle,
+                                 const glm::vec2& barycentric) const;
+
     const Scene* scene_;
     std::vector<std::size_t> first_;  ///< [instances] number of the instance's first primitive
     std::vector<PlacedSurface> surfaces_;
