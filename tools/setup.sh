@@ -6,8 +6,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-volk-dev
     mesa-vulkan-drivers libglm-dev libtinygltf-dev libopenexr-dev libpng-dev libstb-dev
     libmeshoptimizer-dev libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev
-    nlohmann-json3-dev"
-test_packages="$build_packages vulkan-validationlayers libgtest-dev libbenchmark-dev"
+    nlohmann-json3-dev libbenchmark-dev"
+test_packages="$build_packages vulkan-validationlayers libgtest-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
 # What proves each package where there is no dpkg to ask: a command or a header.
