@@ -108,7 +108,7 @@ void Commands::barrier()
 void Commands::push(const Layout& layout, VkPipelineBindPoint point,
                     std::span<const Binding> bindings, const void* params, std::uint32_t bytes)
 {
-    if (bindings.size() != layout.slot_count() || bytes != layout.param_bytes())
+    if (bindings.size() != layout.slots().size() || bytes != layout.param_bytes())
         throw std::logic_error("a shader was given other bindings than it declares");
     std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
     std::vector<VkDescriptorImageInfo> images(bindings.size());
@@ -117,15 +117,14 @@ void Commands::push(const Layout& layout, VkPipelineBindPoint point,
         const Binding& binding = bindings[i];
         VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                    .dstBinding = std::uint32_t(i),
-                                   .descriptorCount = 1};
+                                   .descriptorCount = 1,
+                                   .descriptorType = descriptor_type(layout.slots()[i])};
         if (binding.buffer) {
             buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
-            write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
             write.pBufferInfo = &buffers[i];
         } else {
             images[i] = {binding.sampler->handle(), binding.texture->view(),
                          VK_IMAGE_LAYOUT_GENERAL};
-            write.descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             write.pImageInfo = &images[i];
         }
         writes.push_back(write);

@@ -37,16 +37,22 @@ VkFormat stream_format(std::uint32_t components)
 
 }  // namespace
 
+VkDescriptorType descriptor_type(Slot slot)
+{
+    return slot == Slot::array       ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+           : slot == Slot::constants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                     : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+}
+
 Layout::Layout(const Device& device, std::span<const Slot> slots, std::uint32_t param_bytes,
                VkShaderStageFlags stages)
-    : device_(&device), stages_(stages), param_bytes_(param_bytes), slot_count_(slots.size())
+    : device_(&device), stages_(stages), param_bytes_(param_bytes),
+      slots_(slots.begin(), slots.end())
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (std::size_t i = 0; i < slots.size(); ++i)
         bindings.push_back({.binding = std::uint32_t(i),
-                            .descriptorType = slots[i] == Slot::array
-                                                  ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-                                                  : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                            .descriptorType = descriptor_type(slots[i]),
                             .descriptorCount = 1,
                             .stageFlags = stages});
     const VkDescriptorSetLayoutCreateInfo set{
@@ -78,7 +84,7 @@ Layout::~Layout()
 Layout::Layout(Layout&& other) noexcept
     : device_(other.device_), set_(other.set_),
       layout_(std::exchange(other.layout_, VK_NULL_HANDLE)), stages_(other.stages_),
-      param_bytes_(other.param_bytes_), slot_count_(other.slot_count_)
+      param_bytes_(other.param_bytes_), slots_(std::move(other.slots_))
 {
 }
 

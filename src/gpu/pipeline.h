@@ -3,6 +3,7 @@
 // pushed by position: the n-th binding given is the shader's binding n.
 
 #include <span>
+#include <vector>
 
 #include "gpu/texture.h"
 
@@ -10,10 +11,13 @@ namespace lumel::gpu {
 
 using Spirv = std::span<const std::uint32_t>;
 
-enum class Slot : std::uint8_t { array, texture };
+/// constants: a small array that every invocation reads at the same index (a uniform block).
+enum class Slot : std::uint8_t { array, constants, texture };
 
 /// Vulkan guarantees this many bytes of push constants.
 inline constexpr std::uint32_t kMaxParamBytes = 128;
+
+VkDescriptorType descriptor_type(Slot slot);
 
 /// Descriptor set layout and pipeline layout shared by kernels and raster passes.
 class Layout {
@@ -28,7 +32,7 @@ public:
     VkPipelineLayout handle() const { return layout_; }
     VkShaderStageFlags stages() const { return stages_; }
     std::uint32_t param_bytes() const { return param_bytes_; }
-    std::size_t slot_count() const { return slot_count_; }
+    std::span<const Slot> slots() const { return slots_; }
 
 private:
     const Device* device_;
@@ -36,7 +40,7 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkShaderStageFlags stages_;
     std::uint32_t param_bytes_;
-    std::size_t slot_count_;
+    std::vector<Slot> slots_;
 };
 
 /// A compute shader. `name` labels it in debuggers.

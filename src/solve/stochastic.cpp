@@ -105,8 +105,9 @@ std::span<const T> view(const std::vector<T>& values)
 
 std::size_t group_count(std::size_t n) { return (n + kSumGroup - 1) / kSumGroup; }
 
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
+constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array,     gpu::Slot::array,
+                                       gpu::Slot::constants, gpu::Slot::constants,
+                                       gpu::Slot::texture,   gpu::Slot::array,
                                        gpu::Slot::array};
 
 }  // namespace
@@ -128,10 +129,10 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
                                          const Lumels& lumels, const NearField& near,
                                          const SolverOptions& options)
     : options_(options), count_(std::uint32_t(lumels.lumels.size())),
-      batch_(std::uint32_t(std::max(options.batch, 1))), paper_(options.scheme == Scheme::paper),
+      batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)), paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius), world_(&world), pacer_(device), kernels_(device),
-      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_), eyes_(device, batch_),
-      shots_(device, batch_), surface_(device, view(surfaces_of(lumels))),
+      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_), eyes_(device, kMostBatch),
+      shots_(device, kMostBatch), surface_(device, view(surfaces_of(lumels))),
       emission_(device, view(emission_of(lumels))), source_(device, count_),
       direct_(device, 2 * count_), indirect_(device, 2 * count_), earlier_(device, 2 * count_),
       near_emission_(device, count_), near_source_(device, count_), far_(device, count_),

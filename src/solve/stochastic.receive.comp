@@ -14,8 +14,8 @@ layout(local_size_x = kReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { ReceiveParams p; };
 layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Shots { Shot shots[]; };
+layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
+layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
 layout(binding = 4) uniform sampler2D hemicubes;
 layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
 layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums

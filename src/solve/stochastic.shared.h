@@ -8,6 +8,8 @@ LUMEL_CONST uint kSelectGroup = 32u;
 LUMEL_CONST uint kReceiveGroup = 64u;
 LUMEL_CONST uint kSumGroup = 64u;  ///< of the kernels that reduce; a power of two
 
+LUMEL_CONST uint kMostBatch = 256u;  ///< K; 256 eyes fit the 16 KiB every uniform block holds
+
 /// The energy side of a shooter; its Eye is the geometric side.
 struct Shot {
     vec3 power;  ///< X_j A_j / (π p_j): what a receiver multiplies by V cosθ cosθ' / r²
