@@ -51,9 +51,9 @@ bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lume
 bool is_buried(const Scene& scene, const RayScene& rays, const WorldLumels& world, std::size_t i)
 {
     for (std::uint32_t k = 0; k < kPoints; ++k) {
-        const LumelPoint point = world.point_on(i, sobol_pair(k, 0, 0));
+        const LumelPoint point = world.point_on(i, sobol_pair(k, 0));
         for (std::uint32_t d = 0; d < kDirections; ++d) {
-            const glm::vec2 st = sobol_pair(d, 0, hash_two(k, 1));
+            const glm::vec2 st = sobol_pair(d, hash_two(k, 1));
             if (!is_shut_in(scene, rays, world[i], point, direction_about(point.normal, st)))
                 return false;
         }

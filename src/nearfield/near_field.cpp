@@ -5,8 +5,9 @@
 //     F_ij = mean over x of F(x → polygon of j) × o_j × Σ w V(x, y) / Σ w,
 //     w = cosθ_i cosθ_j / (|y - x|² + A_j / 4π)
 //
-// F(x → polygon) is Lambert's edge sum and has no noise. Only visibility V is sampled, and its mean
-// is weighted by how much light would go that way; o_j is the opacity of a cut-out.
+// F(x → polygon) is Lambert's edge sum, averaged over Gauss points x: no noise. Only visibility V
+// is sampled, by one ray for each x to a stratified y, and its mean is weighted by how much light
+// would go that way; o_j is the opacity of a cut-out.
 
 #include "nearfield/near_field.h"
 
@@ -25,8 +26,15 @@ namespace {
 
 /// Factors below this are not worth an entry.
 constexpr float kLeastFactor = 1e-7f;
-/// Points per receiver are limited by the sequence.
-constexpr int kMostSamples = 256;
+/// Pairs farther apart than this, in sizes of the larger, take half as many points each way.
+constexpr float kDistant = 2.0f;
+
+/// Points of one receiver: for close pairs and for distant ones.
+struct ReceiverPoints {
+    std::vector<WeightedPoint> close;
+    std::vector<WeightedPoint> distant;
+    std::vector<WeightedPoint> torn;  ///< for pairs that only a part of the lumel sees, if any
+};
 
 /// Fills the rows of one table.
 class Builder {
@@ -35,57 +43,68 @@ public:
         : rays_(rays),
           world_(world),
           options_(options),
-          samples_(std::uint32_t(std::clamp(options.samples, 1, kMostSamples)))
+          close_(std::clamp(int(std::sqrt(float(options.samples))), 1, kMostSide)),
+          distant_((close_ + 1) / 2),
+          torn_(std::min(2 * close_, kMostSide))
     {
     }
 
-    /// Spreads the points of receiver i, for factor() below.
-    void spread(std::size_t i, std::vector<LumelPoint>& points) const
+    ReceiverPoints spread(std::size_t i) const
     {
-        points.clear();
-        if (options_.centre) {
-            points.push_back({world_[i].centre, world_[i].normal});
-            return;
-        }
-        const std::uint32_t key = hash_two(options_.seed, std::uint32_t(i));
-        for (std::uint32_t k = 0; k < samples_; ++k)
-            points.push_back(world_.point_on(i, sobol_pair(k, 0, key)));
+        return {spread(i, close_), spread(i, distant_), {}};
     }
 
-    /// F_ij × visible fraction.
-    float factor(std::uint32_t i, std::uint32_t j, const std::vector<LumelPoint>& points) const
+    /// F_ij × visible fraction. Takes more points where some see the shooter and others do not.
+    float factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
     {
-        const std::uint32_t count = sample_count(world_[i], world_[j]);
-        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        float whole = 0.0f, lit = 0.0f, weight = 0.0f, unclipped = 0.0f;
-        for (std::uint32_t k = 0; k < count; ++k) {
-            const LumelPoint& x = points[options_.centre ? 0 : k];
-            if (k == 0 || !options_.centre)
-                unclipped = seen_from(x, world_[j]);
-            if (unclipped <= 0.0f)
-                continue;
-            whole += unclipped;
-            const LumelPoint y = world_.point_on(j, sobol_pair(k, 1, key));
-            const float w = kernel(x, y, world_[j]);
-            if (w <= 0.0f)
-                continue;
-            weight += w;
-            if (visible(x, world_[i], y, world_[j], key + k))
-                lit += w;
-        }
-        if (weight <= 0.0f)
-            return 0.0f;
-        return whole / float(count) * world_[j].opacity * (lit / weight);
+        const float size = std::max(world_[i].size, world_[j].size);
+        const bool is_close = is_near(world_[i].centre, size, world_[j].centre, size, kDistant);
+        const Sample first = sample(i, j, is_close ? receiver.close : receiver.distant);
+        if (!first.torn)
+            return first.factor;
+        return is_close ? torn_factor(i, j, receiver) : sample(i, j, receiver.close).factor;
+    }
+
+    /// The same with the most points, for pairs that are known to see each other in part.
+    float torn_factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
+    {
+        if (receiver.torn.empty())
+            receiver.torn = spread(i, torn_);
+        return sample(i, j, receiver.torn).factor;
     }
 
 private:
-    std::uint32_t sample_count(const WorldLumel& i, const WorldLumel& j) const
+    struct Sample {
+        float factor;
+        bool torn;  ///< some of the points see the shooter, others do not
+    };
+
+    Sample sample(std::uint32_t i, std::uint32_t j, const std::vector<WeightedPoint>& points) const
     {
-        const float size = std::max(i.size, j.size);
-        const glm::vec3 way = j.centre - i.centre;
-        const float distance2 = glm::dot(way, way) / (size * size);
-        const std::uint32_t divisor = distance2 < 1.5f * 1.5f ? 1 : distance2 < 2.5f * 2.5f ? 2 : 4;
-        return std::max(1u, samples_ / divisor);
+        const WorldLumel& shooter = world_[j];
+        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
+        float whole = 0.0f, lit = 0.0f, sampled = 0.0f, unoccluded = 0.0f;
+        bool some = false, all = true;
+        for (std::uint32_t k = 0; k < points.size(); ++k) {
+            const LumelPoint& x = points[k].point;
+            if (k == 0 || !options_.centre)
+                unoccluded = seen_from(x, shooter);
+            whole += points[k].weight * unoccluded;
+            const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
+            const float w = unoccluded > 0.0f ? points[k].weight * kernel(x, y, shooter) : 0.0f;
+            sampled += w;
+            const bool seen = w > 0.0f && visible(x, world_[i], y, shooter, key + k);
+            lit += seen ? w : 0.0f;
+            some |= seen;
+            all &= seen;
+        }
+        const float fraction = sampled > 0.0f ? lit / sampled : 0.0f;
+        return {whole * shooter.opacity * fraction, some && !all};
+    }
+
+    std::vector<WeightedPoint> spread(std::size_t i, int side) const
+    {
+        return options_.centre ? world_.centroids(i, side) : world_.gauss_points(i, side);
     }
 
     float seen_from(const LumelPoint& x, const WorldLumel& j) const
@@ -102,8 +121,8 @@ private:
         const float distance2 = glm::dot(way, way);
         const float cosines =
             std::max(0.0f, glm::dot(x.normal, way)) * std::max(0.0f, -glm::dot(y.normal, way));
-        const float spread2 = j.size * j.size * float(0.25 / std::numbers::pi);
-        return cosines / (std::max(distance2, 1e-30f) * (distance2 + spread2));
+        const float softening = j.size * j.size * float(0.25 / std::numbers::pi);
+        return cosines / (std::max(distance2, 1e-30f) * (distance2 + softening));
     }
 
     bool visible(const LumelPoint& x, const WorldLumel& i, const LumelPoint& y, const WorldLumel& j,
@@ -116,8 +135,40 @@ private:
     const RayScene& rays_;
     const WorldLumels& world_;
     const NearFieldOptions& options_;
-    std::uint32_t samples_;
+    const int close_, distant_, torn_;  ///< points along each side of a lumel
 };
+
+/// Makes A_i F_ij = A_j F_ji hold by averaging the two estimates, which halves their noise. Only
+/// for flat lumels: where shading normals bend, irradiance is not quite reciprocal.
+void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lumels& lumels,
+                     const NearPairs& pairs, std::vector<float>& factors)
+{
+    const auto row = [&](std::size_t i) {
+        return pairs.partner.begin() + std::ptrdiff_t(pairs.first[i]);
+    };
+    const auto average = [&](std::uint32_t i, std::uint32_t j, float& ij, float& ji) {
+        // If only one found a way through, the other looks again.
+        ReceiverPoints again;
+        if (ij <= 0.0f && ji > 0.0f)
+            ij = builder.torn_factor(i, j, again);
+        else if (ji <= 0.0f && ij > 0.0f)
+            ji = builder.torn_factor(j, i, again);
+        const float area_i = lumels.lumels[i].area, area_j = lumels.lumels[j].area;
+        const float exchange = 0.5f * (area_i * ij + area_j * ji);
+        ij = area_i > 0.0f ? exchange / area_i : 0.0f;
+        ji = area_j > 0.0f ? exchange / area_j : 0.0f;
+    };
+    parallel_for(world.size(), 256, [&](std::size_t first, std::size_t last) {
+        for (std::uint32_t i = std::uint32_t(first); i < last; ++i)
+            for (auto pair = std::lower_bound(row(i), row(i + 1), i); pair != row(i + 1); ++pair) {
+                if (!world[i].flat || !world[*pair].flat)
+                    continue;
+                const auto back = std::lower_bound(row(*pair), row(*pair + 1), i);
+                average(i, *pair, factors[std::size_t(pair - pairs.partner.begin())],
+                        factors[std::size_t(back - pairs.partner.begin())]);
+            }
+    });
+}
 
 }  // namespace
 
@@ -139,18 +190,21 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
     // Compute every pair in place, row by row.
     std::vector<float> factors(pairs.partner.size());
     parallel_for(world.size(), 32, [&](std::size_t begin, std::size_t end) {
-        std::vector<LumelPoint> points;
         for (std::size_t i = begin; i < end; ++i) {
             if (pairs.first[i] == pairs.first[i + 1])
                 continue;
-            builder.spread(i, points);
+            ReceiverPoints points = builder.spread(i);
             for (std::size_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k)
                 factors[k] = builder.factor(std::uint32_t(i), pairs.partner[k], points);
         }
     });
 
+    if (!options.centre)
+        make_reciprocal(builder, world, lumels, pairs, factors);
+
     // Keep what counts.
     NearField table;
+    table.radius = options.radius;
     table.first.reserve(world.size() + 1);
     table.first.push_back(0);
     for (std::size_t i = 0; i < world.size(); ++i) {

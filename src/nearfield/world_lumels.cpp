@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "nearfield/sequence.h"
 
 namespace lumel {
 
@@ -37,6 +38,8 @@ WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels&
         const glm::mat3 linear(instance.transform);
         placements_.push_back({instance.transform, glm::transpose(glm::inverse(linear))});
     }
+    for (int side = 1; side <= kMostSide; ++side)
+        rules_.push_back(gauss_legendre(side));
     const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
     const float extent = std::max({reach.x, reach.y, reach.z});
     parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
@@ -83,13 +86,52 @@ void WorldLumels::place_facets(std::size_t i, bool mirrored)
     world.opacity = opacity < kOpaque ? opacity : 1.0f;
 }
 
-LumelPoint WorldLumels::point_on(std::size_t i, const glm::vec2& st) const
+LumelPoint WorldLumels::to_world(std::size_t i, const LumelPoint& local) const
 {
-    const Lumel& lumel = source_.lumels[i];
-    const Placement& placement = placements_[lumel.instance];
-    const LumelPoint local = lumel::point_on(source_, lumel, st.x, st.y);
+    const Placement& placement = placements_[source_.lumels[i].instance];
     return {glm::vec3(placement.points * glm::vec4(local.position, 1.0f)),
             glm::normalize(placement.normals * local.normal)};
+}
+
+LumelPoint WorldLumels::point_on(std::size_t i, const glm::vec2& st) const
+{
+    return to_world(i, lumel::point_on(source_, source_.lumels[i], st.x, st.y));
+}
+
+std::vector<WeightedPoint> WorldLumels::gauss_points(std::size_t i, int side) const
+{
+    const Lumel& lumel = source_.lumels[i];
+    const int pieces = int(lumel.piece_count), wanted = side * side;
+    std::vector<WeightedPoint> points;
+    if (pieces > wanted) {
+        for (int k = 0; k < wanted; ++k)
+            points.push_back({point_on(i, sobol_pair(std::uint32_t(k), 0)), 1.0f / float(wanted)});
+        return points;
+    }
+    const int per_side = std::max(1, int(std::lround(float(side) / std::sqrt(float(pieces)))));
+    const std::vector<GaussPoint>& rule = rules_[std::size_t(per_side - 1)];
+    float below = 0.0f;
+    for (int p = 0; p < pieces; ++p) {
+        const Piece& piece = source_.pieces[lumel.first_piece + std::uint32_t(p)];
+        for (const GaussPoint& s : rule)
+            for (const GaussPoint& t : rule) {
+                // In a triangle, v runs to 1 - u only: the square's side shrinks with u.
+                const float height = piece.parallelogram != 0 ? 1.0f : 1.0f - s.position;
+                const float density = piece.parallelogram != 0 ? 1.0f : 2.0f * height;
+                const glm::vec3 position =
+                    piece.origin + s.position * piece.edge_u + height * t.position * piece.edge_v;
+                points.push_back({to_world(i, {position, piece.normal}),
+                                  (piece.share - below) * density * s.weight * t.weight});
+            }
+        below = piece.share;
+    }
+    return points;
+}
+
+std::vector<WeightedPoint> WorldLumels::centroids(std::size_t i, int side) const
+{
+    const std::size_t count = std::size_t(side) * std::size_t(side);
+    return {count, {{lumels_[i].centre, lumels_[i].normal}, 1.0f / float(count)}};
 }
 
 }  // namespace lumel

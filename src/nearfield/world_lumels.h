@@ -8,10 +8,14 @@
 
 #include "atlas/atlas.h"
 #include "atlas/sampling.h"
+#include "nearfield/gauss.h"
 #include "rays/ray_scene.h"
 #include "scene/scene.h"
 
 namespace lumel {
+
+/// Most points along a side of a lumel.
+inline constexpr int kMostSide = 16;
 
 /// A piece of a lumel in the world: corners counter-clockwise as seen from its front.
 struct Facet {
@@ -30,6 +34,12 @@ struct WorldLumel {
     std::uint32_t facet_count = 0;
 };
 
+/// A point of a lumel in the world, and the share of the lumel it stands for.
+struct WeightedPoint {
+    LumelPoint point;
+    float weight;
+};
+
 class WorldLumels {
 public:
     WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
@@ -42,16 +52,25 @@ public:
     /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
     LumelPoint point_on(std::size_t i, const glm::vec2& st) const;
 
+    /// Points for averages over lumel i, about side × side in all: Gauss points of each piece, or
+    /// stratified points if it has more pieces than that. side ≤ kMostSide.
+    std::vector<WeightedPoint> gauss_points(std::size_t i, int side) const;
+
+    /// Its centroid, side × side times over.
+    std::vector<WeightedPoint> centroids(std::size_t i, int side) const;
+
 private:
     struct Placement {
         glm::mat4 points;
         glm::mat3 normals;
     };
 
+    LumelPoint to_world(std::size_t i, const LumelPoint& local) const;
     void place_facets(std::size_t i, bool mirrored);
 
     const Lumels& source_;
-    std::vector<Placement> placements_;  ///< by instance
+    std::vector<std::vector<GaussPoint>> rules_;  ///< of 1, 2, … points
+    std::vector<Placement> placements_;           ///< by instance
     std::vector<WorldLumel> lumels_;
     std::vector<Facet> facets_;  ///< one for each piece, same index
 };
