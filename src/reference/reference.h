@@ -23,7 +23,10 @@ struct ReferenceOptions {
 };
 
 /// H [N] [lx] of every lumel. Unbiased: emission is what the surfaces' materials say at each
-/// point, not the lumel's mean. `progress` is given the fraction done and returns false to stop.
+/// point, not the lumel's mean. Runs that differ in seed are independent, so two of them give the
+/// noise. Emissive surfaces are the only lights; buried lumels get 0.
+/// `progress` is given the fraction done and returns false to stop, which leaves the samples taken
+/// so far; lumels without any get 0.
 std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
                                             const Lumels& lumels, const ReferenceOptions& options,
                                             const std::function<bool(double)>& progress = {});

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
@@ -76,12 +77,11 @@ support::HandMade patchwork_sphere(int side)
     return made;
 }
 
-TEST(Sphere, APatchworkIsLitEvenly)
+void expect_even_light(const support::HandMade& made)
 {
-    const support::HandMade made = patchwork_sphere(12);
     const RayScene rays(made.scene);
     ReferenceOptions options;
-    options.samples_per_lumel = 8192;
+    options.samples_per_lumel = 4096;
     const auto irradiance = reference_irradiance(made.scene, rays, made.lumels, options);
 
     glm::dvec3 emission(0.0), albedo(0.0);
@@ -94,8 +94,24 @@ TEST(Sphere, APatchworkIsLitEvenly)
     for (int c = 0; c < 3; ++c) {
         const double truth = furnace_irradiance(emission[c] / area, albedo[c] / area);
         for (std::size_t i = 0; i < irradiance.size(); ++i)
-            EXPECT_NEAR(irradiance[i][c] / truth, 1.0, 0.02) << "face " << i << ", channel " << c;
+            EXPECT_NEAR(irradiance[i][c] / truth, 1.0, 0.03) << "face " << i << ", channel " << c;
     }
+}
+
+TEST(Sphere, APatchworkIsLitEvenly)
+{
+    expect_even_light(patchwork_sphere(12));
+}
+
+TEST(Sphere, AMirroredPatchworkWithSmoothNormalsIsLitEvenly)
+{
+    support::HandMade made = patchwork_sphere(12);
+    for (Instance& instance : made.scene.instances)
+        instance.transform = glm::scale(glm::mat4(1.0f), {1.0f, -1.0f, 1.0f});
+    for (Mesh& mesh : made.scene.meshes)
+        for (const glm::vec3& position : mesh.primitives[0].positions)
+            mesh.primitives[0].normals.push_back(-position);
+    expect_even_light(made);
 }
 
 }  // namespace
