@@ -47,11 +47,10 @@ std::string progress_line(const BakeProgress& progress, int batch, int width)
 {
     const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
     std::string figures = fmt::format(" {:3.0f} %", 100.0 * fraction);
-    if (progress.shots > 0 && progress.seconds > 0.0)
-        figures +=
-            fmt::format("  {:.3g} iterations/s  {} shots",
-                        static_cast<double>(progress.shots) / progress.seconds / std::max(batch, 1),
-                        progress.shots);
+    if (batch > 0 && progress.shots > 0 && progress.seconds > 0.0)
+        figures += fmt::format("  {:.3g} iterations/s  {} shots",
+                               static_cast<double>(progress.shots) / progress.seconds / batch,
+                               progress.shots);
     if (progress.error >= 0.0)
         figures += fmt::format("  error {:.2f} %", 100.0 * progress.error);
     if (fraction > 0.0 && fraction < 1.0 && progress.seconds > kSteadyAfter)

@@ -9,7 +9,7 @@
 namespace lumel {
 
 /// The text of the line, at most `width` columns: stage, bar, speed, estimated error, time left.
-/// `batch`: shooters per iteration.
+/// `batch`: shooters per iteration; 0 where nothing is shot.
 std::string progress_line(const BakeProgress& progress, int batch, int width);
 
 /// Draws the line on stderr over and over, and wipes it in the end. Draws nothing if `wanted` is

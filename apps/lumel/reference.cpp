@@ -15,7 +15,7 @@ int run(const ReferenceArguments& arguments)
 {
     watch_interrupts();
     set_quiet(arguments.talk.quiet || arguments.talk.json);
-    ProgressBar bar(arguments.talk.progress && !arguments.talk.quiet, 1);
+    ProgressBar bar(arguments.talk.progress && !arguments.talk.quiet, 0);
     const BakeSummary summary =
         bake_reference(arguments.scene, arguments.folder, arguments.options, arguments.reference,
                        [&](const BakeProgress& progress) {
