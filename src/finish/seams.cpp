@@ -13,8 +13,8 @@
 //
 //     (Gᵀ W G + Λ) d = −Gᵀ W G x⁰
 //
-// symmetric, positive definite and sparse: conjugate gradients, scaled by the diagonal, serial in
-// each channel, so that the same map gives the same bytes.
+// symmetric, positive definite and sparse: conjugate gradients, scaled by the diagonal, and
+// serial, so that the same map gives the same bytes.
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/parallel.h"
 #include "finish/finish.h"
 #include "finish/seam_edges.h"
 
@@ -35,9 +34,11 @@ constexpr double kHoldGutter = 0.02;
 constexpr float kSamplesPerTexel = 2.0f;  // bilinear weights have a kink every texel
 constexpr float kMaxSamples = 1.0e5f;     // per edge
 constexpr float kLargestJump = 0.5f;      // relative; more is an edge of the light itself
-constexpr int kMaxIterations = 400;
-constexpr double kTolerance = 1e-6;  // of the residual's first length
+constexpr int kMaxIterations = 200;
+constexpr double kTolerance = 1e-4;  // of the residual's first length: gaps change no more
 constexpr std::uint32_t kUntouched = ~0u;
+
+using Colors = std::vector<glm::dvec3>;  // of each unknown
 
 struct Footprint {
     std::array<std::uint32_t, 4> texels;
@@ -127,51 +128,65 @@ void number_unknowns(const Lumels& lumels, System& system)
 }
 
 // result += Gᵀ W G x
-void add_seam_term(const System& system, const std::vector<double>& x, std::vector<double>& result)
+void add_seam_term(const System& system, const Colors& x, Colors& result)
 {
     for (const Row& row : system.rows) {
-        double gap = 0.0;
+        glm::dvec3 gap(0.0);
         for (std::size_t k = 0; k < 8; ++k)
-            gap += row.weights[k] * x[row.unknowns[k]];
+            gap += double(row.weights[k]) * x[row.unknowns[k]];
         gap *= row.pull;
         for (std::size_t k = 0; k < 8; ++k)
-            result[row.unknowns[k]] += gap * row.weights[k];
+            result[row.unknowns[k]] += double(row.weights[k]) * gap;
     }
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b)
+glm::dvec3 dot(const Colors& a, const Colors& b)
 {
-    double sum = 0.0;
+    glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < a.size(); ++i)
         sum += a[i] * b[i];
     return sum;
 }
 
-// Solves (Gᵀ W G + Λ) d = −Gᵀ W G x⁰ by preconditioned conjugate gradients.
-std::vector<double> solve(const System& system, const std::vector<double>& x0)
+// A channel that is solved, or black, has nothing left to divide by.
+glm::dvec3 ratio(const glm::dvec3& a, const glm::dvec3& b)
+{
+    glm::dvec3 result(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (b[c] > 0.0)
+            result[c] = a[c] / b[c];
+    return result;
+}
+
+// Solves (Gᵀ W G + Λ) d = −Gᵀ W G x⁰ by preconditioned conjugate gradients, for the three
+// channels side by side.
+Colors solve(const System& system, const Colors& x0)
 {
     const std::size_t count = x0.size();
-    std::vector<double> d(count), residual(count), scaled(count), direction(count), image(count);
+    Colors d(count), residual(count), scaled(count), direction(count), image(count);
     add_seam_term(system, x0, residual);
     for (std::size_t i = 0; i < count; ++i) {
         residual[i] = -residual[i];
         direction[i] = scaled[i] = residual[i] / system.diagonal[i];
     }
-    double length = dot(residual, scaled);
-    const double enough = length * kTolerance * kTolerance;
-    for (int iteration = 0; iteration < kMaxIterations && length > enough; ++iteration) {
+    glm::dvec3 length = dot(residual, scaled);
+    const glm::dvec3 enough = length * (kTolerance * kTolerance);
+    for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
+        if (glm::all(glm::lessThanEqual(length, enough)))
+            break;
         for (std::size_t i = 0; i < count; ++i)
             image[i] = system.hold[i] * direction[i];
         add_seam_term(system, direction, image);
-        const double step = length / dot(direction, image);
+        const glm::dvec3 step = ratio(length, dot(direction, image));
         for (std::size_t i = 0; i < count; ++i) {
             d[i] += step * direction[i];
             residual[i] -= step * image[i];
             scaled[i] = residual[i] / system.diagonal[i];
         }
-        const double next = dot(residual, scaled);
+        const glm::dvec3 next = dot(residual, scaled);
+        const glm::dvec3 turn = ratio(next, length);
         for (std::size_t i = 0; i < count; ++i)
-            direction[i] = scaled[i] + next / length * direction[i];
+            direction[i] = scaled[i] + turn * direction[i];
         length = next;
     }
     return d;
@@ -186,17 +201,16 @@ void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumel
         add_rows(map, seam, system.rows);
     number_unknowns(lumels, system);
 
-    parallel_for(3, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t c = first; c < last; ++c) {
-            std::vector<double> x0;
-            for (const std::uint32_t texel : system.texels)
-                x0.push_back(map.values[std::size_t(texel) * 4 + c]);
-            const std::vector<double> d = solve(system, x0);
-            for (std::size_t i = 0; i < d.size(); ++i)
-                map.values[std::size_t(system.texels[i]) * 4 + c] =
-                    float(std::max(x0[i] + d[i], 0.0));
-        }
-    });
+    Colors x0;
+    for (const std::uint32_t texel : system.texels) {
+        const float* rgb = map.values.data() + std::size_t(texel) * 4;
+        x0.emplace_back(rgb[0], rgb[1], rgb[2]);
+    }
+    const Colors d = solve(system, x0);
+    for (std::size_t i = 0; i < d.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            map.values[std::size_t(system.texels[i]) * 4 + std::size_t(c)] =
+                float(std::max(x0[i][c] + d[i][c], 0.0));
 }
 
 }  // namespace lumel

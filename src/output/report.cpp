@@ -1,0 +1,140 @@
+#include "output/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+namespace lumel {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What the numbers in the other files mean.
+Json units()
+{
+    return {{"length", "m"},
+            {"irradiance", "lx"},
+            {"radiance", "cd/m2"},
+            {"color_space", "linear Rec. 709"},
+            {"lightmap.exr", "irradiance H [lx] in RGB, not divided by pi; alpha is the covered "
+                             "fraction of each texel, 0: not covered"},
+            {"lightmap.png", "tone-mapped for looking, sRGB"},
+            {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
+                          "texel linear, intensity in lx"},
+            {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
+            {"texture_coordinates", "TEXCOORD_1, (0, 0) at the top left corner"}};
+}
+
+// Null for what JSON has no number for.
+Json number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json gpu_times(const Report& report)
+{
+    Json passes = Json::object();
+    for (const auto& [name, runs] : report.gpu_milliseconds) {
+        if (runs.empty())
+            continue;
+        passes[name] = {{"runs", runs.size()},
+                        {"total_ms", number(std::accumulate(runs.begin(), runs.end(), 0.0))},
+                        {"least_ms", number(*std::min_element(runs.begin(), runs.end()))},
+                        {"most_ms", number(*std::max_element(runs.begin(), runs.end()))}};
+    }
+    return passes;
+}
+
+Json timings(const Report& report)
+{
+    Json stages = Json::array();
+    for (const StageTime& stage : report.stages)
+        stages.push_back({{"stage", stage.name},
+                          {"wall_seconds", number(stage.wall_seconds)},
+                          {"cpu_seconds", number(stage.cpu_seconds)}});
+    return {{"wall_seconds", number(report.wall_seconds)},
+            {"cpu_seconds", number(report.cpu_seconds)},
+            {"stages", stages},
+            {"gpu", gpu_times(report)}};
+}
+
+Json solution(const Report& report)
+{
+    Json curve = Json::array();
+    for (const ConvergencePoint& point : report.convergence)
+        curve.push_back({{"shots", point.shots},
+                         {"seconds", number(point.seconds)},
+                         {"error", number(point.error)}});
+    Json result = {{"method", report.method},
+                   {"seed", report.seed},
+                   {"shots", report.shots},
+                   {"iterations", report.iterations},
+                   {"interrupted", report.interrupted}};
+    if (report.estimated_error >= 0.0)
+        result["estimated_error"] = number(report.estimated_error);
+    result["convergence"] = curve;
+    return result;
+}
+
+Json sizes(const Report& report)
+{
+    return {{"atlas_width", report.atlas_width},
+            {"atlas_height", report.atlas_height},
+            {"texels_per_metre", number(report.texels_per_metre)},
+            {"instances", report.instances},
+            {"triangles", report.triangles},
+            {"charts", report.charts},
+            {"lumels", report.lumels},
+            {"buried_lumels", report.buried_lumels},
+            {"pieces", report.pieces}};
+}
+
+Json memory(const Report& report)
+{
+    Json bytes = Json::object();
+    if (report.peak_host_bytes >= 0)
+        bytes["peak_host_bytes"] = report.peak_host_bytes;
+    if (report.peak_gpu_bytes >= 0)
+        bytes["peak_gpu_bytes"] = report.peak_gpu_bytes;
+    return bytes;
+}
+
+template <class Texts>
+Json members(const Texts& texts)
+{
+    Json result = Json::object();
+    for (const auto& [name, text] : texts)
+        if (!text.empty())
+            result[name] = text;
+    return result;
+}
+
+}  // namespace
+
+std::string to_json(const Report& report)
+{
+    using Texts = std::vector<std::pair<std::string, std::string>>;
+    Json json;
+    json["lumel"] = report.lumel_version;
+    json["libraries"] = members(report.library_versions);
+    json["scene"] = members(Texts{{"file", report.scene}, {"hash", report.scene_hash}});
+    json["settings"] = members(report.settings);
+    json["device"] = members(
+        Texts{{"name", report.device}, {"driver", report.driver}, {"vulkan", report.vulkan}});
+    json["sizes"] = sizes(report);
+    json["solution"] = solution(report);
+    json["timings"] = timings(report);
+    json["memory"] = memory(report);
+    json["units"] = units();
+    json["files"] = report.files;
+    json["warnings"] = report.warnings;
+    json["notes"] = report.notes;
+
+    // A file name may hold any bytes; JSON may not.
+    constexpr int kIndent = 2;
+    return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lumel

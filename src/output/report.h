@@ -1,0 +1,70 @@
+#pragma once
+// report.json: what was baked, how, and what it took.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lumel {
+
+/// One stage of the bake, in order.
+struct StageTime {
+    std::string name;
+    double wall_seconds = 0.0;
+    double cpu_seconds = 0.0;  ///< of all threads
+};
+
+/// The estimate of the solver after so many shooters.
+struct ConvergencePoint {
+    std::uint64_t shots = 0;
+    double seconds = 0.0;  ///< of solving
+    double error = 0.0;    ///< estimated relative error
+};
+
+/// Everything report.json says. Empty strings, empty lists and negative numbers: not known; left
+/// out of the file.
+struct Report {
+    std::string lumel_version;
+    std::map<std::string, std::string> library_versions;
+
+    std::string scene;       ///< name of the file, without its folder
+    std::string scene_hash;  ///< Scene::hash
+    std::vector<std::pair<std::string, std::string>> settings;  ///< option and value, as given
+    std::uint64_t seed = 0;
+
+    std::string device;  ///< name of the GPU, or of what was used in its place
+    std::string driver;
+    std::string vulkan;  ///< API version
+
+    int atlas_width = 0;   ///< [texels]
+    int atlas_height = 0;  ///< [texels]
+    double texels_per_metre = 0.0;
+    std::uint64_t charts = 0, lumels = 0, pieces = 0, triangles = 0, instances = 0;
+    std::uint64_t buried_lumels = 0;
+
+    std::string method;  ///< id of the solver
+    std::uint64_t shots = 0;
+    std::uint64_t iterations = 0;
+    double estimated_error = -1.0;  ///< relative, < 0: not known
+    bool interrupted = false;
+    std::vector<ConvergencePoint> convergence;
+
+    double wall_seconds = 0.0;
+    double cpu_seconds = 0.0;
+    std::vector<StageTime> stages;
+    /// Kernel or pass name and its runs, in GPU timestamps [ms].
+    std::vector<std::pair<std::string, std::vector<double>>> gpu_milliseconds;
+    std::int64_t peak_host_bytes = -1;
+    std::int64_t peak_gpu_bytes = -1;
+
+    std::vector<std::string> files;     ///< written beside the report
+    std::vector<std::string> warnings;  ///< sentences for the user
+    std::vector<std::string> notes;
+};
+
+/// Units and encodings are added; members come in a fixed order. Ends with a line break.
+std::string to_json(const Report& report);
+
+}  // namespace lumel
