@@ -14,10 +14,10 @@
 namespace lumel {
 
 struct AtlasOptions {
-    float texels_per_metre = 0.0f;  ///< 0: chosen so that the map fills `size`, or a default size
+    float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`, or a side of 512 and more
     int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
     int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
-    int gutter = 2;                 ///< empty texels kept around each chart
+    int gutter = 2;                 ///< empty texels kept between any two charts
 };
 
 /// One primitive of one instance, laid out in the atlas. Vertices are split at chart borders.
@@ -25,34 +25,37 @@ struct Surface {
     std::uint32_t instance = 0;                ///< index into Scene::instances
     std::uint32_t primitive = 0;               ///< index into its mesh's primitives
     std::vector<std::uint32_t> source_vertex;  ///< [V] index into the primitive's vertex arrays
-    std::vector<glm::vec2> texcoord;           ///< [V] atlas place [texels], (0, 0): top left corner
-    std::vector<std::uint32_t> indices;        ///< [3T] same triangles, same order as the primitive
-    std::vector<std::uint32_t> chart;          ///< [T] chart of each triangle, global index
-    bool authored = false;                     ///< laid out by the file's TEXCOORD_1
+    std::vector<glm::vec2> texcoord;     ///< [V] atlas place [texels], (0, 0): top left corner
+    std::vector<std::uint32_t> indices;  ///< [3T] same triangles, same order as the primitive
+    std::vector<std::uint32_t> chart;    ///< [T] chart of each triangle, global index
+    bool authored = false;               ///< laid out by the file's TEXCOORD_1
 };
 
 struct Atlas {
-    int width = 0;                    ///< [texels]
-    int height = 0;                   ///< [texels]
-    float texels_per_metre = 0.0f;    ///< density of the charts we made
+    int width = 0;                  ///< [texels]
+    int height = 0;                 ///< [texels]
+    float texels_per_metre = 0.0f;  ///< density of the charts we made
     std::uint32_t chart_count = 0;
-    std::vector<Surface> surfaces;    ///< in order of instance, then primitive
-    std::vector<std::string> notes;   ///< sentences for the user: overlaps, scaled density, …
+    std::vector<Surface> surfaces;   ///< in order of instance, then primitive
+    std::vector<std::string> notes;  ///< sentences for the user: overlaps, scaled density, …
 };
 
-/// Lays the scene out. Throws Error{input} if it cannot be made to fit.
+/// Lays the scene out. Charts are whole texels wide and high, so that the edges of rectangles
+/// coincide with edges of texels; parts thinner than a texel share the texels of a neighbour.
+/// Throws Error{input} if it cannot be made to fit.
 Atlas make_atlas(const Scene& scene, const AtlasOptions& options);
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {
-    int width = 0;                 ///< of the atlas [texels]
+    int width = 0;  ///< of the atlas [texels]
     int height = 0;
-    std::vector<Lumel> lumels;     ///< [N] front lumels, and back lumels of double-sided surfaces
-    std::vector<Piece> pieces;     ///< [P]
-    std::vector<float> coverage;   ///< [height][width] covered fraction of each texel, 0…1
+    std::vector<Lumel> lumels;    ///< [N] front lumels, and back lumels of double-sided surfaces
+    std::vector<Piece> pieces;    ///< [P]
+    std::vector<float> coverage;  ///< [height][width] covered share × opacity of each texel, 0…1
 };
 
-/// Lifts every covered texel, however thinly covered, into a lumel.
+/// Lifts every covered texel, however thinly covered, into a lumel. Where charts of a file's own
+/// layout meet in one texel, it belongs to the one that covers most of it.
 Lumels lift(const Scene& scene, const Atlas& atlas);
 
 }  // namespace lumel

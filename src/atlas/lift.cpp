@@ -266,7 +266,9 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
     result.pieces = cut_into_pieces(parts, x, y);
     result.coverage = float(std::min(covered, 1.0) * look.opacity);
     Lumel& lumel = result.lumel;
-    lumel.position = position / area;
+    // The centroid of a bent part hangs in the air, or worse, inside the wall.
+    lumel.position =
+        result.pieces.size() > 1 ? nearest_on(result.pieces, position / area) : position / area;
     lumel.normal = glm::length(normal) > 1e-3 * area ? glm::normalize(normal)
                                                      : glm::dvec3(result.pieces.front().normal);
     lumel.area = float(area * look.opacity);

@@ -20,8 +20,9 @@ namespace lumel {
 
 namespace {
 
-constexpr int kLargestSide = 16384;  // what common GPUs take as an image
-constexpr int kLargestGutter = 64;   // clean down to the sixth mip level
+constexpr int kLargestSide = 16384;       // what common GPUs take as an image
+constexpr int kLargestGutter = 64;        // clean down to the sixth mip level
+constexpr std::size_t kMaxMeshNotes = 8;  // more of the same is noise
 // Charts end this close to a texel's border end on it: rounding shall not open another texel.
 constexpr double kSnapDistance = 1e-3;
 // Share of a map that charts of an ordinary scene cover.
@@ -277,6 +278,25 @@ void number_charts(const Scene& scene, Atlas& atlas)
     atlas.chart_count = std::uint32_t(centre.size());
 }
 
+/// Looks at the layouts that come with the file, and says which cannot be used.
+std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::string>& notes)
+{
+    std::vector<AuthoredReport> reports;
+    std::size_t refused = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        reports.push_back(check_authored(mesh));
+        if (!reports.back().present || reports.back().valid())
+            continue;
+        if (++refused <= kMaxMeshNotes)
+            notes.push_back(fmt::format("mesh '{}': TEXCOORD_1 {}; charts are made instead",
+                                        mesh.name, reports.back().complaint()));
+    }
+    if (refused > kMaxMeshNotes)
+        notes.push_back(fmt::format("TEXCOORD_1 of {} more meshes cannot be used either",
+                                    refused - kMaxMeshNotes));
+    return reports;
+}
+
 }  // namespace
 
 Atlas make_atlas(const Scene& scene, const AtlasOptions& asked)
@@ -290,15 +310,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& asked)
                                           options.size, options.size, asked.size, asked.size));
     }
 
-    // Look at the layouts that come with the file.
-    std::vector<AuthoredReport> reports;
-    for (const Mesh& mesh : scene.meshes) {
-        reports.push_back(check_authored(mesh));
-        if (reports.back().present && !reports.back().valid())
-            atlas.notes.push_back(fmt::format("mesh '{}': TEXCOORD_1 {}; charts are made instead",
-                                              mesh.name, reports.back().complaint()));
-    }
-
+    const std::vector<AuthoredReport> reports = check_all(scene, atlas.notes);
     // Lay out and pack.
     Plans plans;
     Packing packing;

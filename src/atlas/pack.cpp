@@ -71,10 +71,16 @@ std::optional<Packing> try_pack(const Task& task, double density, int side)
                      [](const stbrp_rect& a, const stbrp_rect& b) {
                          return a.h > b.h || (a.h == b.h && a.w > b.w);
                      });
+    // Lowest place first, or else tightest place first: neither is always better.
     std::vector<stbrp_node> nodes(std::size_t(side), stbrp_node{});
-    stbrp_context context{};
-    stbrp_init_target(&context, side, side, nodes.data(), side);
-    if (stbrp_pack_rects(&context, rectangles.data(), int(rectangles.size())) == 0)
+    const auto packs_with = [&](int heuristic) {
+        stbrp_context context{};
+        stbrp_init_target(&context, side, side, nodes.data(), side);
+        stbrp_setup_heuristic(&context, heuristic);
+        return stbrp_pack_rects(&context, rectangles.data(), int(rectangles.size())) != 0;
+    };
+    if (!packs_with(STBRP_HEURISTIC_Skyline_BL_sortHeight) &&
+        !packs_with(STBRP_HEURISTIC_Skyline_BF_sortHeight))
         return std::nullopt;
 
     Packing packing{side, density, std::vector<PackedRectangle>(rectangles.size())};

@@ -114,7 +114,51 @@ bool merge(const std::vector<Part>& parts, int x, int y, std::vector<Piece>& pie
     return true;
 }
 
+/// The point of a triangle that is nearest to `point`.
+glm::dvec3 nearest_on_triangle(const glm::dvec3& origin, const glm::dvec3& u, const glm::dvec3& v,
+                               const glm::dvec3& point)
+{
+    // Inside: drop the perpendicular.
+    const glm::dvec3 at = point - origin;
+    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+    const double whole = uu * vv - uv * uv;
+    if (whole > 0.0) {
+        const double s = (vv * glm::dot(at, u) - uv * glm::dot(at, v)) / whole;
+        const double t = (uu * glm::dot(at, v) - uv * glm::dot(at, u)) / whole;
+        if (s >= 0.0 && t >= 0.0 && s + t <= 1.0)
+            return origin + s * u + t * v;
+    }
+    // Outside: the nearest point is on one of the edges.
+    glm::dvec3 best = origin;
+    const std::array<glm::dvec3, 4> corner{origin, origin + u, origin + v, origin};
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 edge = corner[i + 1] - corner[i];
+        const double along =
+            glm::dot(point - corner[i], edge) / std::max(glm::dot(edge, edge), 1e-300);
+        const glm::dvec3 candidate = corner[i] + std::clamp(along, 0.0, 1.0) * edge;
+        if (glm::distance(candidate, point) < glm::distance(best, point))
+            best = candidate;
+    }
+    return best;
+}
+
 }  // namespace
+
+glm::dvec3 nearest_on(const std::vector<Piece>& pieces, const glm::dvec3& point)
+{
+    glm::dvec3 best = pieces.front().origin;
+    const auto consider = [&](const glm::dvec3& candidate) {
+        if (glm::distance(candidate, point) < glm::distance(best, point))
+            best = candidate;
+    };
+    for (const Piece& piece : pieces) {
+        const glm::dvec3 origin(piece.origin), u(piece.edge_u), v(piece.edge_v);
+        consider(nearest_on_triangle(origin, u, v, point));
+        if (piece.parallelogram != 0)
+            consider(nearest_on_triangle(origin + u + v, -u, -v, point));
+    }
+    return best;
+}
 
 TexelTriangle::TexelTriangle(const Scene& scene, const Surface& surface, std::uint32_t triangle)
 {

@@ -50,6 +50,9 @@ glm::dvec3 normal_at(const Part& part, const glm::dvec2& point);
 /// Shares are running sums, 1 at the end.
 std::vector<Piece> cut_into_pieces(const std::vector<Part>& parts, int x, int y);
 
+/// The point of the pieces that is nearest to `point`.
+glm::dvec3 nearest_on(const std::vector<Piece>& pieces, const glm::dvec3& point);
+
 /// Area-weighted look of the parts.
 struct Look {
     glm::dvec3 albedo{0.0};

@@ -14,6 +14,8 @@ constexpr double kGoodFill = 0.5;
 constexpr double kWorthSplitting = 0.25;
 // Bounds the work; a ring ends up as at most 2^kMaxDepth arcs.
 constexpr int kMaxDepth = 10;
+// Trying all pairs of more groups than this would be slow.
+constexpr std::size_t kMaxRejoined = 128;
 
 struct Box {
     glm::dvec2 low{1e300}, high{-1e300};
@@ -103,6 +105,35 @@ Division divide(std::span<Item> items, const ChartCost& cost, int depth)
     return first;
 }
 
+/// Rejoins groups that cost less together: a straight cut may have parted the two triangles of
+/// one bar.
+void rejoin(Groups& groups, const std::vector<Item>& items, const ChartCost& cost)
+{
+    std::vector<Box> boxes(items.size());
+    for (const Item& item : items)
+        boxes[item.index] = item.box;
+    std::vector<Box> bounds(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (std::uint32_t index : groups[g])
+            bounds[g].add(boxes[index]);
+    const auto cost_of = [&](const Box& box) { return cost(box.high - box.low); };
+    for (std::size_t a = 0; a < groups.size(); ++a)
+        for (std::size_t b = a + 1; b < groups.size();) {
+            Box both = bounds[a];
+            both.add(bounds[b]);
+            if (groups.size() > kMaxRejoined ||
+                cost_of(both) > cost_of(bounds[a]) + cost_of(bounds[b])) {
+                ++b;
+                continue;
+            }
+            groups[a].insert(groups[a].end(), groups[b].begin(), groups[b].end());
+            bounds[a] = both;
+            groups.erase(groups.begin() + std::ptrdiff_t(b));
+            bounds.erase(bounds.begin() + std::ptrdiff_t(b));
+            b = a + 1;
+        }
+}
+
 }  // namespace
 
 double ChartCost::operator()(const glm::dvec2& size) const
@@ -126,7 +157,11 @@ std::vector<std::vector<std::uint32_t>> split_sparse(const std::vector<Polygon>&
                           glm::max(corner[0], glm::max(corner[1], corner[2]))},
                          triangles[i].area()});
     }
-    return divide(items, cost, 0).groups;
+    std::vector<Item> order = items;
+    Groups groups = divide(order, cost, 0).groups;
+    if (groups.size() > 1)
+        rejoin(groups, items, cost);
+    return groups;
 }
 
 }  // namespace lumel

@@ -131,16 +131,60 @@ TEST(Lift, DrawsPointsUniformlyByArea)
     constexpr int kSide = 64;
     for (std::size_t i = 0; i < lumels.lumels.size(); i += 97) {
         const Lumel& lumel = lumels.lumels[i];
-        if (lumel.piece_count == 32)
-            continue;  // only the largest pieces are kept
-        glm::dvec3 mean(0.0);
+        glm::dvec3 mean(0.0), centroid(0.0);
         for (int s = 0; s < kSide * kSide; ++s)
             mean += glm::dvec3(point_on(lumels, lumel, (float(s) + 0.5f) / (kSide * kSide),
                                         float(s * 1741 % 4096) / 4096.0f + 1.0f / 8192.0f)
                                    .position);
         mean /= double(kSide * kSide);
-        EXPECT_LT(glm::distance(mean, glm::dvec3(lumel.position)), 0.01 * lumel.size + 1e-6);
+        double below = 0.0;
+        for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
+            const Piece& piece = lumels.pieces[lumel.first_piece + p];
+            const double at = piece.parallelogram ? 0.5 : 1.0 / 3.0;
+            centroid += (piece.share - below) *
+                        (glm::dvec3(piece.origin) + at * glm::dvec3(piece.edge_u + piece.edge_v));
+            below = piece.share;
+        }
+        EXPECT_LT(glm::distance(mean, centroid), 0.01 * lumel.size + 1e-6);
     }
+}
+
+TEST(Lift, SharesAreProportionalToTheAreasOfPieces)
+{
+    const Scene scene = turned_shapes();
+    const Lumels lumels = lift(scene, make_atlas(scene, {.size = 128}));
+    for (const Lumel& lumel : lumels.lumels) {
+        const glm::dmat3 to_world(scene.instances[lumel.instance].transform);
+        double whole = 0.0, running = 0.0;
+        std::vector<double> areas;
+        for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
+            const Piece& piece = lumels.pieces[lumel.first_piece + p];
+            areas.push_back(glm::length(glm::cross(to_world * glm::dvec3(piece.edge_u),
+                                                   to_world * glm::dvec3(piece.edge_v))) *
+                            (piece.parallelogram ? 1.0 : 0.5));
+            whole += areas.back();
+        }
+        for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
+            running += areas[p];
+            EXPECT_NEAR(lumels.pieces[lumel.first_piece + p].share, running / whole, 2e-3);
+        }
+        if (lumel.piece_count < 32) {
+            EXPECT_NEAR(whole / lumel.area, 1.0, 2e-3);
+        }
+    }
+}
+
+TEST(Lift, PutsPositionsOnTheSurfaceAlsoWhereItIsBent)
+{
+    // A gutter of two planes at 35 degrees to each other, coarser than its bend.
+    Scene scene = empty_scene();
+    Primitive bent;
+    bent.positions = {{-1, 0.315f, 0}, {0, 0, 0}, {1, 0.315f, 0},
+                      {-1, 0.315f, 3}, {0, 0, 3}, {1, 0.315f, 3}};
+    bent.indices = {0, 3, 4, 0, 4, 1, 1, 4, 5, 1, 5, 2};
+    add_instance(scene, add_mesh(scene, {bent}));
+    for (const Lumel& lumel : lift(scene, make_atlas(scene, {.texels_per_metre = 0.5f})).lumels)
+        EXPECT_NEAR(lumel.position.y, 0.315f * std::abs(lumel.position.x), 1e-5f);
 }
 
 TEST(Lift, EndsTheSharesOfEveryLumelAtOne)

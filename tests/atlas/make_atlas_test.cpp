@@ -182,6 +182,55 @@ TEST(MakeAtlas, FillsMostOfTheSizeAskedFor)
     EXPECT_GT(used, 128 * 128 * 55 / 100);
 }
 
+/// A flat rectangular frame, one metre a side, its bars as wide as given.
+Primitive frame(float bar)
+{
+    Primitive primitive;
+    for (const float inset : {0.0f, bar})
+        for (const glm::vec2& corner :
+             {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(1, 1), glm::vec2(0, 1)})
+            primitive.positions.emplace_back(inset + corner * (1.0f - 2.0f * inset), 0.0f);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t next = (i + 1) % 4;
+        for (const std::uint32_t vertex : {i, next, 4 + next, i, 4 + next, 4 + i})
+            primitive.indices.push_back(vertex);
+    }
+    return primitive;
+}
+
+TEST(MakeAtlas, DividesAThinFrameButNotABroadOne)
+{
+    Scene thin = empty_scene(), broad = empty_scene();
+    add_instance(thin, add_mesh(thin, {frame(0.02f)}));
+    add_instance(broad, add_mesh(broad, {frame(0.3f)}));
+    EXPECT_EQ(make_atlas(thin, {.texels_per_metre = 100.0f}).chart_count, 4u);
+    EXPECT_EQ(make_atlas(broad, {.texels_per_metre = 100.0f}).chart_count, 1u);
+}
+
+TEST(MakeAtlas, LetsManyLeavesShareATexel)
+{
+    // A thousand leaves of 1 cm within 20 cm, at 10 cm a texel.
+    Primitive leaves;
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        const glm::vec3 at(0.02f * float(i % 10), 0.02f * float(i / 10 % 10),
+                           0.02f * float(i / 100));
+        for (const glm::vec3& corner :
+             {glm::vec3(0), glm::vec3(0.01f, 0, 0), glm::vec3(0, 0.01f, 0.003f)})
+            leaves.positions.push_back(at + corner);
+        for (const std::uint32_t corner : {0u, 1u, 2u})
+            leaves.indices.push_back(3 * i + corner);
+    }
+    Scene scene = empty_scene();
+    add_instance(scene, add_mesh(scene, {leaves}));
+    add_instance(scene, add_mesh(scene, {quad(3.0f, 3.0f)}));
+    const Atlas atlas = make_atlas(scene, {.texels_per_metre = 10.0f});
+    EXPECT_LE(atlas.chart_count, 30u);
+    const Lumels lumels = lift(scene, atlas);
+    EXPECT_NEAR(front_area(lumels) / world_area(scene), 1.0, 1e-5);
+    for (const Lumel& lumel : lumels.lumels)
+        EXPECT_LT(lumel.size, 0.2f);
+}
+
 TEST(MakeAtlas, ScalesTheDensityToTheLargestSizeAndSaysSo)
 {
     const Atlas atlas = make_atlas(mixed_scene(), {.texels_per_metre = 500.0f, .max_size = 256});
