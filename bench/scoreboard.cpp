@@ -94,9 +94,10 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
     for (const int spp : settings.spp) {
         Stopwatch watch;
         watch.start();
-        const auto irradiance = reference_irradiance(
-            world.scene, world.rays, world.lumels,
-            {.samples_per_lumel = spp, .seed = 7 + settings.solver.seed, .rule = settings.solver.rule});
+        const auto irradiance = reference_irradiance(world.scene, world.rays, world.lumels,
+                                                     {.samples_per_lumel = spp,
+                                                      .seed = 7 + settings.solver.seed,
+                                                      .rule = settings.solver.rule});
         watch.stop();
         rows.push_back(print_row("path tracer (Embree)", std::uint64_t(spp), watch,
                                  compare_maps(to_map(world.lumels, irradiance), reference), -1.0));
@@ -111,9 +112,9 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     fmt::print("device: {} ({})\n", device.info().name, device.info().driver);
     {  // The driver compiles shaders when they first run; it keeps them for the next time.
         const World warm(device, world.scene, world.lumels);
-        const auto solver = make_solver(device, warm, world.lumels,
-                                        {.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)},
-                                        settings.solver);
+        const auto solver = make_solver(
+            device, warm, world.lumels,
+            {.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)}, settings.solver);
         for (int i = 0; i < 8; ++i)
             solver->step();
         solver->irradiance();
@@ -121,11 +122,10 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     print_head();
     Stopwatch watch;
     watch.start();
-    const NearField near =
-        build_near_field(world.scene, world.rays, world.lumels,
-                         {.radius = settings.near_radius,
-                          .centre = settings.solver.rule == SampleRule::centre,
-                          .seed = settings.solver.seed});
+    const NearField near = build_near_field(world.scene, world.rays, world.lumels,
+                                            {.radius = settings.near_radius,
+                                             .centre = settings.solver.rule == SampleRule::centre,
+                                             .seed = settings.solver.seed});
     const World gpu_world(device, world.scene, world.lumels);
     const auto solver = make_solver(device, gpu_world, world.lumels, near, settings.solver);
     watch.stop();
@@ -167,7 +167,7 @@ Image reference_map(const Settings& settings, const Prepared& world)
 
 void run(const Settings& settings)
 {
-    const Prepared world = prepare(settings.scene, {.size = settings.size});
+    const Prepared world(settings.scene, AtlasOptions{.size = settings.size});
     fmt::print("{}: {} lumels at {}², {} triangles drawn\n", settings.scene,
                world.lumels.lumels.size(), world.atlas.width,
                find_occluders(world.scene).indices.size() / 3);
@@ -203,8 +203,10 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"phased", "paper"}));
     app.add_option("--sampling", settings.sampling, "area or centre")
         ->check(CLI::IsMember({"area", "centre"}));
-    app.add_option("--batch", settings.solver.batch, "shooters per iteration")->capture_default_str();
-    app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")->capture_default_str();
+    app.add_option("--batch", settings.solver.batch, "shooters per iteration")
+        ->capture_default_str();
+    app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
+        ->capture_default_str();
     app.add_option("--near", settings.near_radius, "near field radius [lumel sizes]")
         ->capture_default_str();
     app.add_option("--seed", settings.solver.seed, "")->capture_default_str();

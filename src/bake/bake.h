@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "atlas/atlas.h"
@@ -15,19 +14,18 @@ namespace lumel {
 struct BakeOptions {
     AtlasOptions atlas;
     SolverOptions solver;
-    std::string device;            ///< index or part of a name as `lumel devices` lists; empty: best
-    std::string cache_note;        ///< free text put into report.json
-    bool half = false;             ///< lightmap.exr in half precision
-    int preview_width = 1280;      ///< [pixels], 0: no preview
+    std::string device;        ///< index or part of a name as `lumel devices` lists; empty: best
+    bool half = false;         ///< lightmap.exr in half precision
+    int preview_width = 1280;  ///< [pixels], 0: no preview
 };
 
 /// State of a running bake, for a progress display.
 struct BakeProgress {
-    std::string stage;             ///< "reading", "charts", "near field", "solving", "finishing"
-    double fraction = 0.0;         ///< of the whole stage, 0…1
-    std::uint64_t shots = 0;       ///< shooters so far
-    double error = -1.0;           ///< estimated relative error, < 0: not known yet
-    double seconds = 0.0;          ///< since the stage began
+    std::string stage;        ///< "reading", "charts", "near field", "solving", "finishing"
+    double fraction = 0.0;    ///< of the whole stage, 0…1
+    std::uint64_t shots = 0;  ///< shooters so far
+    double error = -1.0;      ///< estimated relative error, < 0: not known yet
+    double seconds = 0.0;     ///< since the stage began
 };
 
 /// Called a few times a second from the baking thread; false ends the solve early (the best
@@ -36,10 +34,10 @@ using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {
     std::uint64_t shots = 0;
-    double error = -1.0;           ///< estimated relative error
-    double seconds = 0.0;          ///< whole bake
+    double error = -1.0;   ///< estimated relative error
+    double seconds = 0.0;  ///< whole bake
     bool interrupted = false;
-    std::string report;            ///< the JSON of report.json
+    std::string report;  ///< the JSON of report.json
 };
 
 /// lumel bake: reads `scene_path`, solves, and writes lightmap.exr, lightmap.png, scene.glb,

@@ -4,18 +4,18 @@
 
 namespace lumel {
 
-Prepared prepare(const std::string& scene_path, const AtlasOptions& options)
+Prepared::Prepared(Scene given, const AtlasOptions& options)
+    : scene(std::move(given)),
+      rays(scene),
+      atlas(make_atlas(scene, options)),
+      lumels(lift(scene, atlas))
 {
-    return prepare(read_gltf(scene_path), options);
+    mark_buried(scene, rays, lumels);
 }
 
-Prepared prepare(Scene scene, const AtlasOptions& options)
+Prepared::Prepared(const std::string& scene_path, const AtlasOptions& options)
+    : Prepared(read_gltf(scene_path), options)
 {
-    Atlas atlas = make_atlas(scene, options);
-    Lumels lumels = lift(scene, atlas);
-    RayScene rays(scene);
-    mark_buried(scene, rays, lumels);
-    return {std::move(scene), std::move(atlas), std::move(lumels), std::move(rays)};
 }
 
 }  // namespace lumel

@@ -9,18 +9,20 @@
 
 namespace lumel {
 
-/// A scene with its lumels; buried ones are marked.
+/// A scene with its lumels; buried ones are marked. Stays where it was made, since the rays look
+/// into the scene.
 struct Prepared {
+    /// Lays out and lifts a scene. Throws Error.
+    Prepared(Scene scene, const AtlasOptions& options);
+    /// Reads it first.
+    Prepared(const std::string& scene_path, const AtlasOptions& options);
+    Prepared(const Prepared&) = delete;
+    Prepared& operator=(const Prepared&) = delete;
+
     Scene scene;
+    RayScene rays;
     Atlas atlas;
     Lumels lumels;
-    RayScene rays;
 };
-
-/// Reads, lays out and lifts a scene. Throws Error.
-Prepared prepare(const std::string& scene_path, const AtlasOptions& options);
-
-/// The same for a scene already in memory.
-Prepared prepare(Scene scene, const AtlasOptions& options);
 
 }  // namespace lumel

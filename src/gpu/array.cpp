@@ -7,7 +7,8 @@
 namespace lumel::gpu {
 
 Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
-    : device_(&device), bytes_(bytes)
+    : device_(&device),
+      bytes_(bytes)
 {
     if (bytes > device.max_array_bytes())
         throw Error(ErrorKind::device, device.info().name,
@@ -18,9 +19,8 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
         .size = bytes,
         .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT |
-                 VK_BUFFER_USAGE_INDEX_BUFFER_BIT};
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT};
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
@@ -38,8 +38,11 @@ Buffer::~Buffer()
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
-    : device_(other.device_), buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
-      memory_(other.memory_), bytes_(other.bytes_), allocated_(other.allocated_),
+    : device_(other.device_),
+      buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
+      memory_(other.memory_),
+      bytes_(other.bytes_),
+      allocated_(other.allocated_),
       mapped_(other.mapped_)
 {
 }

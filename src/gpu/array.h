@@ -41,7 +41,8 @@ template <class T>
 class Array {
 public:
     Array(const Device& device, std::size_t count, Buffer::Place place = Buffer::Place::device)
-        : count_(count), buffer_(device, (count > 0 ? count : 1) * sizeof(T), place)
+        : count_(count),
+          buffer_(device, (count > 0 ? count : 1) * sizeof(T), place)
     {
     }
     Array(const Device& device, std::span<const T> values) : Array(device, values.size())

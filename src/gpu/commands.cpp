@@ -38,13 +38,12 @@ Commands::Commands(const Device& device) : device_(&device)
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .queueFamilyIndex = device.queue_family()};
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
-    const VkCommandBufferAllocateInfo buffer{
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = pool_,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(device.handle(), &buffer, &buffer_),
-          "vkAllocateCommandBuffers");
+    const VkCommandBufferAllocateInfo buffer{.sType =
+                                                 VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                             .commandPool = pool_,
+                                             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                             .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(device.handle(), &buffer, &buffer_), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &fence, nullptr, &fence_), "vkCreateFence");
     const VkQueryPoolCreateInfo queries{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
@@ -97,8 +96,8 @@ void Commands::barrier()
         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
         .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
         .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT |
-                         VK_ACCESS_2_HOST_READ_BIT};
+        .dstAccessMask =
+            VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT};
     const VkDependencyInfo info{.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO,
                                 .memoryBarrierCount = 1,
                                 .pMemoryBarriers = &all};
@@ -182,11 +181,10 @@ void Commands::make_levels(const Target& target)
     int width = int(target.width()), height = int(target.height());
     for (std::uint32_t level = 1; level < target.mip_levels(); ++level) {
         const int next_width = std::max(width / 2, 1), next_height = std::max(height / 2, 1);
-        const VkImageBlit region{
-            .srcSubresource = {aspect_of(target.pixel()), level - 1, 0, 1},
-            .srcOffsets = {{0, 0, 0}, {width, height, 1}},
-            .dstSubresource = {aspect_of(target.pixel()), level, 0, 1},
-            .dstOffsets = {{0, 0, 0}, {next_width, next_height, 1}}};
+        const VkImageBlit region{.srcSubresource = {aspect_of(target.pixel()), level - 1, 0, 1},
+                                 .srcOffsets = {{0, 0, 0}, {width, height, 1}},
+                                 .dstSubresource = {aspect_of(target.pixel()), level, 0, 1},
+                                 .dstOffsets = {{0, 0, 0}, {next_width, next_height, 1}}};
         vkCmdBlitImage(buffer_, target.image(), VK_IMAGE_LAYOUT_GENERAL, target.image(),
                        VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);
         barrier();
@@ -217,12 +215,11 @@ void Commands::begin_pass(const Target* color, const Target& depth, const Area& 
                           std::array<float, 4> clear)
 {
     begin();
-    VkRenderingAttachmentInfo color_attachment{
-        .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-        .imageView = color ? color->view() : VK_NULL_HANDLE,
-        .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
-        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-        .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
+    VkRenderingAttachmentInfo color_attachment{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+                                               .imageView = color ? color->view() : VK_NULL_HANDLE,
+                                               .imageLayout = VK_IMAGE_LAYOUT_GENERAL,
+                                               .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                               .storeOp = VK_ATTACHMENT_STORE_OP_STORE};
     std::copy(clear.begin(), clear.end(), color_attachment.clearValue.color.float32);
     const VkRenderingAttachmentInfo depth_attachment{
         .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
@@ -244,8 +241,8 @@ void Commands::begin_pass(const Target* color, const Target& depth, const Area& 
 
 void Commands::viewport(const Area& area)
 {
-    const VkViewport viewport{float(area.x), float(area.y), float(area.width), float(area.height),
-                              0.0f, 1.0f};
+    const VkViewport viewport{float(area.x),      float(area.y), float(area.width),
+                              float(area.height), 0.0f,          1.0f};
     const VkRect2D scissor{{int(area.x), int(area.y)}, {area.width, area.height}};
     vkCmdSetViewport(buffer_, 0, 1, &viewport);
     vkCmdSetScissor(buffer_, 0, 1, &scissor);
@@ -279,8 +276,8 @@ void Commands::submit()
                          std::uint32_t(stages_.size()));
     check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
     recording_ = false;
-    const VkCommandBufferSubmitInfo buffer{
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = buffer_};
+    const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                           .commandBuffer = buffer_};
     const VkSubmitInfo2 info{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
                              .commandBufferInfoCount = 1,
                              .pCommandBufferInfos = &buffer};

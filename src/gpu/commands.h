@@ -104,14 +104,15 @@ private:
     void barrier();
     void push(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings,
               const void* params, std::uint32_t bytes);
-    void dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings,
-                        const void* params, std::uint32_t bytes, std::size_t threads);
+    void dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings, const void* params,
+                        std::uint32_t bytes, std::size_t threads);
     void draw_bytes(const Raster& raster, std::span<const Binding> bindings, const void* params,
                     std::uint32_t bytes, const Triangles& triangles);
     void dispatch_bytes(const Kernel& kernel, std::initializer_list<Binding> bindings,
                         const void* params, std::uint32_t bytes, std::size_t threads)
     {
-        dispatch_bytes(kernel, std::span(bindings.begin(), bindings.size()), params, bytes, threads);
+        dispatch_bytes(kernel, std::span(bindings.begin(), bindings.size()), params, bytes,
+                       threads);
     }
     void draw_bytes(const Raster& raster, std::initializer_list<Binding> bindings,
                     const void* params, std::uint32_t bytes, const Triangles& triangles)

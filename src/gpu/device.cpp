@@ -37,11 +37,16 @@ std::string version_text(std::uint32_t version)
 const char* type_text(VkPhysicalDeviceType type)
 {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-    default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "cpu";
+    default:
+        return "other";
     }
 }
 
@@ -126,8 +131,8 @@ int find_queue_family(VkPhysicalDevice physical)
 
 /// The features Lumel needs, chained for a query or for device creation.
 struct Features {
-    VkPhysicalDeviceVulkan13Features v13{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan13Features v13{.sType =
+                                             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     VkPhysicalDeviceVulkan12Features v12{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
     VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
@@ -158,8 +163,8 @@ DeviceInfo describe(VkPhysicalDevice physical)
 {
     VkPhysicalDeviceDriverProperties driver{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-    VkPhysicalDeviceProperties2 properties{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                           .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical, &properties);
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
@@ -171,7 +176,8 @@ DeviceInfo describe(VkPhysicalDevice physical)
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
-            info.memory_bytes = std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
+            info.memory_bytes =
+                std::max<std::uint64_t>(info.memory_bytes, memory.memoryHeaps[i].size);
     info.reason = missing_features(physical, properties.properties.apiVersion);
     info.usable = info.reason.empty();
     return info;
@@ -211,7 +217,8 @@ std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick
                 index = i;
     }
     if (index >= infos.size())
-        throw Error(ErrorKind::device, "--device " + pick, "no such device; there are " + listing(infos));
+        throw Error(ErrorKind::device, "--device " + pick,
+                    "no such device; there are " + listing(infos));
     if (!infos[index].usable)
         throw Error(ErrorKind::device, infos[index].name, infos[index].reason);
     return index;
@@ -234,9 +241,10 @@ struct Device::Validation {
     mutable std::mutex mutex;
     std::string messages;
 
-    static VKAPI_ATTR VkBool32 VKAPI_CALL
-    receive(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-            const VkDebugUtilsMessengerCallbackDataEXT* data, void* user)
+    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                  VkDebugUtilsMessageTypeFlagsEXT,
+                                                  const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                  void* user)
     {
         auto* self = static_cast<Validation*>(user);
         const std::lock_guard lock(self->mutex);
@@ -324,7 +332,8 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool h
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     // Cached host memory first, for read-backs; then any that serves.
     const VkMemoryPropertyFlags wishes[2] = {
-        host_visible ? host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
+        host_visible ? host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT
+                     : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
         host_visible ? host : 0u};
     for (const VkMemoryPropertyFlags wish : wishes)
         for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {

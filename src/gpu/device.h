@@ -44,7 +44,7 @@ public:
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
     std::uint32_t max_image_side() const { return max_image_side_; }
-    double timestamp_period() const { return timestamp_period_; }  ///< [ns]
+    double timestamp_period() const { return timestamp_period_; }       ///< [ns]
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }  ///< held now
 
     VkDevice handle() const { return device_; }

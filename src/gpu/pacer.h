@@ -55,8 +55,8 @@ private:
     double budget_ms_;
     std::array<Slot, kSlots> slots_;
     std::uint64_t submitted_ = 0;
-    double expected_ms_ = 0.0;                  ///< of what is recorded now
-    std::map<std::string, double> unit_cost_;   ///< [ms]
+    double expected_ms_ = 0.0;                 ///< of what is recorded now
+    std::map<std::string, double> unit_cost_;  ///< [ms]
     StageTimes times_;
     double longest_ms_ = 0.0;
     bool recording_ = false;

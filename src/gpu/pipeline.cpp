@@ -46,7 +46,9 @@ VkDescriptorType descriptor_type(Slot slot)
 
 Layout::Layout(const Device& device, std::span<const Slot> slots, std::uint32_t param_bytes,
                VkShaderStageFlags stages)
-    : device_(&device), stages_(stages), param_bytes_(param_bytes),
+    : device_(&device),
+      stages_(stages),
+      param_bytes_(param_bytes),
       slots_(slots.begin(), slots.end())
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -63,12 +65,11 @@ Layout::Layout(const Device& device, std::span<const Slot> slots, std::uint32_t 
     check(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &set_),
           "vkCreateDescriptorSetLayout");
     const VkPushConstantRange params{.stageFlags = stages, .size = param_bytes};
-    const VkPipelineLayoutCreateInfo layout{
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-        .setLayoutCount = 1,
-        .pSetLayouts = &set_,
-        .pushConstantRangeCount = param_bytes > 0 ? 1u : 0u,
-        .pPushConstantRanges = &params};
+    const VkPipelineLayoutCreateInfo layout{.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                            .setLayoutCount = 1,
+                                            .pSetLayouts = &set_,
+                                            .pushConstantRangeCount = param_bytes > 0 ? 1u : 0u,
+                                            .pPushConstantRanges = &params};
     check(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_),
           "vkCreatePipelineLayout");
 }
@@ -82,15 +83,19 @@ Layout::~Layout()
 }
 
 Layout::Layout(Layout&& other) noexcept
-    : device_(other.device_), set_(other.set_),
-      layout_(std::exchange(other.layout_, VK_NULL_HANDLE)), stages_(other.stages_),
-      param_bytes_(other.param_bytes_), slots_(std::move(other.slots_))
+    : device_(other.device_),
+      set_(other.set_),
+      layout_(std::exchange(other.layout_, VK_NULL_HANDLE)),
+      stages_(other.stages_),
+      param_bytes_(other.param_bytes_),
+      slots_(std::move(other.slots_))
 {
 }
 
 Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
                std::uint32_t param_bytes, std::uint32_t group_size)
-    : layout_(device, slots, param_bytes, VK_SHADER_STAGE_COMPUTE_BIT), group_size_(group_size)
+    : layout_(device, slots, param_bytes, VK_SHADER_STAGE_COMPUTE_BIT),
+      group_size_(group_size)
 {
     const VkShaderModule module = make_module(device, spirv);
     const VkComputePipelineCreateInfo info{
@@ -121,7 +126,8 @@ Kernel::~Kernel()
 }
 
 Kernel::Kernel(Kernel&& other) noexcept
-    : layout_(std::move(other.layout_)), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)),
+    : layout_(std::move(other.layout_)),
+      pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)),
       group_size_(other.group_size_)
 {
 }
@@ -191,20 +197,20 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
         .colorAttachmentCount = state.color ? 1u : 0u,
         .pColorAttachmentFormats = &color_format,
         .depthAttachmentFormat = format_of(Pixel::depth)};
-    const VkGraphicsPipelineCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-        .pNext = &rendering,
-        .stageCount = fragment ? 2u : 1u,
-        .pStages = stages,
-        .pVertexInputState = &vertices,
-        .pInputAssemblyState = &assembly,
-        .pViewportState = &viewport,
-        .pRasterizationState = &rasterization,
-        .pMultisampleState = &multisample,
-        .pDepthStencilState = &depth,
-        .pColorBlendState = &blend,
-        .pDynamicState = &dynamic,
-        .layout = layout_.handle()};
+    const VkGraphicsPipelineCreateInfo info{.sType =
+                                                VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+                                            .pNext = &rendering,
+                                            .stageCount = fragment ? 2u : 1u,
+                                            .pStages = stages,
+                                            .pVertexInputState = &vertices,
+                                            .pInputAssemblyState = &assembly,
+                                            .pViewportState = &viewport,
+                                            .pRasterizationState = &rasterization,
+                                            .pMultisampleState = &multisample,
+                                            .pDepthStencilState = &depth,
+                                            .pColorBlendState = &blend,
+                                            .pDynamicState = &dynamic,
+                                            .layout = layout_.handle()};
     const VkResult result =
         vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
     vkDestroyShaderModule(device.handle(), vertex, nullptr);
@@ -221,7 +227,8 @@ Raster::~Raster()
 }
 
 Raster::Raster(Raster&& other) noexcept
-    : layout_(std::move(other.layout_)), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE))
+    : layout_(std::move(other.layout_)),
+      pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE))
 {
 }
 

@@ -72,11 +72,11 @@ struct VertexStream {
 
 struct RasterState {
     Spirv vertex;
-    Spirv fragment;                        ///< empty: depth only
+    Spirv fragment;  ///< empty: depth only
     std::span<const Slot> slots;
     std::uint32_t param_bytes = 0;
-    std::span<const VertexStream> streams; ///< stream n is attribute location n
-    bool color = false;                    ///< draws into a colour target
+    std::span<const VertexStream> streams;  ///< stream n is attribute location n
+    bool color = false;                     ///< draws into a colour target
     Pixel color_pixel = Pixel::srgba8;
 };
 

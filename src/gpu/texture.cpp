@@ -7,15 +7,22 @@
 
 namespace lumel::gpu {
 
-std::uint32_t pixel_bytes(Pixel pixel) { return pixel == Pixel::rgba32 ? 16u : 4u; }
+std::uint32_t pixel_bytes(Pixel pixel)
+{
+    return pixel == Pixel::rgba32 ? 16u : 4u;
+}
 
 VkFormat format_of(Pixel pixel)
 {
     switch (pixel) {
-    case Pixel::depth: return VK_FORMAT_D32_SFLOAT;
-    case Pixel::rgba8: return VK_FORMAT_R8G8B8A8_UNORM;
-    case Pixel::srgba8: return VK_FORMAT_R8G8B8A8_SRGB;
-    case Pixel::rgba32: return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Pixel::depth:
+        return VK_FORMAT_D32_SFLOAT;
+    case Pixel::rgba8:
+        return VK_FORMAT_R8G8B8A8_UNORM;
+    case Pixel::srgba8:
+        return VK_FORMAT_R8G8B8A8_SRGB;
+    case Pixel::rgba32:
+        return VK_FORMAT_R32G32B32A32_SFLOAT;
     }
     return VK_FORMAT_UNDEFINED;
 }
@@ -27,39 +34,45 @@ VkImageAspectFlags aspect_of(Pixel pixel)
 
 Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
                std::uint32_t mip_levels)
-    : device_(&device), pixel_(pixel), width_(width), height_(height), mip_levels_(mip_levels)
+    : device_(&device),
+      pixel_(pixel),
+      width_(width),
+      height_(height),
+      mip_levels_(mip_levels)
 {
     if (width > device.max_image_side() || height > device.max_image_side())
         throw Error(ErrorKind::device, device.info().name,
                     "an image of " + std::to_string(width) + " × " + std::to_string(height) +
                         " is larger than this device allows (" +
                         std::to_string(device.max_image_side()) + ")");
-    const VkImageUsageFlags drawn = pixel == Pixel::depth ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                                          : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    const VkImageCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-        .imageType = VK_IMAGE_TYPE_2D,
-        .format = format_of(pixel),
-        .extent = {width, height, 1},
-        .mipLevels = mip_levels,
-        .arrayLayers = 1,
-        .samples = VK_SAMPLE_COUNT_1_BIT,
-        .tiling = VK_IMAGE_TILING_OPTIMAL,
-        .usage = drawn | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-        .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
+    const VkImageUsageFlags drawn = pixel == Pixel::depth
+                                        ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                        : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
+                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .format = format_of(pixel),
+                                 .extent = {width, height, 1},
+                                 .mipLevels = mip_levels,
+                                 .arrayLayers = 1,
+                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .tiling = VK_IMAGE_TILING_OPTIMAL,
+                                 .usage = drawn | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                 .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
     memory_ = device.allocate(requirements, false, nullptr);
     allocated_ = requirements.size;
     check(vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
-    const VkImageViewCreateInfo view{
-        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
-        .image = image_,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D,
-        .format = format_of(pixel),
-        .subresourceRange = {.aspectMask = aspect_of(pixel), .levelCount = mip_levels, .layerCount = 1}};
+    const VkImageViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
+                                     .image = image_,
+                                     .viewType = VK_IMAGE_VIEW_TYPE_2D,
+                                     .format = format_of(pixel),
+                                     .subresourceRange = {.aspectMask = aspect_of(pixel),
+                                                          .levelCount = mip_levels,
+                                                          .layerCount = 1}};
     check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "vkCreateImageView");
     Commands commands(device);
     commands.prepare(*this);
@@ -76,9 +89,15 @@ Target::~Target()
 }
 
 Target::Target(Target&& other) noexcept
-    : device_(other.device_), pixel_(other.pixel_), width_(other.width_), height_(other.height_),
-      mip_levels_(other.mip_levels_), image_(std::exchange(other.image_, VK_NULL_HANDLE)),
-      view_(other.view_), memory_(other.memory_), allocated_(other.allocated_)
+    : device_(other.device_),
+      pixel_(other.pixel_),
+      width_(other.width_),
+      height_(other.height_),
+      mip_levels_(other.mip_levels_),
+      image_(std::exchange(other.image_, VK_NULL_HANDLE)),
+      view_(other.view_),
+      memory_(other.memory_),
+      allocated_(other.allocated_)
 {
 }
 
@@ -110,15 +129,15 @@ Sampler::Sampler(const Device& device, Filter filter, Address u, Address v) : de
                                               : VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     };
     const bool linear = filter == Filter::linear;
-    const VkSamplerCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
-        .magFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
-        .minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
-        .mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST,
-        .addressModeU = mode(u),
-        .addressModeV = mode(v),
-        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-        .maxLod = VK_LOD_CLAMP_NONE};
+    const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
+                                   .magFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+                                   .minFilter = linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST,
+                                   .mipmapMode = linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                        : VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                   .addressModeU = mode(u),
+                                   .addressModeV = mode(v),
+                                   .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                   .maxLod = VK_LOD_CLAMP_NONE};
     check(vkCreateSampler(device.handle(), &info, nullptr, &sampler_), "vkCreateSampler");
 }
 
@@ -129,7 +148,8 @@ Sampler::~Sampler()
 }
 
 Sampler::Sampler(Sampler&& other) noexcept
-    : device_(other.device_), sampler_(std::exchange(other.sampler_, VK_NULL_HANDLE))
+    : device_(other.device_),
+      sampler_(std::exchange(other.sampler_, VK_NULL_HANDLE))
 {
 }
 

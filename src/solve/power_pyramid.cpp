@@ -33,7 +33,9 @@ std::size_t node_count(const PyramidLayout& layout)
 }  // namespace
 
 PowerPyramid::PowerPyramid(const gpu::Device& device, std::size_t lumel_count)
-    : layout_(make_layout(lumel_count)), array_(device, node_count(layout_)), power_(device, 1),
+    : layout_(make_layout(lumel_count)),
+      array_(device, node_count(layout_)),
+      power_(device, 1),
       leaves_(device, "power_pyramid.leaves", kLeavesSpirv, 4, sizeof(PyramidLeafParams),
               kPyramidGroup),
       sum_(device, "power_pyramid.sum", kSumSpirv, 1, sizeof(PyramidSumParams), kPyramidGroup),

@@ -24,9 +24,9 @@ struct PyramidLeafParams {
 
 /// Push constants of power_pyramid.sum.comp.
 struct PyramidSumParams {
-    uint from;        ///< first element of the children's level
+    uint from;  ///< first element of the children's level
     uint from_count;
-    uint to;          ///< first element of the parents' level
+    uint to;  ///< first element of the parents' level
     uint to_count;
 };
 

@@ -15,7 +15,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
     std::string known;
     for (const MethodInfo& method : kMethods)
         known += std::string(known.empty() ? "" : ", ") + method.id;
-    throw Error(ErrorKind::input, "--solver " + options.method, "no such method; there are: " + known);
+    throw Error(ErrorKind::input, "--solver " + options.method,
+                "no such method; there are: " + known);
 }
 
 bool solve(Solver& solver, const SolverOptions& options,

@@ -26,18 +26,18 @@ struct SolverOptions {
     Scheme scheme = Scheme::phased;
     SampleRule rule = SampleRule::area;
     std::uint32_t seed = 1;
-    int batch = 16;                     ///< K, shooters per iteration
-    int hemicube = 256;                 ///< side of the front face [pixels]
-    std::uint64_t max_shots = 0;        ///< 0: no limit
-    double max_seconds = 0.0;           ///< of solving, 0: no limit
-    double target_error = 0.02;         ///< estimated relative error to stop at, 0: never
+    int batch = 16;               ///< K, shooters per iteration
+    int hemicube = 256;           ///< side of the front face [pixels]
+    std::uint64_t max_shots = 0;  ///< 0: no limit
+    double max_seconds = 0.0;     ///< of solving, 0: no limit
+    double target_error = 0.02;   ///< estimated relative error to stop at, 0: never
 };
 
 /// Where a solver stands, as last heard from the device.
 struct SolverState {
     std::uint64_t shots = 0;       ///< shooters so far
     std::uint64_t iterations = 0;  ///< steps so far
-    double error = -1.0;           ///< estimated relative RMSE of the irradiance, < 0: not known yet
+    double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
 };
 
 /// A method at work on one world. Every method fills the same result.

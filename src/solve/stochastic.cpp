@@ -95,7 +95,10 @@ std::vector<glm::vec3> emission_of(const Lumels& lumels)
     return emission;
 }
 
-double luminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+double luminance(const glm::vec3& c)
+{
+    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
+}
 
 template <class T>
 std::span<const T> view(const std::vector<T>& values)
@@ -103,12 +106,14 @@ std::span<const T> view(const std::vector<T>& values)
     return values;
 }
 
-std::size_t group_count(std::size_t n) { return (n + kSumGroup - 1) / kSumGroup; }
+std::size_t group_count(std::size_t n)
+{
+    return (n + kSumGroup - 1) / kSumGroup;
+}
 
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array,     gpu::Slot::array,
-                                       gpu::Slot::constants, gpu::Slot::constants,
-                                       gpu::Slot::texture,   gpu::Slot::array,
-                                       gpu::Slot::array};
+constexpr gpu::Slot kReceiveSlots[] = {
+    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
+    gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array};
 
 }  // namespace
 
@@ -128,20 +133,37 @@ StochasticRadiosity::Kernels::Kernels(const gpu::Device& device)
 StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World& world,
                                          const Lumels& lumels, const NearField& near,
                                          const SolverOptions& options)
-    : options_(options), count_(std::uint32_t(lumels.lumels.size())),
-      batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)), paper_(options.scheme == Scheme::paper),
-      near_radius_(paper_ ? 0.0f : near.radius), world_(&world), pacer_(device), kernels_(device),
-      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_), eyes_(device, kMostBatch),
-      shots_(device, kMostBatch), surface_(device, view(surfaces_of(lumels))),
-      emission_(device, view(emission_of(lumels))), source_(device, count_),
-      direct_(device, 2 * count_), indirect_(device, 2 * count_), earlier_(device, 2 * count_),
-      near_emission_(device, count_), near_source_(device, count_), far_(device, count_),
-      irradiance_(device, count_), scratch_source_(device, count_), scratch_near_(device, count_),
+    : options_(options),
+      count_(std::uint32_t(lumels.lumels.size())),
+      batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)),
+      paper_(options.scheme == Scheme::paper),
+      near_radius_(paper_ ? 0.0f : near.radius),
+      world_(&world),
+      pacer_(device),
+      kernels_(device),
+      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
+      eyes_(device, kMostBatch),
+      shots_(device, kMostBatch),
+      surface_(device, view(surfaces_of(lumels))),
+      emission_(device, view(emission_of(lumels))),
+      source_(device, count_),
+      direct_(device, 2 * count_),
+      indirect_(device, 2 * count_),
+      earlier_(device, 2 * count_),
+      near_emission_(device, count_),
+      near_source_(device, count_),
+      far_(device, count_),
+      irradiance_(device, count_),
+      scratch_source_(device, count_),
+      scratch_near_(device, count_),
       near_first_(device, paper_ ? std::span<const std::uint32_t>() : view(near.first)),
       near_column_(device, paper_ ? std::span<const std::uint32_t>() : view(near.column)),
       near_factor_(device, paper_ ? std::span<const float>() : view(near.factor)),
-      parts_(device, group_count(count_)), totals_(device, 1), figures_(device, 1),
-      figures_host_(device, 1, gpu::Buffer::Place::host), emission_power_pyramid_(device, count_),
+      parts_(device, group_count(count_)),
+      totals_(device, 1),
+      figures_(device, 1),
+      figures_host_(device, 1, gpu::Buffer::Place::host),
+      emission_power_pyramid_(device, count_),
       source_power_pyramid_(device, count_)
 {
     batch_ = std::min(batch_, hemicubes_.capacity());
@@ -218,7 +240,8 @@ void StochasticRadiosity::select(gpu::Commands& commands, std::uint32_t emission
                               .centre = options_.rule == SampleRule::centre ? 1u : 0u};
     commands.dispatch(kernels_.select,
                       {world_->lumels(), world_->pieces(), emission_, source_, surface_,
-                       emission_power_pyramid_.array(), source_power_pyramid_.array(), eyes_, shots_},
+                       emission_power_pyramid_.array(), source_power_pyramid_.array(), eyes_,
+                       shots_},
                       params, batch_);
 }
 
@@ -239,21 +262,26 @@ void StochasticRadiosity::shoot()
                 });
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    const ReceiveParams params{
-                        .hemicubes = hemicubes_.layout(),
-                        .first = first,
-                        .last = last,
-                        .count = count_,
-                        .shots = batch_,
-                        .emission_shots = emission_shots,
-                        .half_ = h,
-                        .iteration = std::uint32_t(state_.iterations),
-                        .seed = options_.seed,
-                        .centre = options_.rule == SampleRule::centre ? 1u : 0u,
-                        .near_radius = near_radius_};
+                    const ReceiveParams params{.hemicubes = hemicubes_.layout(),
+                                               .first = first,
+                                               .last = last,
+                                               .count = count_,
+                                               .shots = batch_,
+                                               .emission_shots = emission_shots,
+                                               .half_ = h,
+                                               .iteration = std::uint32_t(state_.iterations),
+                                               .seed = options_.seed,
+                                               .centre =
+                                                   options_.rule == SampleRule::centre ? 1u : 0u,
+                                               .near_radius = near_radius_};
                     commands.dispatch(kernels_.receive,
-                                      {world_->lumels(), world_->pieces(), eyes_, shots_,
-                                       {hemicubes_.image(), hemicubes_.sampler()}, direct_, indirect_},
+                                      {world_->lumels(),
+                                       world_->pieces(),
+                                       eyes_,
+                                       shots_,
+                                       {hemicubes_.image(), hemicubes_.sampler()},
+                                       direct_,
+                                       indirect_},
                                       params, last - first);
                 });
     emission_index_[h] += emission_shots;

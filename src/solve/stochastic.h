@@ -48,12 +48,12 @@ private:
     Averages averages() const;
 
     SolverOptions options_;
-    std::uint32_t count_;          ///< N lumels
-    std::uint32_t batch_;          ///< K
+    std::uint32_t count_;  ///< N lumels
+    std::uint32_t batch_;  ///< K
     bool paper_;
     float near_radius_;
-    float reflecting_area_ = 0.0f; ///< Σ A of lumels with albedo > 0 [m²]
-    double emitted_power_ = 0.0;   ///< Σ A 𝓛(E) [lm]
+    float reflecting_area_ = 0.0f;  ///< Σ A of lumels with albedo > 0 [m²]
+    double emitted_power_ = 0.0;    ///< Σ A 𝓛(E) [lm]
 
     const World* world_;
     gpu::Pacer pacer_;
@@ -77,12 +77,12 @@ private:
 
     SolverState state_;
     PendingFigures pending_;
-    std::uint64_t next_figures_ = 0;       ///< iteration to ask again
+    std::uint64_t next_figures_ = 0;  ///< iteration to ask again
     std::uint32_t phase_ = 0;
-    std::uint32_t phase_batch_ = 0;        ///< batches done in this phase
-    std::uint32_t phase_length_;           ///< batches in this phase
-    double emission_share_ = 1.0;          ///< of the shooters that are drawn from E
-    double emission_owed_ = 0.0;           ///< fraction of a shooter carried to the next batch
+    std::uint32_t phase_batch_ = 0;  ///< batches done in this phase
+    std::uint32_t phase_length_;     ///< batches in this phase
+    double emission_share_ = 1.0;    ///< of the shooters that are drawn from E
+    double emission_owed_ = 0.0;     ///< fraction of a shooter carried to the next batch
     std::array<std::uint32_t, 2> emission_index_{}, source_index_{};
     std::array<float, 2> phase_source_shots_{}, earlier_weight_{};
 };

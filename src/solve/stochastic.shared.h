@@ -12,30 +12,30 @@ LUMEL_CONST uint kMostBatch = 256u;  ///< K; 256 eyes fit the 16 KiB every unifo
 
 /// The energy side of a shooter; its Eye is the geometric side.
 struct Shot {
-    vec3 power;  ///< X_j A_j / (π p_j): what a receiver multiplies by V cosθ cosθ' / r²
-    vec3 centre; ///< of the lumel [m], world: the near field's rule is about centres
-    float size;  ///< of the lumel [m]
-    float disc;  ///< A_j / π [m²] added to r² where there is no near field, else 0
-    uint lumel;  ///< j
+    vec3 power;   ///< X_j A_j / (π p_j): what a receiver multiplies by V cosθ cosθ' / r²
+    vec3 centre;  ///< of the lumel [m], world: the near field's rule is about centres
+    float size;   ///< of the lumel [m]
+    float disc;   ///< A_j / π [m²] added to r² where there is no near field, else 0
+    uint lumel;   ///< j
 };
 
 /// Push constants of stochastic.select.comp.
 struct SelectParams {
     PyramidLayout layout_;
-    uint count;            ///< K shooters
-    uint emission_count;   ///< of these, the first are drawn from the emission
-    uint emission_index;   ///< next point of the emission's sequence
-    uint source_index;     ///< next point of the source's sequence
-    uint seed;             ///< of this half of the solution
-    uint random;           ///< 1: independent random numbers, as in the papers
-    uint disc;             ///< 1: point-to-disc form factor
-    uint centre;           ///< 1: shoot from the centroid
+    uint count;           ///< K shooters
+    uint emission_count;  ///< of these, the first are drawn from the emission
+    uint emission_index;  ///< next point of the emission's sequence
+    uint source_index;    ///< next point of the source's sequence
+    uint seed;            ///< of this half of the solution
+    uint random;          ///< 1: independent random numbers, as in the papers
+    uint disc;            ///< 1: point-to-disc form factor
+    uint centre;          ///< 1: shoot from the centroid
 };
 
 /// Push constants of stochastic.receive.comp.
 struct ReceiveParams {
     HemicubeLayout hemicubes;
-    uint first;           ///< lumels [first, last) of this dispatch
+    uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint count;           ///< N
     uint shots;           ///< K
@@ -43,8 +43,8 @@ struct ReceiveParams {
     uint half_;           ///< 0 or 1: which half-solution takes this batch
     uint iteration;       ///< numbers the batches
     uint seed;
-    uint centre;          ///< 1: receive at the centroid
-    float near_radius;    ///< pairs closer than this × the larger size belong to the near field
+    uint centre;        ///< 1: receive at the centroid
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
 };
 
 /// Push constants of stochastic.near.comp.

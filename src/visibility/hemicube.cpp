@@ -48,7 +48,8 @@ std::uint32_t fitting(const gpu::Device& device, const HemicubeLayout& layout,
 
 Hemicubes::Hemicubes(const gpu::Device& device, const World& world, std::uint32_t side,
                      std::uint32_t capacity)
-    : world_(&world), layout_(make_layout(device, world, side, capacity)),
+    : world_(&world),
+      layout_(make_layout(device, world, side, capacity)),
       image_(device, gpu::Pixel::depth, layout_.columns * 2 * side,
              (fitting(device, layout_, capacity) + layout_.columns - 1) / layout_.columns *
                  (3 * side / 2)),
@@ -80,11 +81,16 @@ gpu::Area Hemicubes::face_area(std::uint32_t eye, std::uint32_t face) const
     const gpu::Area tile = tile_area(eye);
     const std::uint32_t side = layout_.side, half = side / 2;
     switch (face) {
-    case 0: return {tile.x, tile.y, side, side};
-    case 1: return {tile.x + side, tile.y, side, half};
-    case 2: return {tile.x + side, tile.y + half, side, half};
-    case 3: return {tile.x, tile.y + side, side, half};
-    default: return {tile.x + side, tile.y + side, side, half};
+    case 0:
+        return {tile.x, tile.y, side, side};
+    case 1:
+        return {tile.x + side, tile.y, side, half};
+    case 2:
+        return {tile.x + side, tile.y + half, side, half};
+    case 3:
+        return {tile.x, tile.y + side, side, half};
+    default:
+        return {tile.x + side, tile.y + side, side, half};
     }
 }
 
@@ -111,8 +117,7 @@ void Hemicubes::draw_face(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
 void Hemicubes::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)
 {
     const std::uint32_t rows = (count + layout_.columns - 1) / layout_.columns;
-    commands.begin_pass(nullptr, image_,
-                        {0, 0, image_.width(), rows * (3 * layout_.side / 2)});
+    commands.begin_pass(nullptr, image_, {0, 0, image_.width(), rows * (3 * layout_.side / 2)});
     for (std::uint32_t eye = 0; eye < count; ++eye)
         for (std::uint32_t face = 0; face < kHemicubeFaces; ++face)
             draw_face(commands, eyes, eye, face);

@@ -133,8 +133,8 @@ Occluders find_occluders(const Scene& scene, bool leave_out_hull)
     for (std::size_t m = 0; m < per_material.size(); ++m) {
         if (per_material[m].empty())
             continue;
-        out.cut_outs.push_back({int(m), std::uint32_t(out.indices.size()),
-                                std::uint32_t(per_material[m].size())});
+        out.cut_outs.push_back(
+            {int(m), std::uint32_t(out.indices.size()), std::uint32_t(per_material[m].size())});
         out.indices.insert(out.indices.end(), per_material[m].begin(), per_material[m].end());
     }
     return out;

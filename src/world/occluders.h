@@ -17,13 +17,13 @@ struct CutOut {
 
 /// An indexed triangle list: opaque triangles first, then one range for each cut-out material.
 struct Occluders {
-    std::vector<glm::vec3> positions;       ///< [V] instance frame [m]
-    std::vector<std::uint32_t> instances;   ///< [V] whose frame
-    std::vector<glm::vec3> look;            ///< [V] (u, v, alpha factor) for cut-outs
-    std::vector<std::uint32_t> indices;     ///< [3T]
+    std::vector<glm::vec3> positions;      ///< [V] instance frame [m]
+    std::vector<std::uint32_t> instances;  ///< [V] whose frame
+    std::vector<glm::vec3> look;           ///< [V] (u, v, alpha factor) for cut-outs
+    std::vector<std::uint32_t> indices;    ///< [3T]
     std::uint32_t opaque_index_count = 0;
     std::vector<CutOut> cut_outs;
-    std::size_t left_out = 0;               ///< triangles on the scene's convex hull
+    std::size_t left_out = 0;  ///< triangles on the scene's convex hull
 };
 
 /// Collects all triangles but those that have the whole scene on one side of their plane: the

@@ -78,7 +78,8 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
 
 World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
              const Occluders& occluders)
-    : device_(&device), placements_(placements_of(scene)),
+    : device_(&device),
+      placements_(placements_of(scene)),
       placement_array_(device, std::span<const Placement>(placements_)),
       local_lumels_(device, std::span<const Lumel>(lumels.lumels)),
       lumels_(device, lumels.lumels.size()),
@@ -111,7 +112,8 @@ void World::place(std::span<const glm::mat4> transforms)
     placement_array_.upload(placements_);
     gpu::Commands commands(*device_);
     commands.stage("place");
-    commands.dispatch(place_lumels_, {placement_array_, local_lumels_, local_pieces_, lumels_, pieces_},
+    commands.dispatch(place_lumels_,
+                      {placement_array_, local_lumels_, local_pieces_, lumels_, pieces_},
                       PlaceParams{std::uint32_t(lumels_.size())}, lumels_.size());
     commands.dispatch(place_vertices_,
                       {placement_array_, local_vertices_, vertex_instances_, vertices_},

@@ -29,8 +29,8 @@ public:
     void place(std::span<const glm::mat4> transforms);
 
     std::size_t lumel_count() const { return lumels_.size(); }
-    const gpu::Array<Lumel>& lumels() const { return lumels_; }        ///< [N] in the world
-    const gpu::Array<Piece>& pieces() const { return pieces_; }        ///< [P] in the world
+    const gpu::Array<Lumel>& lumels() const { return lumels_; }          ///< [N] in the world
+    const gpu::Array<Piece>& pieces() const { return pieces_; }          ///< [P] in the world
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }

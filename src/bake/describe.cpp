@@ -1,0 +1,141 @@
+// lumel info: what is in a scene and what a bake would take.
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bake/bake.h"
+#include "bake/prepare.h"
+#include "gpu/device.h"
+#include "solve/stochastic.shared.h"
+#include "world/occluders.h"
+#include "world/world.shared.h"
+
+namespace lumel {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Bytes of graphics memory a stochastic bake holds at its peak, but for the near field, whose
+/// size is known only once it is built: about this many pairs a lumel.
+constexpr double kNearPairsPerLumel = 8.0;
+
+std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
+                              const SolverOptions& solver)
+{
+    const std::uint64_t lumels = world.lumels.lumels.size();
+    constexpr std::uint64_t vectors_per_lumel = 15;  // the vec3 arrays of StochasticRadiosity
+    const std::uint64_t pixels =
+        std::uint64_t(solver.hemicube) * std::uint64_t(solver.hemicube) * 3;
+    std::uint64_t bytes = lumels * (2 * sizeof(Lumel) + sizeof(glm::vec4) +
+                                    vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float));
+    bytes += world.lumels.pieces.size() * 2 * sizeof(Piece);
+    bytes += occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t));
+    bytes += occluders.indices.size() * sizeof(std::uint32_t);
+    bytes += pixels * sizeof(float) * std::uint64_t(solver.batch);
+    bytes += std::uint64_t(double(lumels) * kNearPairsPerLumel) * 2 * sizeof(float);
+    return bytes;
+}
+
+std::size_t triangle_count(const Scene& scene)
+{
+    std::size_t count = 0;
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            count += primitive.indices.size() / 3;
+    return count;
+}
+
+ordered_json facts(const Prepared& world, const SolverOptions& solver)
+{
+    const Scene& scene = world.scene;
+    const Occluders occluders = find_occluders(scene);
+    std::size_t emissive = 0, authored = 0, buried = 0, back = 0;
+    for (const Material& material : scene.materials)
+        emissive += material.emitted != glm::vec3(0.0f);
+    for (const Surface& surface : world.atlas.surfaces)
+        authored += surface.authored;
+    double area = 0.0;
+    for (const Lumel& lumel : world.lumels.lumels) {
+        buried += (lumel.flags & kLumelBuried) != 0;
+        back += (lumel.flags & kLumelBack) != 0;
+        area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
+    }
+    ordered_json json;
+    json["scene"] = scene.path;
+    json["hash"] = scene.hash;
+    json["meshes"] = scene.meshes.size();
+    json["instances"] = scene.instances.size();
+    json["triangles"] = triangle_count(scene);
+    json["dropped_triangles"] = scene.dropped_triangles;
+    json["materials"] = scene.materials.size();
+    json["emissive_materials"] = emissive;
+    json["textures"] = scene.textures.size();
+    json["punctual_lights"] = scene.lights.size();
+    json["cameras"] = scene.cameras.size();
+    json["surface_area_m2"] = area;
+    json["surfaces"] = world.atlas.surfaces.size();
+    json["surfaces_with_own_lightmap_uv"] = authored;
+    json["charts"] = world.atlas.chart_count;
+    json["atlas_width"] = world.atlas.width;
+    json["atlas_height"] = world.atlas.height;
+    json["texels_per_metre"] = world.atlas.texels_per_metre;
+    json["lumels"] = world.lumels.lumels.size();
+    json["back_lumels"] = back;
+    json["buried_lumels"] = buried;
+    json["occluding_triangles"] = occluders.indices.size() / 3;
+    json["graphics_memory_bytes"] = graphics_memory(world, occluders, solver);
+    json["warnings"] = scene.warnings;
+    json["notes"] = world.atlas.notes;
+    return json;
+}
+
+std::string lightmap_uv_text(const ordered_json& json)
+{
+    const auto all = json["surfaces"].get<std::size_t>();
+    const auto own = json["surfaces_with_own_lightmap_uv"].get<std::size_t>();
+    if (own == 0)
+        return "charts are made (the file brings no TEXCOORD_1 that can be used)";
+    return own == all ? "the file's TEXCOORD_1 is used"
+                      : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
+}
+
+std::string text_of(const ordered_json& json)
+{
+    const auto count = [&](const char* key) { return json[key].get<std::size_t>(); };
+    std::string text = json["scene"].get<std::string>() + "\n";
+    const auto line = [&](const char* name, const std::string& value) {
+        text += fmt::format("  {:<16} {}\n", name, value);
+    };
+    line("content", fmt::format("{} meshes in {} instances, {} triangles, {:.4g} m²",
+                                count("meshes"), count("instances"), count("triangles"),
+                                json["surface_area_m2"].get<double>()));
+    line("materials", fmt::format("{}, {} of them emissive; {} textures", count("materials"),
+                                  count("emissive_materials"), count("textures")));
+    line("cameras", fmt::format("{}", count("cameras")));
+    line("punctual lights", fmt::format("{}{}", count("punctual_lights"),
+                                        count("punctual_lights") ? " (not solved yet)" : ""));
+    line("lightmap UVs", lightmap_uv_text(json));
+    line("atlas", fmt::format("{} × {} texels, {:.4g} texels per metre, {} charts",
+                              count("atlas_width"), count("atlas_height"),
+                              json["texels_per_metre"].get<double>(), count("charts")));
+    line("lumels", fmt::format("{}, {} of them on back sides, {} buried", count("lumels"),
+                               count("back_lumels"), count("buried_lumels")));
+    line("graphics memory",
+         fmt::format("about {:.1f} MiB", json["graphics_memory_bytes"].get<double>() / 1048576.0));
+    for (const auto& warning : json["warnings"])
+        line("warning", warning.get<std::string>());
+    for (const auto& note : json["notes"])
+        line("note", note.get<std::string>());
+    return text;
+}
+
+}  // namespace
+
+std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
+{
+    const Prepared world(scene_path, options.atlas);
+    const ordered_json all = facts(world, options.solver);
+    return json ? all.dump(2) : text_of(all);
+}
+
+}  // namespace lumel

@@ -1,0 +1,95 @@
+#include "bake/outputs.h"
+
+#include <fstream>
+#include <numbers>
+
+#include "bake/report.h"
+#include "finish/finish.h"
+#include "output/folder.h"
+#include "output/gltf_write.h"
+#include "output/image_files.h"
+#include "preview/preview.h"
+
+namespace lumel {
+namespace {
+
+void write_text(const std::string& path, const std::string& text)
+{
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    if (!file.flush())
+        throw Error(ErrorKind::output, path, "cannot be written");
+}
+
+/// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
+std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+{
+    std::vector<glm::vec3> radiance;
+    radiance.reserve(irradiance.size());
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        radiance.push_back((lumel.albedo * irradiance[i] + lumel.emission) *
+                           std::numbers::inv_pi_v<float>);
+    }
+    return radiance;
+}
+
+void write_maps(const OutputFolder& folder, const Image& map, bool half, const Prepared& world)
+{
+    write_exr(folder.path("lightmap.exr"), map, half ? Precision::float16 : Precision::float32,
+              {{"quantity", "irradiance"},
+               {"unit", "lx"},
+               {"colorSpace", "linear Rec. 709"},
+               {"alpha", "coverage"},
+               {"sceneHash", world.scene.hash},
+               {"software", "lumel " LUMEL_VERSION}});
+    write_png(folder.path("lightmap.png"), tone_map(map));
+}
+
+}  // namespace
+
+BakeSummary write_bake(const std::string& folder_path, const BakeOptions& options,
+                       const Prepared& world, const gpu::Device& device, const Solver& solver,
+                       const std::vector<glm::vec3>& irradiance, const Results& results,
+                       Stages& stages)
+{
+    OutputFolder folder(folder_path);
+    const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+    const Image radiance =
+        finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
+    write_maps(folder, map, options.half, world);
+    write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
+    write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
+    if (options.preview_width > 0) {
+        stages.begin("preview");
+        const View view = choose_view(world.scene, world.rays);
+        write_png(folder.path("preview.png"),
+                  tone_map(render_preview(device, world.scene, world.atlas, map, view,
+                                          options.preview_width)));
+    }
+    stages.end();
+    if (const std::string messages = device.validation_messages(); !messages.empty())
+        throw Error(ErrorKind::device, "Vulkan validation", messages);
+
+    const std::string report =
+        to_json(bake_report(options, world, device, solver, results, stages));
+    write_text(folder.path("report.json"), report);
+    folder.commit();
+    return {results.shots, results.error, stages.seconds(), results.interrupted, report};
+}
+
+BakeSummary write_reference(const std::string& folder_path, const BakeOptions& options,
+                            const ReferenceOptions& reference, const Prepared& world,
+                            const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
+{
+    OutputFolder folder(folder_path);
+    write_maps(folder, finish_map(world.scene, world.atlas, world.lumels, irradiance), options.half,
+               world);
+    stages.end();
+    const std::string report = to_json(reference_report(reference, world, stopped, stages));
+    write_text(folder.path("report.json"), report);
+    folder.commit();
+    return {std::uint64_t(reference.samples_per_lumel), -1.0, stages.seconds(), stopped, report};
+}
+
+}  // namespace lumel

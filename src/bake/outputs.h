@@ -1,0 +1,36 @@
+#pragma once
+// From a solved scene to the files of a bake.
+
+#include <string>
+#include <vector>
+
+#include "bake/bake.h"
+#include "bake/prepare.h"
+#include "bake/stages.h"
+#include "gpu/device.h"
+#include "output/report.h"
+
+namespace lumel {
+
+/// What a solve has come to.
+struct Results {
+    std::uint64_t shots = 0;
+    std::uint64_t iterations = 0;
+    double error = -1.0;
+    bool interrupted = false;
+    std::size_t near_pairs = 0;
+    std::vector<ConvergencePoint> curve;
+};
+
+/// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
+BakeSummary write_bake(const std::string& folder, const BakeOptions& options, const Prepared& world,
+                       const gpu::Device& device, const Solver& solver,
+                       const std::vector<glm::vec3>& irradiance, const Results& results,
+                       Stages& stages);
+
+/// Writes all files of `lumel reference`.
+BakeSummary write_reference(const std::string& folder, const BakeOptions& options,
+                            const ReferenceOptions& reference, const Prepared& world,
+                            const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages);
+
+}  // namespace lumel

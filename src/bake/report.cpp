@@ -1,0 +1,100 @@
+#include "bake/report.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/usage.h"
+
+namespace lumel {
+namespace {
+
+const char* text_of(SampleRule rule)
+{
+    return rule == SampleRule::area ? "area" : "centre";
+}
+
+Report common(const Prepared& world, const Stages& stages)
+{
+    Report report;
+    report.lumel_version = LUMEL_VERSION;
+    report.scene = std::filesystem::path(world.scene.path).filename().string();
+    report.scene_hash = world.scene.hash;
+    report.atlas_width = world.atlas.width;
+    report.atlas_height = world.atlas.height;
+    report.texels_per_metre = double(world.atlas.texels_per_metre);
+    report.charts = world.atlas.chart_count;
+    report.instances = world.scene.instances.size();
+    report.lumels = world.lumels.lumels.size();
+    report.pieces = world.lumels.pieces.size();
+    for (const Surface& surface : world.atlas.surfaces)
+        report.triangles += surface.indices.size() / 3;
+    for (const Lumel& lumel : world.lumels.lumels)
+        report.buried_lumels += (lumel.flags & kLumelBuried) != 0;
+    report.stages = stages.times();
+    report.wall_seconds = stages.seconds();
+    report.cpu_seconds = cpu_seconds();
+    report.peak_host_bytes = std::int64_t(peak_memory_bytes());
+    report.warnings = world.scene.warnings;
+    report.notes = world.atlas.notes;
+    return report;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& options)
+{
+    const SolverOptions& solver = options.solver;
+    return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
+            {"sampling", text_of(solver.rule)},
+            {"batch", std::to_string(solver.batch)},
+            {"hemicube", std::to_string(solver.hemicube)},
+            {"shots", std::to_string(solver.max_shots)},
+            {"time", fmt::format("{}", solver.max_seconds)},
+            {"error", fmt::format("{}", 100.0 * solver.target_error)},
+            {"gutter", std::to_string(options.atlas.gutter)},
+            {"max-size", std::to_string(options.atlas.max_size)},
+            {"half", options.half ? "true" : "false"}};
+}
+
+}  // namespace
+
+Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+                   const Solver& solver, const Results& results, const Stages& stages)
+{
+    Report report = common(world, stages);
+    report.settings = settings_of(options);
+    report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
+    report.seed = options.solver.seed;
+    report.device = device.info().name;
+    report.driver = device.info().driver;
+    report.vulkan = device.info().api_version;
+    report.method = options.solver.method;
+    report.shots = results.shots;
+    report.iterations = results.iterations;
+    report.estimated_error = results.error;
+    report.interrupted = results.interrupted;
+    report.convergence = results.curve;
+    for (const auto& [stage, ms] : solver.times())
+        report.gpu_milliseconds.emplace_back(stage, std::vector<double>{ms});
+    report.gpu_milliseconds.emplace_back("longest submission",
+                                         std::vector<double>{solver.longest_submission()});
+    report.peak_gpu_bytes = std::int64_t(device.allocated_bytes());
+    report.files = {"lightmap.exr", "lightmap.png", "scene.glb", "scene-baked.glb", "report.json"};
+    if (options.preview_width > 0)
+        report.files.emplace_back("preview.png");
+    return report;
+}
+
+Report reference_report(const ReferenceOptions& reference, const Prepared& world, bool stopped,
+                        const Stages& stages)
+{
+    Report report = common(world, stages);
+    report.method = "reference";
+    report.settings = {{"spp", std::to_string(reference.samples_per_lumel)},
+                       {"sampling", text_of(reference.rule)}};
+    report.seed = reference.seed;
+    report.interrupted = stopped;
+    report.files = {"lightmap.exr", "lightmap.png", "report.json"};
+    return report;
+}
+
+}  // namespace lumel

@@ -1,0 +1,17 @@
+#pragma once
+// What a bake has to say of itself.
+
+#include "bake/outputs.h"
+#include "output/report.h"
+
+namespace lumel {
+
+/// The facts of a bake.
+Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+                   const Solver& solver, const Results& results, const Stages& stages);
+
+/// The facts of a reference.
+Report reference_report(const ReferenceOptions& reference, const Prepared& world, bool stopped,
+                        const Stages& stages);
+
+}  // namespace lumel

@@ -1,0 +1,105 @@
+// The thin layer over Vulkan.
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "gpu/pacer.h"
+
+namespace lumel::gpu {
+namespace {
+
+constexpr std::uint32_t kTwiceSpirv[] = {
+#include "../tests/gpu/twice.comp.inc"
+};
+
+struct TwiceParams {
+    std::uint32_t first, last, added;
+};
+
+TEST(Device, ThereIsAUsableOne)
+{
+    const std::vector<DeviceInfo> devices = list_devices();
+    ASSERT_FALSE(devices.empty());
+    EXPECT_TRUE(std::any_of(devices.begin(), devices.end(), [](auto& d) { return d.usable; }));
+}
+
+TEST(Device, AWrongPickIsRefusedWithTheList)
+{
+    try {
+        const Device device("no such device");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::device);
+        EXPECT_NE(std::string(error.what()).find(list_devices()[0].name), std::string::npos);
+    }
+}
+
+TEST(Array, ComesBackAsItWent)
+{
+    const Device device;
+    std::vector<std::uint32_t> values(1000);
+    std::iota(values.begin(), values.end(), 0u);
+    const Array<std::uint32_t> array(device, std::span<const std::uint32_t>(values));
+    EXPECT_EQ(array.download(), values);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Array, LargerThanTheDeviceAllowsSaysSo)
+{
+    const Device device;
+    EXPECT_THROW(Array<std::uint32_t>(device, device.max_array_bytes() / 4 + 1), Error);
+}
+
+TEST(Commands, RunInTheOrderRecorded)
+{
+    const Device device;
+    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    const Array<std::uint32_t> array(device, 100);
+    Commands commands(device);
+    commands.fill(array.buffer(), 0);
+    for (std::uint32_t added : {1u, 0u, 3u})
+        commands.dispatch(twice, {array}, TwiceParams{0, 100, added}, 100);
+    commands.run();
+    for (const std::uint32_t value : array.download())
+        EXPECT_EQ(value, 7u);  // ((0·2 + 1)·2 + 0)·2 + 3
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Pacer, CutsWorkWithoutChangingItsResult)
+{
+    const Device device;
+    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    constexpr std::uint32_t count = 100000;
+    const Array<std::uint32_t> array(device, count);
+    Pacer pacer(device, 0.05);  // far below what all of it takes at once
+    pacer.work("clear", 1, 1, [&](Commands& commands, std::uint32_t, std::uint32_t) {
+        commands.fill(array.buffer(), 5);
+    });
+    for (int round = 0; round < 3; ++round)
+        pacer.work("twice", count, 512,
+                   [&](Commands& commands, std::uint32_t first, std::uint32_t last) {
+                       commands.dispatch(twice, {array}, TwiceParams{first, last, 1}, last - first);
+                   });
+    pacer.finish();
+    EXPECT_GT(pacer.submissions(), 4u);
+    for (const std::uint32_t value : array.download())
+        ASSERT_EQ(value, 47u);  // 5 → 11 → 23 → 47
+    EXPECT_GT(pacer.times().at("twice"), 0.0);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Target, ComesBackAsItWent)
+{
+    const Device device;
+    Target target(device, Pixel::rgba32, 4, 4, 3);
+    std::vector<float> pixels(64, 0.25f);
+    target.upload(pixels.data());
+    std::vector<float> back(64);
+    target.download(back.data());
+    EXPECT_EQ(back, pixels);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+}  // namespace
+}  // namespace lumel::gpu

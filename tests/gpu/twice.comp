@@ -1,0 +1,14 @@
+#version 460
+
+// value ← 2 value + added, to see that work happens, in order.
+
+layout(local_size_x = 64) in;
+layout(push_constant) uniform Params { uint first; uint last; uint added; } p;
+layout(binding = 0) buffer Values { uint values[]; };
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i < p.last)
+        values[i] = 2u * values[i] + p.added;
+}
