@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "nearfield/near_pairs.h"
@@ -90,11 +91,14 @@ private:
             if (k == 0 || !options_.centre)
                 unoccluded = seen_from(x, shooter);
             whole += points[k].weight * unoccluded;
-            const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
-            const float w = unoccluded > 0.0f ? points[k].weight * kernel(x, y, shooter) : 0.0f;
-            sampled += w;
-            const bool seen = w > 0.0f && visible(x, world_[i], y, shooter, key + k);
-            lit += seen ? w : 0.0f;
+            bool seen = false;
+            if (unoccluded > 0.0f) {
+                const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
+                const float w = points[k].weight * kernel(x, y, shooter);
+                seen = w > 0.0f && visible(x, world_[i], y, shooter, key + k);
+                sampled += w;
+                lit += seen ? w : 0.0f;
+            }
             some |= seen;
             all &= seen;
         }
@@ -170,6 +174,19 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
     });
 }
 
+/// Scales rows that add up to more than 1 down to 1. In gaps much narrower than a lumel the
+/// quadrature may overshoot, and a bright surface there would then multiply its own light.
+void limit_rows(const NearPairs& pairs, std::vector<float>& factors)
+{
+    for (std::size_t i = 0; i + 1 < pairs.first.size(); ++i) {
+        const auto begin = factors.begin() + std::ptrdiff_t(pairs.first[i]);
+        const auto end = factors.begin() + std::ptrdiff_t(pairs.first[i + 1]);
+        const float sum = std::accumulate(begin, end, 0.0f);
+        if (sum > 1.0f)
+            std::for_each(begin, end, [sum](float& factor) { factor /= sum; });
+    }
+}
+
 }  // namespace
 
 bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j, float size_j,
@@ -201,6 +218,7 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
 
     if (!options.centre)
         make_reciprocal(builder, world, lumels, pairs, factors);
+    limit_rows(pairs, factors);
 
     // Keep what counts.
     NearField table;

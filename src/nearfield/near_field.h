@@ -31,7 +31,8 @@ struct NearField {
 bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j, float size_j,
              float radius);
 
-/// Builds the table. Buried lumels have empty rows and appear in no column.
+/// Builds the table. Buried lumels have empty rows and appear in no column. No row adds up to more
+/// than 1; with the area rule A_i F_ij = A_j F_ji holds between flat lumels.
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options);
 

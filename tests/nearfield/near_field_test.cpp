@@ -207,6 +207,24 @@ TEST(NearField, ACutOutShooterCountsByItsOpacity)
     EXPECT_NEAR(entry(build(box, options), 0, 1), 0.25f * opaque, 1e-6f);
 }
 
+TEST(NearField, NoRowExceedsOneInAGapMuchNarrowerThanALumel)
+{
+    Quad left, right;
+    left.res_u = 5;
+    left.res_v = 4;
+    right.corner = {1, 0, 1e-3f};  // faces the first, its lumels not aligned with theirs
+    right.edge_u = {-1, 0, 0};
+    right.res_u = 3;
+    right.res_v = 7;
+    const HandMade made = make_quads({left, right});
+    NearFieldOptions options;
+    const NearField table = build(made, options);
+    for (std::size_t i = 0; i < made.lumels.lumels.size(); ++i) {
+        EXPECT_LE(row_sum(table, i), 1.0f + 1e-5f) << i;
+        EXPECT_GT(row_sum(table, i), 0.7f) << i;
+    }
+}
+
 TEST(NearField, LeavesBuriedLumelsOut)
 {
     HandMade box = closed_box(4);
