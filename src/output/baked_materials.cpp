@@ -60,6 +60,17 @@ std::set<std::size_t> materials_in_use(const Json& json)
     return used;
 }
 
+std::set<std::size_t> lightmap_textures(const Json& json)
+{
+    std::set<std::size_t> textures;
+    for_objects(json, [&](const Json& object) {
+        if (const auto found = object.find(kLightmap);
+            found != object.end() && found->is_object() && found->contains("index"))
+            textures.insert((*found)["index"].get<std::size_t>());
+    });
+    return textures;
+}
+
 // Moves what is used to the front, and says where each went.
 class Compactor {
 public:
@@ -237,6 +248,24 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
         b.material = copy_of(b.material, b.moved_texcoord);
     }
     return all;
+}
+
+std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& original)
+{
+    const Json none = Json::array();
+    const Json materials = json.value("materials", none), textures = json.value("textures", none);
+    std::set<std::size_t> used = lightmap_textures(materials);
+    for_texture_uses(materials,
+                     [&](const Json& use) { used.insert(use["index"].get<std::size_t>()); });
+    for (const std::size_t old : lightmap_textures(original.value("materials", none))) {
+        const auto shows_its_image = [&](const Json& texture) {
+            return texture.contains("source") && texture["source"] == textures.at(old)["source"];
+        };
+        if (!used.contains(old) && textures.at(old).contains("source") &&
+            std::count_if(textures.begin(), textures.end(), shows_its_image) == 1)
+            return old;
+    }
+    return std::nullopt;
 }
 
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,

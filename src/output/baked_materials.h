@@ -2,6 +2,7 @@
 // Materials of baked primitives.
 
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -31,6 +32,10 @@ std::set<int> texcoords_read_by(const Json& material);
 /// with their texture coordinates renumbered as the primitive asks. Fills `copies` and `material`
 /// of `baked` and returns all of them. Call after cut_baked_primitives.
 std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimitive>& baked);
+
+/// A texture that only lightmaps of an earlier bake needed, and whose image no other texture
+/// shows; nothing if there is none. Call after separate_materials.
+std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& original);
 
 /// Binds the lightmap by MOZ_lightmap. `intensity` [lx]: irradiance of a white texel.
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,

@@ -59,85 +59,48 @@ NodesOfMesh nodes_of_meshes(const Json& json)
     return nodes;
 }
 
-// Builds primitives one after another. Instances whose charts are split alike share all of their
-// arrays but TEXCOORD_1.
-class PrimitiveWriter {
-public:
-    PrimitiveWriter(GlbBuilder& builder, const Atlas& atlas)
-        : builder_(builder),
-          gather_(builder),
-          atlas_(atlas)
-    {
+// The file's primitive as a triangle list with its vertices split as the surface says.
+Json split_primitive(const Json& original, const BakedPrimitive& baked, const Atlas& atlas,
+                     VertexGather& gather)
+{
+    const Surface& surface = *baked.surface;
+    Json primitive = original;
+    Json attributes = Json::object();
+    for (const auto& [name, accessor] : original.at("attributes").items()) {
+        std::string kept_as = name;
+        if (name == "TEXCOORD_1" && baked.moved_texcoord == kNotMoved)
+            continue;
+        if (name == "TEXCOORD_0" && baked.moved_texcoord == 0)
+            continue;
+        if (name == "TEXCOORD_1")
+            kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
+        attributes[kept_as] = gather.gather(accessor, surface.source_vertex, name);
     }
+    if (primitive.contains("targets"))
+        for (Json& target : primitive["targets"])
+            for (auto& [name, accessor] : target.items())
+                accessor = gather.gather(accessor, surface.source_vertex, name);
 
-    Json write(const BakedPrimitive& baked)
-    {
-        const Surface& surface = *baked.surface;
-        const auto shared = written_.find({baked.mesh, baked.primitive});
-        const bool alike = shared != written_.end() &&
-                           shared->second.surface->source_vertex == surface.source_vertex &&
-                           shared->second.surface->indices == surface.indices;
-        Json primitive = alike ? shared->second.json : write_arrays(baked);
-        if (!alike)
-            written_[{baked.mesh, baked.primitive}] = {&surface, primitive};
+    // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
+    std::vector<glm::vec2> places;
+    for (const glm::vec2& texcoord : surface.texcoord)
+        places.push_back(texcoord / glm::vec2(atlas.width, atlas.height));
+    const std::size_t place = gather.add_texcoords(places);
+    if (!attributes.contains("TEXCOORD_0"))
+        attributes["TEXCOORD_0"] = place;
+    attributes["TEXCOORD_1"] = place;
 
-        std::vector<glm::vec2> places;
-        for (const glm::vec2& texcoord : surface.texcoord)
-            places.push_back(texcoord / glm::vec2(atlas_.width, atlas_.height));
-        const std::size_t lightmap_uv = gather_.add_texcoords(places);
-        Json& attributes = primitive["attributes"];
-        if (!attributes.contains("TEXCOORD_0"))
-            lone_texcoord_.insert({baked.mesh, baked.primitive});
-        if (lone_texcoord_.contains({baked.mesh, baked.primitive}))
-            attributes["TEXCOORD_0"] = lightmap_uv;
-        attributes["TEXCOORD_1"] = lightmap_uv;
-        primitive["material"] = baked.material.value();
-        for_variants(primitive, [&](Json& mapping) {
-            mapping["material"] = baked.copies.at(mapping["material"].get<std::size_t>());
-        });
-        return primitive;
-    }
-
-private:
-    struct Written {
-        const Surface* surface;
-        Json json;
-    };
-
-    Json write_arrays(const BakedPrimitive& baked)
-    {
-        const Surface& surface = *baked.surface;
-        Json primitive =
-            builder_.document().json.at("meshes")[baked.mesh]["primitives"][baked.primitive];
-        Json attributes = Json::object();
-        for (const auto& [name, accessor] : primitive.at("attributes").items()) {
-            std::string kept_as = name;
-            if (name == "TEXCOORD_1" && baked.moved_texcoord == kNotMoved)
-                continue;
-            if (name == "TEXCOORD_0" && baked.moved_texcoord == 0)
-                continue;
-            if (name == "TEXCOORD_1")
-                kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
-            attributes[kept_as] = gather_.gather(accessor, surface.source_vertex, name);
-        }
-        primitive["attributes"] = attributes;
-        if (primitive.contains("targets"))
-            for (Json& target : primitive["targets"])
-                for (auto& [name, accessor] : target.items())
-                    accessor = gather_.gather(accessor, surface.source_vertex, name);
-        primitive["indices"] = gather_.add_indices(surface.indices, surface.source_vertex.size());
-        primitive.erase("mode");
-        if (primitive.contains("extensions"))
-            primitive["extensions"].erase("KHR_draco_mesh_compression");
-        return primitive;
-    }
-
-    GlbBuilder& builder_;
-    VertexGather gather_;
-    const Atlas& atlas_;
-    std::map<PrimitiveKey, Written> written_;
-    std::set<PrimitiveKey> lone_texcoord_;
-};
+    primitive["attributes"] = attributes;
+    primitive["indices"] = gather.add_indices(surface.indices, surface.source_vertex.size());
+    primitive["material"] = baked.material.value();
+    primitive.erase("mode");
+    if (primitive.contains("extensions"))
+        primitive["extensions"].erase("KHR_draco_mesh_compression");
+    for_variants(primitive, [&](Json& mapping) {
+        mapping["material"] = baked.copies.at(mapping["material"].get<std::size_t>());
+    });
+    return primitive;
+}
 
 }  // namespace
 
@@ -187,12 +150,12 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
 {
     // Fill a copy of the mesh for each node.
     std::map<std::size_t, Json> mesh_of_node;
-    PrimitiveWriter writer(builder, atlas);
+    VertexGather gather(builder);
     for (const BakedPrimitive& b : baked) {
-        Json& mesh = mesh_of_node[b.node];
-        if (mesh.is_null())
-            mesh = builder.document().json.at("meshes")[b.mesh];
-        mesh["primitives"][b.primitive] = writer.write(b);
+        const Json& original = builder.document().json.at("meshes")[b.mesh];
+        const auto mesh = mesh_of_node.try_emplace(b.node, original).first;
+        mesh->second["primitives"][b.primitive] =
+            split_primitive(original["primitives"][b.primitive], b, atlas, gather);
     }
 
     // The first copy takes the place of its mesh where nothing else needs that.

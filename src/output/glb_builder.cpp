@@ -222,19 +222,32 @@ std::size_t GlbBuilder::add_accessor(Json accessor)
     return put(json["accessors"], free_accessors_, std::move(accessor));
 }
 
+void GlbBuilder::retire_texture(std::size_t texture)
+{
+    const auto image = json["textures"].at(texture).at("source").get<std::size_t>();
+    json["images"].at(image) = Json::object();
+    free_textures_.insert(texture);
+    free_images_.insert(image);
+}
+
 std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png)
 {
-    json["images"].push_back({{"name", name},
-                              {"mimeType", "image/png"},
-                              {"bufferView", add_view(png, ViewTarget::none)}});
-    json["samplers"].push_back({{"magFilter", kLinear},
-                                {"minFilter", kLinear},
-                                {"wrapS", kClampToEdge},
-                                {"wrapT", kClampToEdge}});
-    json["textures"].push_back({{"name", name},
-                                {"sampler", json["samplers"].size() - 1},
-                                {"source", json["images"].size() - 1}});
-    return json["textures"].size() - 1;
+    const Json sampler = {{"magFilter", kLinear},
+                          {"minFilter", kLinear},
+                          {"wrapS", kClampToEdge},
+                          {"wrapT", kClampToEdge}};
+    Json& samplers = json["samplers"];
+    const auto same = std::find(samplers.begin(), samplers.end(), sampler);
+    const auto sampler_index = std::size_t(same - samplers.begin());
+    if (same == samplers.end())
+        samplers.push_back(sampler);
+
+    const std::size_t image = put(json["images"], free_images_,
+                                  {{"name", name},
+                                   {"mimeType", "image/png"},
+                                   {"bufferView", add_view(png, ViewTarget::none)}});
+    return put(json["textures"], free_textures_,
+               {{"name", name}, {"sampler", sampler_index}, {"source", image}});
 }
 
 std::vector<std::uint8_t> GlbBuilder::finish()

@@ -34,8 +34,11 @@ public:
     std::size_t add_view(std::span<const std::uint8_t> bytes, ViewTarget target,
                          std::size_t stride = 0);
     std::size_t add_accessor(Json accessor);
-    /// Appends a PNG, a bilinear and clamping sampler, and the texture that joins them.
+    /// Appends a PNG, a bilinear and clamping sampler, and the texture that joins them; takes the
+    /// place of the retired texture if there is one.
     std::size_t add_texture(const std::string& name, std::span<const std::uint8_t> png);
+    /// Lets go of a texture and its image, which nothing else may use. Call before release().
+    void retire_texture(std::size_t texture);
 
     /// The finished file. Throws Error{output} if it is beyond GLB's 4 GiB.
     std::vector<std::uint8_t> finish();
@@ -49,7 +52,7 @@ private:
 
     const GltfDocument& document_;
     std::vector<std::uint8_t> binary_;
-    std::set<std::size_t> free_views_, free_accessors_;
+    std::set<std::size_t> free_views_, free_accessors_, free_textures_, free_images_;
 };
 
 /// Every accessor that meshes, skins, animations and instancing of a glTF refer to.

@@ -56,6 +56,8 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
 
     cut_baked_primitives(builder.json, baked);
     const std::vector<std::size_t> materials = separate_materials(builder.json, baked);
+    if (const auto old = outdated_lightmap(builder.json, document.json))
+        builder.retire_texture(*old);
     builder.release();
 
     const float scale = lightmap_scale(map);

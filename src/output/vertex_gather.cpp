@@ -73,10 +73,21 @@ const AccessorData& VertexGather::data_of(std::size_t accessor)
     return place->second;
 }
 
-std::size_t VertexGather::gather(const Json& accessor, std::span<const std::uint32_t> vertices,
+std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                                  const std::string& semantic)
 {
     const auto source = accessor.get<std::size_t>();
+    const std::size_t order = orders_.try_emplace(vertices, orders_.size()).first->second;
+    const bool with_bounds = semantic == "POSITION" && !vertices.empty();
+    const auto [place, is_new] = gathered_.try_emplace({source, order, with_bounds});
+    if (is_new)
+        place->second = add_gathered(source, vertices, with_bounds);
+    return place->second;
+}
+
+std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::uint32_t> vertices,
+                                       bool with_bounds)
+{
     const AccessorData& data = data_of(source);
     const std::size_t stride = stride_of(data);
     std::vector<std::uint8_t> bytes(vertices.size() * stride);
@@ -94,7 +105,7 @@ std::size_t VertexGather::gather(const Json& accessor, std::span<const std::uint
         gathered.erase(key);
     gathered["count"] = vertices.size();
     gathered["bufferView"] = builder_.add_view(bytes, ViewTarget::vertices, stride);
-    if (semantic == "POSITION" && !vertices.empty())
+    if (with_bounds)
         add_bounds(gathered, data, bytes, stride);
     return builder_.add_accessor(std::move(gathered));
 }
@@ -110,10 +121,13 @@ std::size_t VertexGather::add_texcoords(std::span<const glm::vec2> texcoords)
                                   {"type", "VEC2"}});
 }
 
-std::size_t VertexGather::add_indices(std::span<const std::uint32_t> indices,
+std::size_t VertexGather::add_indices(const std::vector<std::uint32_t>& indices,
                                       std::size_t vertex_count)
 {
     const bool is_short = vertex_count <= kShortIndexLimit;
+    const auto [place, is_new] = indices_.try_emplace({indices, is_short});
+    if (!is_new)
+        return place->second;
     std::vector<std::uint8_t> bytes(indices.size() * (is_short ? 2 : 4));
     for (std::size_t i = 0; i < indices.size(); ++i) {
         const auto narrow = static_cast<std::uint16_t>(indices[i]);
@@ -124,10 +138,11 @@ std::size_t VertexGather::add_indices(std::span<const std::uint32_t> indices,
     }
     const std::size_t view = builder_.add_view(bytes, ViewTarget::indices);
     const ComponentType type = is_short ? ComponentType::u16 : ComponentType::u32;
-    return builder_.add_accessor({{"bufferView", view},
-                                  {"componentType", int(type)},
-                                  {"count", indices.size()},
-                                  {"type", "SCALAR"}});
+    place->second = builder_.add_accessor({{"bufferView", view},
+                                           {"componentType", int(type)},
+                                           {"count", indices.size()},
+                                           {"type", "SCALAR"}});
+    return place->second;
 }
 
 }  // namespace lumel

@@ -334,6 +334,20 @@ TEST_F(TwoQuads, TheSameInputGivesTheSameBytes)
     EXPECT_EQ(test::bytes_of(folder_ / "scene.glb"), first);
 }
 
+TEST_F(TwoQuads, BakingAgainReplacesTheOlderLightmap)
+{
+    lit(file());
+    const std::vector<char> first = test::bytes_of(folder_ / "scene.glb");
+    const Scene again = read_gltf(folder_ / "scene.glb");
+    const Atlas atlas = test::corner_atlas(again);
+    write_scene_glb(folder_ / "again.glb", again, atlas, test::any_map(atlas));
+    const Json json = load_gltf_document(folder_ / "again.glb").json;
+    EXPECT_EQ(json["images"].size(), 2u);
+    EXPECT_EQ(json["textures"].size(), 2u);
+    EXPECT_EQ(json["samplers"].size(), 1u);
+    EXPECT_EQ(test::bytes_of(folder_ / "again.glb").size(), first.size());
+}
+
 TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
 {
     const Scene before = scene(file());
