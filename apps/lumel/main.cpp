@@ -8,7 +8,6 @@
 
 #include "commands.h"
 #include "core/error.h"
-#include "interrupt.h"
 
 namespace {
 
@@ -46,8 +45,6 @@ int main(int count, char** values)
             return fail(kExitOutput, "standard output cannot be written");
         return code;
     } catch (const Error& error) {
-        if (interrupted())
-            return interrupt_exit_code();
         return fail(exit_code(error.kind()), error.what());
     } catch (const std::bad_alloc&) {
         return fail(kExitDevice,
