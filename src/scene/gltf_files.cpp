@@ -15,6 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// [bytes] Twice what a .glb can hold.
+constexpr std::streamoff kLargestFile = std::streamoff(1) << 33;
+
 int hex_digit(char c)
 {
     if (c >= '0' && c <= '9')
@@ -130,6 +133,8 @@ Bytes read_file(const std::string& path, const std::string& place)
         fail("cannot be opened for reading");
     if (size == 0)
         fail("is empty");
+    if (size > kLargestFile)
+        fail("is larger than 8 GiB");
     Bytes bytes(static_cast<std::size_t>(size));
     stream.seekg(0);
     if (!stream.read(reinterpret_cast<char*>(bytes.data()), size))

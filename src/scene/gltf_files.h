@@ -12,7 +12,7 @@ namespace lumel {
 using Bytes = std::vector<std::uint8_t>;
 
 /// The whole of a regular file. `place` names it in messages. Throws Error{input} if it is
-/// missing, a directory, not a regular file, empty or unreadable.
+/// missing, a directory, not a regular file, empty, larger than 8 GiB or unreadable.
 Bytes read_file(const std::string& path, const std::string& place);
 
 /// What a glTF "uri" stands for: a data: URI, or a file (percent-encoded, relative) that lies

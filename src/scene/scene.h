@@ -32,12 +32,12 @@ enum class AlphaMode { opaque, mask, blend };
 
 struct Material {
     std::string name;
-    glm::vec4 base_color{1.0f};       ///< linear; rgb is taken as diffuse albedo ρ
-    TextureUse base_color_texture;    ///< sRGB, multiplies base_color
-    glm::vec3 emitted{0.0f};          ///< emissiveFactor × strength [cd/m²], linear
-    TextureUse emissive_texture;      ///< sRGB, multiplies emitted
+    glm::vec4 base_color{1.0f};     ///< linear; rgb is taken as diffuse albedo ρ
+    TextureUse base_color_texture;  ///< sRGB, multiplies base_color
+    glm::vec3 emitted{0.0f};        ///< emissiveFactor × strength [cd/m²], linear
+    TextureUse emissive_texture;    ///< sRGB, multiplies emitted
     AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;        ///< for AlphaMode::mask
+    float alpha_cutoff = 0.5f;  ///< for AlphaMode::mask
     bool double_sided = false;
 };
 
@@ -61,40 +61,40 @@ struct Mesh {
 struct Instance {
     std::string name;
     int mesh = 0;
-    int node = 0;                ///< index in the file's nodes
-    glm::mat4 transform{1.0f};   ///< mesh to world; a negative determinant flips the winding
+    int node = 0;               ///< index in the file's nodes
+    glm::mat4 transform{1.0f};  ///< mesh to world; a negative determinant flips the winding
 };
 
 struct PunctualLight {
     enum class Kind { directional, point, spot } kind = Kind::point;
     std::string name;
-    glm::vec3 color{1.0f};       ///< linear
-    float intensity = 1.0f;      ///< [cd] for point and spot, [lx] for directional
-    float range = 0.0f;          ///< [m], 0: unlimited
-    float inner_cone = 0.0f;     ///< [rad]
-    float outer_cone = 0.785398f;///< [rad]
-    glm::mat4 transform{1.0f};   ///< shines along -z
+    glm::vec3 color{1.0f};         ///< linear
+    float intensity = 1.0f;        ///< [cd] for point and spot, [lx] for directional
+    float range = 0.0f;            ///< [m], 0: unlimited
+    float inner_cone = 0.0f;       ///< [rad]
+    float outer_cone = 0.785398f;  ///< [rad]
+    glm::mat4 transform{1.0f};     ///< shines along -z
 };
 
 struct Camera {
     std::string name;
-    glm::mat4 transform{1.0f};   ///< looks along -z, +y up
-    float vertical_fov = 0.8f;   ///< [rad]; ignored when orthographic
-    float aspect = 0.0f;         ///< width / height, 0: free
+    glm::mat4 transform{1.0f};         ///< looks along -z, +y up
+    float vertical_fov = 0.8f;         ///< [rad]; ignored when orthographic
+    float aspect = 0.0f;               ///< width / height, 0: free
     float orthographic_height = 0.0f;  ///< [m], > 0: orthographic camera
 };
 
 struct Scene {
-    std::string path;                     ///< the file it came from
+    std::string path;  ///< the file it came from
     std::vector<Texture> textures;
-    std::vector<Material> materials;      ///< the file's, then the default material if needed
-    std::vector<Mesh> meshes;
-    std::vector<Instance> instances;      ///< of the file's default scene, in node order
+    std::vector<Material> materials;  ///< the file's, then the default material if needed
+    std::vector<Mesh> meshes;         ///< the file's; those not shown have no primitives
+    std::vector<Instance> instances;  ///< of the file's default scene, in node order
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
-    std::vector<std::string> warnings;    ///< sentences for the user
-    std::size_t dropped_triangles = 0;    ///< of zero area
-    std::string hash;                     ///< 16 hex digits over all content that light depends on
+    std::vector<std::string> warnings;  ///< sentences for the user
+    std::size_t dropped_triangles = 0;  ///< of zero area
+    std::string hash;                   ///< 16 hex digits over all content that light depends on
 };
 
 /// Reads glTF 2.0 (.gltf with its files, or .glb).

@@ -40,6 +40,8 @@ TEST(Files, WhatIsNoFileIsAnError)
     EXPECT_TRUE(contains(error_of_file(folder.path("")), "is a folder"));
     EXPECT_TRUE(contains(error_of_file(folder.write("empty.glb", Bytes{})), "is empty"));
     EXPECT_TRUE(contains(error_of_file("/dev/zero"), "not a regular file"));
+    fs::resize_file(folder.write("huge.glb", Bytes(1)), std::uintmax_t(1) << 40);
+    EXPECT_TRUE(contains(error_of_file(folder.path("huge.glb")), "larger than 8 GiB"));
     EXPECT_NE(error_of_file(""), "");
 }
 
