@@ -28,8 +28,7 @@ int terminal_width()
 std::string bar(double fraction, int cells)
 {
     const int full = static_cast<int>(std::lround(fraction * cells));
-    return "[" + std::string(static_cast<std::size_t>(full), '#') +
-           std::string(static_cast<std::size_t>(cells - full), '.') + "]";
+    return fmt::format("[{0:#<{1}}{0:.<{2}}]", "", full, cells - full);
 }
 
 /// 0:07, 12:30, 3:02:10
