@@ -121,17 +121,18 @@ std::optional<Packing> fill(const Task& task, int side, double limit)
     return best;
 }
 
-[[noreturn]] void throw_too_small(const Task& task, int side)
-{
-    throw Error(ErrorKind::input, "",
-                fmt::format("{} charts do not fit into a map of {} × {} texels even at one texel "
-                            "each; raise the size of the map",
-                            task.sizes.size(), side, side));
-}
-
 int round_up_to_step(double side)
 {
     return int(std::ceil(side / kSideStep)) * kSideStep;
+}
+
+[[noreturn]] void throw_too_small(const Task& task, int side)
+{
+    const int enough = round_up_to_step(kSideGrowth * std::sqrt(task.footprint(0.0)));
+    throw Error(ErrorKind::input, "",
+                fmt::format("{} charts do not fit into a map of {} × {} texels even at one texel "
+                            "each; ask for {} × {} or more",
+                            task.sizes.size(), side, side, enough, enough));
 }
 
 /// The smallest square, in steps, that holds everything at this density.
