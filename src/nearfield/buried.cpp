@@ -11,8 +11,9 @@ namespace lumel {
 
 namespace {
 
-constexpr std::uint32_t kPoints = 32;      ///< per lumel, before it is called buried
-constexpr std::uint32_t kDirections = 16;  ///< per point
+constexpr std::uint32_t kFirstPoints = 12;  ///< per lumel; if all are open, so is the lumel
+constexpr std::uint32_t kPoints = 128;      ///< per lumel that is partly hidden
+constexpr std::uint32_t kDirections = 16;   ///< per point
 /// A surface closer than this above a lumel, in the lumel's sizes, lies on it.
 constexpr float kContact = 0.01f;
 /// Blended surfaces are judged by one draw; which one does not matter.
@@ -48,17 +49,29 @@ bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lume
     return hit.distance * glm::dot(direction, point.normal) < kContact * lumel.size;
 }
 
-bool is_buried(const Scene& scene, const RayScene& rays, const WorldLumels& world, std::size_t i)
+bool is_hidden(const Scene& scene, const RayScene& rays, const WorldLumels& world, std::size_t i,
+               std::uint32_t k)
 {
-    for (std::uint32_t k = 0; k < kPoints; ++k) {
-        const LumelPoint point = world.point_on(i, sobol_pair(k, 0));
-        for (std::uint32_t d = 0; d < kDirections; ++d) {
-            const glm::vec2 st = sobol_pair(d, hash_two(k, 1));
-            if (!is_shut_in(scene, rays, world[i], point, direction_about(point.normal, st)))
-                return false;
-        }
+    const LumelPoint point = world.point_on(i, sobol_pair(k, 0));
+    for (std::uint32_t d = 0; d < kDirections; ++d) {
+        const glm::vec2 st = sobol_pair(d, hash_two(k, 1));
+        if (!is_shut_in(scene, rays, world[i], point, direction_about(point.normal, st)))
+            return false;
     }
     return true;
+}
+
+/// Share of the lumel's area that is hidden.
+float hidden_share(const Scene& scene, const RayScene& rays, const WorldLumels& world,
+                   std::size_t i)
+{
+    std::uint32_t hidden = 0;
+    for (std::uint32_t k = 0; k < kPoints; ++k) {
+        hidden += is_hidden(scene, rays, world, i, k);
+        if (k + 1 == kFirstPoints && hidden == 0)
+            return 0.0f;
+    }
+    return float(hidden) / float(kPoints);
 }
 
 }  // namespace
@@ -67,9 +80,11 @@ void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels)
 {
     const WorldLumels world(scene, rays, lumels);
     parallel_for(world.size(), 64, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (is_buried(scene, rays, world, i))
+        for (std::size_t i = begin; i < end; ++i) {
+            lumels.lumels[i].hidden = hidden_share(scene, rays, world, i);
+            if (lumels.lumels[i].hidden >= 1.0f)
                 lumels.lumels[i].flags |= kLumelBuried;
+        }
     });
 }
 

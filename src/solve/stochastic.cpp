@@ -31,6 +31,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atlas/sampling.h"
+
 namespace lumel {
 namespace {
 
@@ -79,12 +81,26 @@ constexpr int kPolishSweeps = 3;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
 
+/// The kernels take H as the mean over a lumel's whole area, hidden parts included, since that is
+/// what receiving at random points of it gives. The open part, which alone shines, then has the
+/// radiosity ρH / open over the area A · open.
 std::vector<glm::vec4> surfaces_of(const Lumels& lumels)
 {
     std::vector<glm::vec4> surfaces;
-    for (const Lumel& lumel : lumels.lumels)
-        surfaces.emplace_back(lumel.albedo, (lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
+    for (const Lumel& lumel : lumels.lumels) {
+        const float open = open_share(lumel);
+        surfaces.emplace_back(lumel.albedo / open,
+                              (lumel.flags & kLumelBuried) ? 0.0f : lumel.area * open);
+    }
     return surfaces;
+}
+
+std::vector<float> open_shares(const Lumels& lumels)
+{
+    std::vector<float> shares;
+    for (const Lumel& lumel : lumels.lumels)
+        shares.push_back(open_share(lumel));
+    return shares;
 }
 
 std::vector<glm::vec3> emission_of(const Lumels& lumels)
@@ -118,7 +134,7 @@ constexpr gpu::Slot kReceiveSlots[] = {
 }  // namespace
 
 StochasticRadiosity::Kernels::Kernels(const gpu::Device& device)
-    : select(device, "stochastic.select", kSelectSpirv, 9, sizeof(SelectParams), kSelectGroup),
+    : select(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
       receive(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
               kReceiveGroup),
       near(device, "stochastic.near", kNearSpirv, 5, sizeof(NearParams), kReceiveGroup),
@@ -138,6 +154,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
+      open_(open_shares(lumels)),
       world_(&world),
       pacer_(device),
       kernels_(device),
@@ -172,7 +189,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
             continue;
         if (std::max({lumel.albedo.r, lumel.albedo.g, lumel.albedo.b}) > 0.0f)
             reflecting_area_ += lumel.area;
-        emitted_power_ += luminance(lumel.emission) * double(lumel.area);
+        emitted_power_ += luminance(lumel.emission) * double(lumel.area * open_share(lumel));
     }
     phase_length_ = paper_ ? 1 : std::max(2u, kFirstPhaseShots / batch_);
 
@@ -239,7 +256,7 @@ void StochasticRadiosity::select(gpu::Commands& commands, std::uint32_t emission
                               .disc = paper_ ? 1u : 0u,
                               .centre = options_.rule == SampleRule::centre ? 1u : 0u};
     commands.dispatch(kernels_.select,
-                      {world_->lumels(), world_->pieces(), emission_, source_, surface_,
+                      {world_->lumels(), world_->pieces(), emission_, source_,
                        emission_power_pyramid_.array(), source_power_pyramid_.array(), eyes_,
                        shots_},
                       params, batch_);
@@ -391,7 +408,10 @@ std::vector<glm::vec3> StochasticRadiosity::irradiance()
         }
     });
     pacer_.finish();
-    return irradiance_.download();
+    std::vector<glm::vec3> irradiance = irradiance_.download();
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        irradiance[i] /= open_[i];
+    return irradiance;
 }
 
 }  // namespace lumel

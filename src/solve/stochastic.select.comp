@@ -15,11 +15,10 @@ layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
 layout(binding = 3, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 4, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 5, scalar) readonly buffer EmissionPower { float emission_power[]; };
-layout(binding = 6, scalar) readonly buffer SourcePower { float source_power[]; };
-layout(binding = 7, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 8, scalar) writeonly buffer Shots { Shot shots[]; };
+layout(binding = 4, scalar) readonly buffer EmissionPower { float emission_power[]; };
+layout(binding = 5, scalar) readonly buffer SourcePower { float source_power[]; };
+layout(binding = 6, scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
 
 #include "world/lumel.glsl"
 
@@ -63,7 +62,7 @@ void main()
 
     const uint j = drawn.lumel;
     const Lumel lumel = lumels[j];
-    const float area = surface[j].w;
+    const float area = lumel.area;  // all of it: points under a neighbour shoot into its back
     LumelPoint y = point_on(lumel, u.y, u.z);
     if (p.centre != 0u) {
         y.position = lumel.position;
