@@ -1,5 +1,7 @@
 // Images that fail or lie.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
@@ -40,8 +42,9 @@ Bytes claiming(std::uint32_t width, std::uint32_t height)
 /// A grey JPEG of 8 x 8 pixels, 8-bit baseline, one Huffman code per table.
 Bytes small_jpeg()
 {
-    Bytes jpeg = {0xFF, 0xD8, 0xFF, 0xDB, 0x00, 0x43, 0x00};
-    jpeg.resize(jpeg.size() + 64, 1);
+    const Bytes head = {0xFF, 0xD8, 0xFF, 0xDB, 0x00, 0x43, 0x00};
+    Bytes jpeg(head.size() + 64, 1);
+    std::copy(head.begin(), head.end(), jpeg.begin());
     const Bytes rest = {0xFF, 0xC0, 0x00, 0x0B, 0x08, 0x00, 0x08, 0x00, 0x08, 0x01, 0x01, 0x11,
                         0x00, 0xFF, 0xC4, 0x00, 0x14, 0x00, 1,    0,    0,    0,    0,    0,
                         0,    0,    0,    0,    0,    0,    0,    0,    0,    0,    0x00, 0xFF,
