@@ -34,6 +34,14 @@ void append(png_structp png, png_bytep data, png_size_t count)
     out.insert(out.end(), data, data + count);
 }
 
+// libpng's own handlers would print.
+[[noreturn]] void give_up(png_structp png, png_const_charp)
+{
+    png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
 // Holds nothing with a destructor, as libpng leaves it by longjmp. False: libpng gave up.
 bool encode(png_structp png, png_infop info, const unsigned char* rows, const Image& image,
             PngEncoding encoding)
@@ -62,7 +70,7 @@ std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding)
 {
     const std::vector<unsigned char> rows = quantise(image.values);
     std::vector<unsigned char> out;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, give_up, ignore);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     bool done = false;
     if (info) {
