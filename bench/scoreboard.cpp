@@ -99,8 +99,10 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
                                                       .seed = 7 + settings.solver.seed,
                                                       .rule = settings.solver.rule});
         watch.stop();
-        rows.push_back(print_row("path tracer (Embree)", std::uint64_t(spp), watch,
-                                 compare_maps(to_map(world.lumels, irradiance), reference), -1.0));
+        rows.push_back(print_row(
+            "path tracer (Embree)", std::uint64_t(spp), watch,
+            compare_maps(finish_map(world.scene, world.atlas, world.lumels, irradiance), reference),
+            -1.0));
     }
     return rows;
 }
@@ -137,9 +139,10 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
             solver->step();
         const auto irradiance = solver->irradiance();
         watch.stop();
-        rows.push_back(print_row(settings.solver.method, solver->state().shots, watch,
-                                 compare_maps(to_map(world.lumels, irradiance), reference),
-                                 solver->state().error));
+        rows.push_back(print_row(
+            settings.solver.method, solver->state().shots, watch,
+            compare_maps(finish_map(world.scene, world.atlas, world.lumels, irradiance), reference),
+            solver->state().error));
     }
     for (const auto& [stage, ms] : solver->times())
         fmt::print("#   {:<12} {:>9.1f} ms\n", stage, ms);
@@ -155,11 +158,11 @@ Image reference_map(const Settings& settings, const Prepared& world)
         return read_exr(settings.reference);
     fmt::print("reference: path tracing {} samples per lumel …\n", settings.reference_spp);
     std::fflush(stdout);
-    const Image map =
-        to_map(world.lumels, reference_irradiance(world.scene, world.rays, world.lumels,
-                                                  {.samples_per_lumel = settings.reference_spp,
-                                                   .seed = 99,
-                                                   .rule = settings.solver.rule}));
+    const Image map = finish_map(world.scene, world.atlas, world.lumels,
+                                 reference_irradiance(world.scene, world.rays, world.lumels,
+                                                      {.samples_per_lumel = settings.reference_spp,
+                                                       .seed = 99,
+                                                       .rule = settings.solver.rule}));
     if (!settings.save_reference.empty())
         write_exr(settings.save_reference, map, Precision::float32, {});
     return map;

@@ -19,7 +19,7 @@ struct LumelPoint {
 /// part: what lies under a neighbour is never seen, and must not darken what is.
 inline float open_share(const Lumel& lumel)
 {
-    constexpr float kLeast = 1.0f / 64.0f;  // finer than hidden shares are measured
+    constexpr float kLeast = 0.125f;  // with less open, a lumel is buried
     return std::max(1.0f - lumel.hidden, kLeast);
 }
 

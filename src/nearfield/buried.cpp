@@ -14,6 +14,9 @@ namespace {
 constexpr std::uint32_t kFirstPoints = 12;  ///< per lumel; if all are open, so is the lumel
 constexpr std::uint32_t kPoints = 128;      ///< per lumel that is partly hidden
 constexpr std::uint32_t kDirections = 16;   ///< per point
+/// A lumel with less than this left open counts as buried: too little is seen of it to hold a value
+/// of its own, and its neighbours' light fills it better.
+constexpr float kMostHidden = 0.875f;
 /// A surface closer than this above a lumel, in the lumel's sizes, lies on it.
 constexpr float kContact = 0.01f;
 /// Blended surfaces are judged by one draw; which one does not matter.
@@ -82,7 +85,7 @@ void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels)
     parallel_for(world.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             lumels.lumels[i].hidden = hidden_share(scene, rays, world, i);
-            if (lumels.lumels[i].hidden >= 1.0f)
+            if (lumels.lumels[i].hidden > kMostHidden)
                 lumels.lumels[i].flags |= kLumelBuried;
         }
     });

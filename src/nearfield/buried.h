@@ -8,7 +8,7 @@
 namespace lumel {
 
 /// Finds how much of each lumel lies under or inside other geometry (Lumel::hidden), and marks
-/// those that no light can reach at all (kLumelBuried).
+/// those of which less than an eighth is open (kLumelBuried).
 ///
 /// Points all over a lumel cast rays all over their hemisphere. A ray is shut in if it first meets
 /// the back of a single-sided surface (it started inside of closed geometry), or anything at all

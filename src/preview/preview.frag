@@ -18,7 +18,8 @@ void main()
     if (base.a < p.cutoff)
         discard;
     const vec3 albedo = clamp(base.rgb, 0.0, 1.0);
-    const vec3 reflected = albedo * textureLod(irradiance, lightmap, 0.0).rgb / 3.14159265358979;
+    const vec3 arriving = textureLod(irradiance, lightmap, 0.0).rgb;
+    const vec3 reflected = albedo * arriving / 3.14159265358979;
     const bool shows = gl_FrontFacing || p.double_sided != 0u;
     radiance = vec4(shows ? reflected + p.emitted * texture(emissive, look.zw).rgb : vec3(0.0), 1.0);
 }
