@@ -30,7 +30,7 @@ struct Settings {
     std::vector<int> spp{16, 64, 256};
     SolverOptions solver;
     std::string scheme = "phased", sampling = "area", device;
-    float near_radius = 4.0f;
+    float near_radius = NearFieldOptions{}.radius;
     double target = 0.02;  ///< relative RMSE that the methods race to
 };
 

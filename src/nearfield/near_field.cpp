@@ -30,6 +30,10 @@ constexpr float kLeastFactor = 1e-7f;
 /// Pairs farther apart than this, in sizes of the larger, take half as many points each way.
 constexpr float kDistant = 2.0f;
 
+/// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
+/// varies little, and as many as there are of them, their noise averages out.
+constexpr float kPointwise = 4.0f;
+
 /// Points of one receiver: for close pairs and for distant ones.
 struct ReceiverPoints {
     std::vector<WeightedPoint> close;
@@ -40,9 +44,11 @@ struct ReceiverPoints {
 /// Fills the rows of one table.
 class Builder {
 public:
-    Builder(const RayScene& rays, const WorldLumels& world, const NearFieldOptions& options)
+    Builder(const RayScene& rays, const WorldLumels& world, const Lumels& lumels,
+            const NearFieldOptions& options)
         : rays_(rays),
           world_(world),
+          lumels_(lumels),
           options_(options),
           close_(std::clamp(int(std::sqrt(float(options.samples))), 1, kMostSide)),
           distant_((close_ + 1) / 2),
@@ -55,9 +61,40 @@ public:
         return {spread(i, close_), spread(i, distant_), {}};
     }
 
+    /// True if the pair's factors are those of pointwise(), which is the same from both sides.
+    bool is_pointwise(std::uint32_t i, std::uint32_t j) const
+    {
+        const float size = std::max(world_[i].size, world_[j].size);
+        return !is_near(world_[i].centre, size, world_[j].centre, size, kPointwise);
+    }
+
+    /// Mean of V cosθ_i cosθ_j / πr² over two pairs of points [1/m²]: F_ij is this × A_j.
+    float pointwise(std::uint32_t i, std::uint32_t j) const
+    {
+        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
+        const glm::vec2 s = sobol_pair(0, key), t = sobol_pair(0, hash_two(key, 1));
+        float sum = 0.0f;
+        for (const bool opposite : {false, true}) {
+            const glm::vec2 one(1.0f);
+            const LumelPoint x = options_.centre ? LumelPoint{world_[i].centre, world_[i].normal}
+                                                 : world_.point_on(i, opposite ? one - s : s);
+            const LumelPoint y = world_.point_on(j, opposite ? one - t : t);
+            const glm::vec3 way = y.position - x.position;
+            const float toward_j = glm::dot(x.normal, way), toward_i = -glm::dot(y.normal, way);
+            if (toward_j <= 0.0f || toward_i <= 0.0f ||
+                !visible(x, world_[i], y, world_[j], key + (opposite ? 1u : 0u)))
+                continue;
+            const float distance2 = glm::dot(way, way);
+            sum += toward_j * toward_i / (distance2 * distance2);
+        }
+        return sum * float(0.5 / std::numbers::pi);
+    }
+
     /// F_ij × visible fraction. Takes more points where some see the shooter and others do not.
     float factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
     {
+        if (is_pointwise(i, j))  // the higher index takes it from the lower, in make_reciprocal
+            return i < j || options_.centre ? pointwise(i, j) * lumels_.lumels[j].area : 0.0f;
         const float size = std::max(world_[i].size, world_[j].size);
         const bool is_close = is_near(world_[i].centre, size, world_[j].centre, size, kDistant);
         const Sample first = sample(i, j, is_close ? receiver.close : receiver.distant);
@@ -138,12 +175,14 @@ private:
 
     const RayScene& rays_;
     const WorldLumels& world_;
+    const Lumels& lumels_;
     const NearFieldOptions& options_;
     const int close_, distant_, torn_;  ///< points along each side of a lumel
 };
 
 /// Makes A_i F_ij = A_j F_ji hold by averaging the two estimates, which halves their noise. Only
-/// for flat lumels: where shading normals bend, irradiance is not quite reciprocal.
+/// for flat lumels: where shading normals bend, irradiance is not quite reciprocal. Pointwise
+/// pairs were estimated once for both.
 void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lumels& lumels,
                      const NearPairs& pairs, std::vector<float>& factors)
 {
@@ -151,6 +190,13 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
         return pairs.partner.begin() + std::ptrdiff_t(pairs.first[i]);
     };
     const auto average = [&](std::uint32_t i, std::uint32_t j, float& ij, float& ji) {
+        if (builder.is_pointwise(i, j)) {
+            const float back = lumels.lumels[j].area;
+            ji = back > 0.0f ? ij * lumels.lumels[i].area / back : 0.0f;
+            return;
+        }
+        if (!world[i].flat || !world[j].flat)
+            return;
         // If only one found a way through, the other looks again.
         ReceiverPoints again;
         if (ij <= 0.0f && ji > 0.0f)
@@ -165,8 +211,6 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
     parallel_for(world.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::uint32_t i = std::uint32_t(first); i < last; ++i)
             for (auto pair = std::lower_bound(row(i), row(i + 1), i); pair != row(i + 1); ++pair) {
-                if (!world[i].flat || !world[*pair].flat)
-                    continue;
                 const auto back = std::lower_bound(row(*pair), row(*pair + 1), i);
                 average(i, *pair, factors[std::size_t(pair - pairs.partner.begin())],
                         factors[std::size_t(back - pairs.partner.begin())]);
@@ -197,12 +241,39 @@ bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
     return glm::dot(way, way) < reach * reach;
 }
 
+namespace {
+
+/// The largest radius of a few that keeps the table within its limit, judged by the neighbours of
+/// some of the lumels. Half of the neighbours, about, lie in the same plane and make no pair.
+float fitting_radius(const WorldLumels& world, const NearFieldOptions& options)
+{
+    constexpr std::size_t kJudged = 512;
+    constexpr float kShrink = 0.75f, kLeastRadius = 1.5f;
+    const std::size_t step = std::max<std::size_t>(world.size() / kJudged, 1);
+    for (float radius = options.radius;; radius *= kShrink) {
+        std::size_t neighbours = 0, judged = 0;
+        for (std::size_t i = 0; i < world.size(); i += step, ++judged)
+            for (std::size_t j = 0; j < world.size(); ++j)
+                neighbours += is_near(world[i].centre, world[i].size, world[j].centre,
+                                      world[j].size, radius) &&
+                              std::abs(glm::dot(world[i].normal,
+                                                world[j].centre - world[i].centre)) > world[i].lift;
+        const double pairs =
+            double(neighbours) / double(std::max<std::size_t>(judged, 1)) * double(world.size());
+        if (pairs <= double(options.most_pairs) || radius <= kLeastRadius)
+            return radius;
+    }
+}
+
+}  // namespace
+
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options)
 {
     const WorldLumels world(scene, rays, lumels);
-    const NearPairs pairs = find_near_pairs(world, lumels, options.radius);
-    const Builder builder(rays, world, options);
+    const float radius = fitting_radius(world, options);
+    const NearPairs pairs = find_near_pairs(world, lumels, radius);
+    const Builder builder(rays, world, lumels, options);
 
     // Compute every pair in place, row by row.
     std::vector<float> factors(pairs.partner.size());
@@ -222,7 +293,7 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
 
     // Keep what counts.
     NearField table;
-    table.radius = options.radius;
+    table.radius = radius;
     table.first.reserve(world.size() + 1);
     table.first.push_back(0);
     for (std::size_t i = 0; i < world.size(); ++i) {

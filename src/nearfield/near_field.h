@@ -1,6 +1,7 @@
 #pragma once
 // Pairs of lumels too close for point sampling, solved exactly.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace lumel {
 
 struct NearFieldOptions {
-    float radius = 4.0f;  ///< pairs closer than this × the larger of the two lumel sizes
+    float radius = 12.0f;  ///< pairs closer than this × the larger of the two lumel sizes
+    std::size_t most_pairs = 12'000'000;  ///< the radius shrinks until about so many are left
     int samples = 16;     ///< most points per pair; distant pairs take fewer
     bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
@@ -20,7 +22,7 @@ struct NearFieldOptions {
 /// Sparse form factors, one row per receiver i (compressed rows):
 /// H_i(near) = Σ_k factor[k] B[column[k]], k in [first[i], first[i + 1]).
 struct NearField {
-    float radius = 0.0f;                ///< NearFieldOptions::radius it was built with
+    float radius = 0.0f;                ///< it was built with, at most NearFieldOptions::radius
     std::vector<std::uint32_t> first;   ///< [N + 1]
     std::vector<std::uint32_t> column;  ///< [nnz] shooter j, ascending within a row
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction

@@ -74,7 +74,7 @@ constexpr std::uint32_t kRoughPhases = 3;
 constexpr float kRoughWeight = 0.25f;
 /// Convergence figures are asked for each time the iterations have grown by this factor, and
 /// taken this many iterations later: a fixed lag keeps the result independent of timing.
-constexpr double kFigureGrowth = 1.06;
+constexpr double kFigureGrowth = 1.08;
 constexpr std::uint64_t kFigureLag = 2;
 /// Sweeps of the near field after the last shot.
 constexpr int kPolishSweeps = 3;

@@ -52,7 +52,7 @@ private:
     std::uint32_t batch_;  ///< K
     bool paper_;
     float near_radius_;
-    std::vector<float> open_;      ///< [N] share of each lumel's area that light can reach
+    std::vector<float> open_;       ///< [N] share of each lumel's area that light can reach
     float reflecting_area_ = 0.0f;  ///< Σ A of lumels with albedo > 0 [m²]
     double emitted_power_ = 0.0;    ///< Σ A 𝓛(E) [lm]
 
