@@ -104,10 +104,10 @@ void Commands::barrier()
     vkCmdPipelineBarrier2(buffer_, &info);
 }
 
-void Commands::push(const Layout& layout, VkPipelineBindPoint point,
-                    std::span<const Binding> bindings, const void* params, std::uint32_t bytes)
+void Commands::bind(const Layout& layout, VkPipelineBindPoint point,
+                    std::span<const Binding> bindings)
 {
-    if (bindings.size() != layout.slots().size() || bytes != layout.param_bytes())
+    if (bindings.size() != layout.slots().size())
         throw std::logic_error("a shader was given other bindings than it declares");
     std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
     std::vector<VkDescriptorImageInfo> images(bindings.size());
@@ -131,6 +131,12 @@ void Commands::push(const Layout& layout, VkPipelineBindPoint point,
     if (!writes.empty())
         vkCmdPushDescriptorSetKHR(buffer_, point, layout.handle(), 0, std::uint32_t(writes.size()),
                                   writes.data());
+}
+
+void Commands::push_params(const Layout& layout, const void* params, std::uint32_t bytes)
+{
+    if (bytes != layout.param_bytes())
+        throw std::logic_error("a shader was given other parameters than it declares");
     if (bytes > 0)
         vkCmdPushConstants(buffer_, layout.handle(), layout.stages(), 0, bytes, params);
 }
@@ -140,7 +146,8 @@ void Commands::dispatch_bytes(const Kernel& kernel, std::span<const Binding> bin
 {
     begin();
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    push(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, bindings, params, bytes);
+    bind(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, bindings);
+    push_params(kernel.layout(), params, bytes);
     const std::size_t groups = (threads + kernel.group_size() - 1) / kernel.group_size();
     vkCmdDispatch(buffer_, std::uint32_t(groups), 1, 1);
     barrier();
@@ -248,19 +255,24 @@ void Commands::viewport(const Area& area)
     vkCmdSetScissor(buffer_, 0, 1, &scissor);
 }
 
-void Commands::draw_bytes(const Raster& raster, std::span<const Binding> bindings,
-                          const void* params, std::uint32_t bytes, const Triangles& triangles)
+void Commands::use(const Raster& raster, std::span<const Binding> bindings, const Mesh& mesh)
 {
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, raster.pipeline());
-    push(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings, params, bytes);
+    bind(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings);
     std::uint32_t stream = 0;
-    for (const Buffer* buffer : triangles.streams) {
+    for (const Buffer* buffer : mesh.streams) {
         const VkBuffer handle = buffer->handle();
         const VkDeviceSize offset = 0;
         vkCmdBindVertexBuffers(buffer_, stream++, 1, &handle, &offset);
     }
-    vkCmdBindIndexBuffer(buffer_, triangles.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdDrawIndexed(buffer_, triangles.index_count, 1, triangles.first_index, 0, 0);
+    vkCmdBindIndexBuffer(buffer_, mesh.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
+    layout_in_use_ = &raster.layout();
+}
+
+void Commands::draw_bytes(const void* params, std::uint32_t bytes, const Range& range)
+{
+    push_params(*layout_in_use_, params, bytes);
+    vkCmdDrawIndexed(buffer_, range.count, 1, range.first, 0, 0);
 }
 
 void Commands::end_pass()

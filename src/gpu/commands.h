@@ -35,12 +35,15 @@ struct Area {
     std::uint32_t x, y, width, height;
 };
 
-/// A part of an indexed triangle list.
-struct Triangles {
+/// An indexed triangle list.
+struct Mesh {
     std::initializer_list<const Buffer*> streams;  ///< as the Raster's VertexStreams
     const Buffer* indices;                         ///< uint32
-    std::uint32_t first_index;
-    std::uint32_t index_count;
+};
+
+/// A part of its indices.
+struct Range {
+    std::uint32_t first, count;
 };
 
 /// Time the device spent per stage [ms].
@@ -79,12 +82,16 @@ public:
     void begin_pass(const Target* color, const Target& depth, const Area& area,
                     std::array<float, 4> clear = {});
     void viewport(const Area& area);
+    /// What the following draws of this pass use.
+    void use(const Raster& raster, std::initializer_list<Binding> bindings, const Mesh& mesh)
+    {
+        use(raster, std::span(bindings.begin(), bindings.size()), mesh);
+    }
     template <class Params>
-    void draw(const Raster& raster, std::initializer_list<Binding> bindings, const Params& params,
-              const Triangles& triangles)
+    void draw(const Params& params, const Range& range)
     {
         static_assert(std::is_standard_layout_v<Params> && sizeof(Params) <= kMaxParamBytes);
-        draw_bytes(raster, bindings, &params, sizeof(Params), triangles);
+        draw_bytes(&params, sizeof(Params), range);
     }
     void end_pass();
 
@@ -102,22 +109,17 @@ public:
 private:
     void begin();
     void barrier();
-    void push(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings,
-              const void* params, std::uint32_t bytes);
+    void bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings);
+    void push_params(const Layout& layout, const void* params, std::uint32_t bytes);
+    void use(const Raster& raster, std::span<const Binding> bindings, const Mesh& mesh);
     void dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings, const void* params,
                         std::uint32_t bytes, std::size_t threads);
-    void draw_bytes(const Raster& raster, std::span<const Binding> bindings, const void* params,
-                    std::uint32_t bytes, const Triangles& triangles);
+    void draw_bytes(const void* params, std::uint32_t bytes, const Range& range);
     void dispatch_bytes(const Kernel& kernel, std::initializer_list<Binding> bindings,
                         const void* params, std::uint32_t bytes, std::size_t threads)
     {
         dispatch_bytes(kernel, std::span(bindings.begin(), bindings.size()), params, bytes,
                        threads);
-    }
-    void draw_bytes(const Raster& raster, std::initializer_list<Binding> bindings,
-                    const void* params, std::uint32_t bytes, const Triangles& triangles)
-    {
-        draw_bytes(raster, std::span(bindings.begin(), bindings.size()), params, bytes, triangles);
     }
     void make_levels(const Target& target);
 
@@ -126,6 +128,7 @@ private:
     VkCommandBuffer buffer_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
     VkQueryPool queries_ = VK_NULL_HANDLE;
+    const Layout* layout_in_use_ = nullptr;  ///< of the Raster in use
     bool recording_ = false, submitted_ = false;
     std::vector<std::string> stages_;  ///< name of the interval that begins at timestamp i
     StageTimes times_;

@@ -33,6 +33,8 @@ constexpr float kDistant = 2.0f;
 /// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
 /// varies little, and as many as there are of them, their noise averages out.
 constexpr float kPointwise = 4.0f;
+/// And by one pair of points instead of two beyond this.
+constexpr float kOnePoint = 6.0f;
 
 /// Points of one receiver: for close pairs and for distant ones.
 struct ReceiverPoints {
@@ -68,13 +70,17 @@ public:
         return !is_near(world_[i].centre, size, world_[j].centre, size, kPointwise);
     }
 
-    /// Mean of V cosθ_i cosθ_j / πr² over two pairs of points [1/m²]: F_ij is this × A_j.
+    /// Mean of V cosθ_i cosθ_j / πr² over a few pairs of points [1/m²]: F_ij is this × A_j.
     float pointwise(std::uint32_t i, std::uint32_t j) const
     {
         const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
         const glm::vec2 s = sobol_pair(0, key), t = sobol_pair(0, hash_two(key, 1));
+        const float size = std::max(world_[i].size, world_[j].size);
+        const int samples =
+            is_near(world_[i].centre, size, world_[j].centre, size, kOnePoint) ? 2 : 1;
         float sum = 0.0f;
-        for (const bool opposite : {false, true}) {
+        for (int k = 0; k < samples; ++k) {
+            const bool opposite = k > 0;
             const glm::vec2 one(1.0f);
             const LumelPoint x = options_.centre ? LumelPoint{world_[i].centre, world_[i].normal}
                                                  : world_.point_on(i, opposite ? one - s : s);
@@ -82,12 +88,12 @@ public:
             const glm::vec3 way = y.position - x.position;
             const float toward_j = glm::dot(x.normal, way), toward_i = -glm::dot(y.normal, way);
             if (toward_j <= 0.0f || toward_i <= 0.0f ||
-                !visible(x, world_[i], y, world_[j], key + (opposite ? 1u : 0u)))
+                !visible(x, world_[i], y, world_[j], key + std::uint32_t(k)))
                 continue;
             const float distance2 = glm::dot(way, way);
             sum += toward_j * toward_i / (distance2 * distance2);
         }
-        return sum * float(0.5 / std::numbers::pi);
+        return sum / (float(samples) * std::numbers::pi_v<float>);
     }
 
     /// F_ij × visible fraction. Takes more points where some see the shooter and others do not.

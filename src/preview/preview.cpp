@@ -220,17 +220,15 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
                                                                       : 0.5f;
         const PreviewParams params{projection(view, diagonal), material.base_color,
                                    material.emitted, cutoff, material.double_sided ? 1u : 0u};
-        commands.draw(
+        commands.use(
             raster,
             {{textures.of(material.base_color_texture),
               textures.sampler(material.base_color_texture)},
              {textures.of(material.emissive_texture), textures.sampler(material.emissive_texture)},
              {lightmap, bilinear}},
-            params,
             {{&positions.buffer(), &looks.buffer(), &places.buffer(), &colors.buffer()},
-             &indices.buffer(),
-             range.first,
-             range.count});
+             &indices.buffer()});
+        commands.draw(params, {range.first, range.count});
     }
     commands.end_pass();
     commands.run();

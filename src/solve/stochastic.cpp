@@ -77,7 +77,7 @@ constexpr float kRoughWeight = 0.25f;
 constexpr double kFigureGrowth = 1.08;
 constexpr std::uint64_t kFigureLag = 2;
 /// Sweeps of the near field after the last shot.
-constexpr int kPolishSweeps = 3;
+constexpr int kPolishSweeps = 2;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
 
@@ -228,7 +228,6 @@ void StochasticRadiosity::step()
     if (++phase_batch_ == phase_length_)
         advance();
     ask_figures();
-    pacer_.flush();
 }
 
 std::uint32_t StochasticRadiosity::emission_shots_of_batch()

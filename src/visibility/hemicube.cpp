@@ -94,23 +94,26 @@ gpu::Area Hemicubes::face_area(std::uint32_t eye, std::uint32_t face) const
     }
 }
 
-void Hemicubes::draw_face(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t eye,
-                          std::uint32_t face)
+void Hemicubes::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
+                           std::uint32_t first, std::uint32_t last)
 {
-    commands.viewport(face_area(eye, face));
-    HemicubeParams params{eye, face, layout_.near, 0.0f};
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
-    if (world_->opaque_index_count() > 0)
-        commands.draw(opaque_, {eyes}, params,
-                      {{&vertices}, &indices, 0, world_->opaque_index_count()});
-    for (const CutOutDraw& draw : world_->cut_outs()) {
-        params.cutoff = draw.cutoff;
-        commands.draw(cut_out_, {eyes, {*draw.alpha, *draw.sampler}}, params,
-                      {{&vertices, &world_->looks().buffer()},
-                       &indices,
-                       draw.range.first_index,
-                       draw.range.index_count});
+    const auto draw_all = [&](float cutoff, const gpu::Range& range) {
+        for (std::uint32_t i = first; i < last; ++i) {
+            const std::uint32_t eye = i / kHemicubeFaces, face = i % kHemicubeFaces;
+            commands.viewport(face_area(eye, face));
+            commands.draw(HemicubeParams{eye, face, layout_.near, cutoff}, range);
+        }
+    };
+    if (world_->opaque_index_count() > 0) {
+        commands.use(opaque_, {eyes}, {{&vertices}, &indices});
+        draw_all(0.0f, {0, world_->opaque_index_count()});
+    }
+    for (const CutOutDraw& cut_out : world_->cut_outs()) {
+        commands.use(cut_out_, {eyes, {*cut_out.alpha, *cut_out.sampler}},
+                     {{&vertices, &world_->looks().buffer()}, &indices});
+        draw_all(cut_out.cutoff, {cut_out.range.first_index, cut_out.range.index_count});
     }
 }
 
@@ -118,9 +121,7 @@ void Hemicubes::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
 {
     const std::uint32_t rows = (count + layout_.columns - 1) / layout_.columns;
     commands.begin_pass(nullptr, image_, {0, 0, image_.width(), rows * (3 * layout_.side / 2)});
-    for (std::uint32_t eye = 0; eye < count; ++eye)
-        for (std::uint32_t face = 0; face < kHemicubeFaces; ++face)
-            draw_face(commands, eyes, eye, face);
+    draw_faces(commands, eyes, 0, count * kHemicubeFaces);
     commands.end_pass();
 }
 
@@ -128,9 +129,8 @@ void Hemicubes::look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& 
                                 std::uint32_t first, std::uint32_t last)
 {
     for (std::uint32_t i = first; i < last; ++i) {
-        const std::uint32_t eye = i / kHemicubeFaces, face = i % kHemicubeFaces;
-        commands.begin_pass(nullptr, image_, face_area(eye, face));
-        draw_face(commands, eyes, eye, face);
+        commands.begin_pass(nullptr, image_, face_area(i / kHemicubeFaces, i % kHemicubeFaces));
+        draw_faces(commands, eyes, i, i + 1);
         commands.end_pass();
     }
 }

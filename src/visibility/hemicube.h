@@ -32,8 +32,8 @@ public:
                          std::uint32_t last);
 
 private:
-    void draw_face(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t eye,
-                   std::uint32_t face);
+    void draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
+                    std::uint32_t last);
     gpu::Area tile_area(std::uint32_t eye) const;
     gpu::Area face_area(std::uint32_t eye, std::uint32_t face) const;
 
