@@ -64,7 +64,7 @@ constexpr std::uint32_t kPolishSpirv[] = {
 /// Shots of the first phase, all from E.
 constexpr std::uint32_t kFirstPhaseShots = 64;
 /// Share of shooters spread by area whatever their power (dark rooms need it).
-constexpr float kDefensiveShare = 0.15f;
+constexpr float kDefensiveShare = 0.25f;
 /// Shooters drawn from E, as a part of E's share of the power, and its bounds.
 constexpr double kEmissionShooters = 0.5, kLeastEmission = 1.0 / 16.0, kMostEmission = 0.5;
 /// How much a shot of an earlier phase counts beside one of the phase after it: its source was
@@ -76,6 +76,11 @@ constexpr float kRoughWeight = 0.25f;
 /// taken this many iterations later: a fixed lag keeps the result independent of timing.
 constexpr double kFigureGrowth = 1.08;
 constexpr std::uint64_t kFigureLag = 2;
+/// The stated error is that of the whole map, or this part of the mean error of lumels relative to
+/// their own light, if that is larger: a dark room beside a bright one counts too.
+constexpr double kLocalShare = 1.0 / 3.0;
+/// Light below this part of the map's mean counts as that much when relative errors are taken.
+constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
 constexpr int kPolishSweeps = 2;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
@@ -314,7 +319,7 @@ void StochasticRadiosity::near_light(gpu::Commands& commands, const gpu::Array<g
 
 void StochasticRadiosity::evaluate(gpu::Commands& commands)
 {
-    const AverageParams params{averages(), count_};
+    const AverageParams params{averages(), count_, float(kDimShare * mean_irradiance_)};
     const TotalParams parts{std::uint32_t(parts_.size())};
     commands.dispatch(kernels_.balance,
                       {surface_, direct_, indirect_, near_emission_, near_source_, source_, parts_},
@@ -383,8 +388,11 @@ void StochasticRadiosity::take_figures()
         state_.error = emitted_power_ > 0.0 ? -1.0 : 0.0;
         return;
     }
+    mean_irradiance_ = double(sums.y) / count;
+    const double local = std::sqrt(double(figures_host_.mapped()->column[1].x) / count);
     if (paper_ || phase_ > 1)
-        state_.error = std::sqrt(double(sums.x) / count) / (double(sums.y) / count);
+        state_.error =
+            std::max(std::sqrt(double(sums.x) / count) / mean_irradiance_, kLocalShare * local);
     const double share = emitted_power_ / (emitted_power_ + double(sums.w));
     emission_share_ = std::clamp(kEmissionShooters * share, kLeastEmission, kMostEmission);
 }

@@ -6,7 +6,7 @@
 //
 //     H = mean over h of (D_h + far_h)  +  near light,
 //     terms: Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N,
-//            Σ A 𝓛(ρH).
+//            Σ A 𝓛(ρH);  Σ |H_0 - H_1|²/4 / (H² + dim²), the same relative to each lumel's own light.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
@@ -48,6 +48,7 @@ void main()
         const vec3 d = 0.5 * (half_[0] - half_[1]);
         terms.column[0] = vec4(dot(d, d), h_i.r + h_i.g + h_i.b, 1.0,
                                surface[i].w * luminance(surface[i].rgb * h_i));
+        terms.column[1].x = dot(d, d) / (dot(h_i, h_i) / 3.0 + p.dim * p.dim + 1e-30);
     } else if (i < p.count) {
         far[i] = vec3(0.0);
         irradiance[i] = vec3(0.0);

@@ -77,6 +77,7 @@ private:
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
 
     SolverState state_;
+    double mean_irradiance_ = 0.0;  ///< as last heard [lx]
     PendingFigures pending_;
     std::uint64_t next_figures_ = 0;  ///< iteration to ask again
     std::uint32_t phase_ = 0;

@@ -64,6 +64,7 @@ struct Averages {
 struct AverageParams {
     Averages averages;
     uint count;  ///< N
+    float dim;   ///< irradiance below which relative errors are relative to this [lx]; 0: unknown
 };
 
 /// Push constants of stochastic.total.comp.

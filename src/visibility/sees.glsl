@@ -3,6 +3,8 @@
 // Relative slack of the depth comparison: stored depths are interpolated in float, and a
 // receiver's pieces approximate the drawn surface.
 const float kDepthSlack = 2e-4;
+// A curved receiver's neighbouring facets fall behind its plane by this much at most, relative.
+const float kPlaneSlack = 2e-3;
 
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
 // normal is `facing` (any length) in the eye's frame.
@@ -12,9 +14,9 @@ const float kDepthSlack = 2e-4;
 //
 //     z_plane = (facing · local) / (facing · q),      q = ray with axis component 1,
 //
-// so comparing z_plane needs no slope-dependent bias: a surface does not shade itself. Where the
-// centre ray falls on a neighbour beyond a corner, the point's own z is the fairer measure;
-// either passing counts as seen.
+// and if that is what is stored, the pixel shows the receiver's own surface: it is seen, whatever
+// its slope. Otherwise the point's own z decides, as in any shadow map. Only equality counts for
+// the plane: it may well run in front of an occluder that hides the point itself.
 bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
 {
     const vec3 size = abs(local);
@@ -51,6 +53,8 @@ bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
                          : (along_t ? vec3(axis_sign, qa, qc) : vec3(qa, axis_sign, qc));
     const float slack = layout_.near * (1.0 + kDepthSlack);
     const bool by_point = stored * z <= slack;
-    const bool by_plane = stored * -dot(facing, local) <= slack * -dot(facing, q);
-    return by_point || by_plane;
+    const float plane = -dot(facing, q) * layout_.near;
+    const float found = -dot(facing, local) * stored;
+    const bool own_surface = found <= plane * (1.0 + kDepthSlack) && found >= plane * (1.0 - kPlaneSlack);
+    return by_point || own_surface;
 }

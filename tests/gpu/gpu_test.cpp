@@ -70,14 +70,14 @@ TEST(Pacer, CutsWorkWithoutChangingItsResult)
 {
     const Device device;
     const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
-    constexpr std::uint32_t count = 100000;
+    constexpr std::uint32_t count = 1000000;
     const Array<std::uint32_t> array(device, count);
-    Pacer pacer(device, 0.05);  // far below what all of it takes at once
+    Pacer pacer(device, 0.5);  // below what all of it takes at once
     pacer.work("clear", 1, 1, [&](Commands& commands, std::uint32_t, std::uint32_t) {
         commands.fill(array.buffer(), 5);
     });
     for (int round = 0; round < 3; ++round)
-        pacer.work("twice", count, 512,
+        pacer.work("twice", count, 65536,
                    [&](Commands& commands, std::uint32_t first, std::uint32_t last) {
                        commands.dispatch(twice, {array}, TwiceParams{first, last, 1}, last - first);
                    });

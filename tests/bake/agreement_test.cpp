@@ -1,0 +1,134 @@
+// The solver against the path tracer, against other settings of its own, and against its own
+// word.
+
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+using support::LumelError;
+using support::Solved;
+
+std::vector<glm::vec3> path_traced(const Prepared& world, int samples)
+{
+    return reference_irradiance(world.scene, world.rays, world.lumels,
+                                {.samples_per_lumel = samples, .seed = 99});
+}
+
+/// The Cornell box at 128² with its 4096-sample reference, made once for all tests.
+struct Cornell {
+    Cornell() : world(support::scene_path("cornell-box"), AtlasOptions{.size = 128})
+    {
+        truth = path_traced(world, 4096);
+    }
+    Prepared world;
+    std::vector<glm::vec3> truth;
+};
+
+const Cornell& cornell()
+{
+    static const Cornell instance;
+    return instance;
+}
+
+LumelError cornell_error(const Solved& solved)
+{
+    return support::lumel_error(cornell().world.lumels, solved.irradiance, cornell().truth,
+                                [](const Lumel&) { return true; });
+}
+
+bool everywhere(const Lumel&)
+{
+    return true;
+}
+
+TEST(CornellBox, DefaultsAreWithinTwoPerCent)
+{
+    const LumelError error = cornell_error(support::solve_scene(cornell().world, {}));
+    EXPECT_LE(error.rmse, 0.02);
+    EXPECT_LE(std::abs(error.bias), 0.005);
+}
+
+TEST(CornellBox, ErrorOneHalfIsWithinOnePerCent)
+{
+    const LumelError error =
+        cornell_error(support::solve_scene(cornell().world, {.target_error = 0.005}));
+    EXPECT_LE(error.rmse, 0.01);
+    EXPECT_LE(std::abs(error.bias), 0.005);
+}
+
+// One estimate scatters; over a few seeds the stated error must be of the true one's size.
+TEST(CornellBox, TheEstimatedErrorIsHonest)
+{
+    double stated = 0.0, real = 0.0;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        const Solved solved = support::solve_scene(
+            cornell().world, {.seed = seed, .max_shots = 1024, .target_error = 0.0});
+        stated += solved.state.error;
+        real += cornell_error(solved).rmse;
+    }
+    EXPECT_GT(stated, 0.6 * real);
+    EXPECT_LT(stated, 1.7 * real);
+}
+
+TEST(CornellBox, TheSameSeedGivesTheSameBytes)
+{
+    const SolverOptions options{.max_shots = 512, .target_error = 0.0};
+    const Solved a = support::solve_scene(cornell().world, options);
+    const Solved b = support::solve_scene(cornell().world, options);
+    EXPECT_EQ(a.irradiance, b.irradiance);
+}
+
+TEST(CornellBox, OtherBatchesGiveTheSameAnswer)
+{
+    for (const int batch : {1, 5, 64}) {
+        const Solved solved = support::solve_scene(
+            cornell().world, {.batch = batch, .max_shots = 1024, .target_error = 0.0});
+        EXPECT_LE(cornell_error(solved).rmse, 0.05) << "K = " << batch;
+    }
+}
+
+// The papers' plain iteration needs far more shooters, and gets to the same place.
+TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
+{
+    const Prepared small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const std::vector<glm::vec3> truth = path_traced(small, 1024);
+    const auto error = [&](std::uint64_t shots) {
+        const Solved solved = support::solve_scene(
+            small, {.scheme = Scheme::paper, .batch = 1, .max_shots = shots, .target_error = 0.0});
+        return support::lumel_error(small.lumels, solved.irradiance, truth, everywhere).rmse;
+    };
+    const double early = error(512), late = error(4096);
+    EXPECT_LT(late, 0.12);
+    EXPECT_LT(late, 0.6 * early);
+}
+
+TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
+{
+    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const auto truth =
+        reference_irradiance(world.scene, world.rays, world.lumels,
+                             {.samples_per_lumel = 2048, .seed = 5, .rule = SampleRule::centre});
+    const Solved solved = support::solve_scene(
+        world, {.rule = SampleRule::centre, .max_shots = 4096, .target_error = 0.0});
+    EXPECT_LE(support::lumel_error(world.lumels, solved.irradiance, truth, everywhere).rmse, 0.04);
+}
+
+TEST(TwoRooms, LightFindsTheDoorAndNothingElse)
+{
+    const Prepared world(support::scene_path("two-rooms"), AtlasOptions{.size = 128});
+    const auto truth = path_traced(world, 4096);
+    const Solved solved = support::solve_scene(world, {});
+    const auto in_room = [&](const char* prefix) {
+        return support::lumel_error(
+            world.lumels, solved.irradiance, truth, [&](const Lumel& lumel) {
+                return world.scene.instances[lumel.instance].name.rfind(prefix, 0) == 0;
+            });
+    };
+    EXPECT_LE(in_room("lit room").rmse, 0.03);
+    EXPECT_LE(in_room("dark room").rmse, 0.10);
+    EXPECT_GT(in_room("dark room").count, 1000u);
+}
+
+}  // namespace
+}  // namespace lumel

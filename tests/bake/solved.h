@@ -1,0 +1,78 @@
+#pragma once
+// Scenes solved for a test.
+
+#include <functional>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "bake/prepare.h"
+#include "finish/finish.h"
+#include "reference/metrics.h"
+#include "solve/solver.h"
+
+namespace lumel::support {
+
+inline std::string scene_path(const std::string& name)
+{
+    return LUMEL_SOURCE_DIR "/scenes/" + name + ".gltf";
+}
+
+struct Solved {
+    std::vector<glm::vec3> irradiance;  ///< [N] [lx]
+    SolverState state;
+};
+
+/// Solves on the default device; validation messages fail the test.
+inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                          const SolverOptions& options)
+{
+    NearField near;
+    if (options.scheme == Scheme::phased)
+        near =
+            build_near_field(scene, rays, lumels,
+                             {.centre = options.rule == SampleRule::centre, .seed = options.seed});
+    const gpu::Device device;
+    const World world(device, scene, lumels);
+    const auto solver = make_solver(device, world, lumels, near, options);
+    EXPECT_TRUE(solve(*solver, options));
+    Solved solved{solver->irradiance(), solver->state()};
+    EXPECT_EQ(device.validation_messages(), "");
+    return solved;
+}
+
+inline Solved solve_scene(const Prepared& world, const SolverOptions& options)
+{
+    return solve_scene(world.scene, world.rays, world.lumels, options);
+}
+
+/// Relative RMSE and bias over the chosen lumels, all channels, in terms of their own mean.
+struct LumelError {
+    double rmse = 0.0, bias = 0.0;
+    std::size_t count = 0;
+};
+
+inline LumelError lumel_error(const Lumels& lumels, const std::vector<glm::vec3>& values,
+                              const std::vector<glm::vec3>& truth,
+                              const std::function<bool(const Lumel&)>& chosen)
+{
+    double square = 0.0, difference = 0.0, sum = 0.0;
+    LumelError error;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if ((lumels.lumels[i].flags & kLumelBuried) || !chosen(lumels.lumels[i]))
+            continue;
+        for (int c = 0; c < 3; ++c) {
+            const double d = double(values[i][c]) - double(truth[i][c]);
+            square += d * d;
+            difference += d;
+            sum += double(truth[i][c]);
+        }
+        ++error.count;
+    }
+    const double n = 3.0 * double(error.count);
+    error.rmse = std::sqrt(square / n) / (sum / n);
+    error.bias = difference / sum;
+    return error;
+}
+
+}  // namespace lumel::support
