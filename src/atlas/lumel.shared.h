@@ -15,7 +15,6 @@ struct Lumel {
     float size;     ///<    [m]     larger of √A and the covered part's diameter / √2, world
     vec3 albedo;    ///< ρ  [1]     mean over the covered part, 0…1
     vec3 emission;  ///< E  [lm/m²] π × mean emitted luminance
-    float hidden;      ///< share of its area that lies under other geometry, 0…1 (buried: 1)
     uint instance;  ///< index into Scene::instances
     uint chart;     ///< index of its chart
     uint texel;     ///< y * atlas width + x

@@ -15,14 +15,6 @@ struct LumelPoint {
     glm::vec3 normal;
 };
 
-/// Share of a lumel's area that light can reach. Its irradiance and radiosity are means over this
-/// part: what lies under a neighbour is never seen, and must not darken what is.
-inline float open_share(const Lumel& lumel)
-{
-    constexpr float kLeast = 0.125f;  // with less open, a lumel is buried
-    return std::max(1.0f - lumel.hidden, kLeast);
-}
-
 /// Maps (s, t) in the unit square to a point of the lumel, uniform by area.
 inline LumelPoint point_on(const Lumels& lumels, const Lumel& lumel, float s, float t)
 {

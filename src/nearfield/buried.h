@@ -7,14 +7,16 @@
 
 namespace lumel {
 
-/// Finds how much of each lumel lies under or inside other geometry (Lumel::hidden), and marks
-/// those of which less than an eighth is open (kLumelBuried).
+/// Reduces lumels to the part that light can reach, and marks those of which less than a tenth is
+/// left (kLumelBuried). What lies under or inside other geometry neither receives nor shines, so
+/// that it darkens nothing and lets nothing through; area and pieces are then those of the open
+/// part.
 ///
-/// Points all over a lumel cast rays all over their hemisphere. A ray is shut in if it first meets
-/// the back of a single-sided surface (it started inside of closed geometry), or anything at all
-/// within a hundredth of the lumel's size above it (a surface lying on it). A point is hidden if
-/// every ray of it is shut in; one ray that gets away, or meets a front or a double-sided surface
-/// farther off, clears it. So the dark inside of a sealed but roomy box is not buried.
+/// Points of a lumel cast rays all over their hemisphere. A ray is shut in if it first meets the
+/// back of a single-sided surface (it started inside of closed geometry), or anything at all within
+/// a hundredth of the lumel's size above it (a surface lying on it). A point is hidden if every ray
+/// of it is shut in; one ray that gets away, or meets a front or a double-sided surface farther
+/// off, clears it. So the dark inside of a sealed but roomy box is not buried.
 void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels);
 
 }  // namespace lumel

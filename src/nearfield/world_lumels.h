@@ -52,6 +52,9 @@ public:
     /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
     LumelPoint point_on(std::size_t i, const glm::vec2& st) const;
 
+    /// A point of lumel i's instance frame in the world.
+    LumelPoint to_world(std::size_t i, const LumelPoint& local) const;
+
     /// Points for averages over lumel i, about side × side in all: Gauss points of each piece, or
     /// stratified points if it has more pieces than that. side ≤ kMostSide.
     std::vector<WeightedPoint> gauss_points(std::size_t i, int side) const;
@@ -65,7 +68,6 @@ private:
         glm::mat3 normals;
     };
 
-    LumelPoint to_world(std::size_t i, const LumelPoint& local) const;
     void place_facets(std::size_t i, bool mirrored);
 
     const Lumels& source_;

@@ -262,8 +262,7 @@ std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& 
     std::vector<glm::vec3> irradiance(count, glm::vec3(0.0f));
     for (std::size_t i = 0; i < count; ++i)
         if (taken[i] > 0)
-            irradiance[i] =
-                glm::vec3(sums[i] / (double(taken[i]) * double(open_share(lumels.lumels[i]))));
+            irradiance[i] = glm::vec3(sums[i] / double(taken[i]));
     return irradiance;
 }
 

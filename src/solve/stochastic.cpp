@@ -31,8 +31,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atlas/sampling.h"
-
 namespace lumel {
 namespace {
 
@@ -64,7 +62,7 @@ constexpr std::uint32_t kPolishSpirv[] = {
 /// Shots of the first phase, all from E.
 constexpr std::uint32_t kFirstPhaseShots = 64;
 /// Share of shooters spread by area whatever their power (dark rooms need it).
-constexpr float kDefensiveShare = 0.25f;
+constexpr float kDefensiveShare = 0.15f;
 /// Shooters drawn from E, as a part of E's share of the power, and its bounds.
 constexpr double kEmissionShooters = 0.5, kLeastEmission = 1.0 / 16.0, kMostEmission = 0.5;
 /// How much a shot of an earlier phase counts beside one of the phase after it: its source was
@@ -78,7 +76,7 @@ constexpr double kFigureGrowth = 1.08;
 constexpr std::uint64_t kFigureLag = 2;
 /// The stated error is that of the whole map, or this part of the mean error of lumels relative to
 /// their own light, if that is larger: a dark room beside a bright one counts too.
-constexpr double kLocalShare = 1.0 / 3.0;
+constexpr double kLocalShare = 0.5;
 /// Light below this part of the map's mean counts as that much when relative errors are taken.
 constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
@@ -86,26 +84,12 @@ constexpr int kPolishSweeps = 2;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
 
-/// The kernels take H as the mean over a lumel's whole area, hidden parts included, since that is
-/// what receiving at random points of it gives. The open part, which alone shines, then has the
-/// radiosity ρH / open over the area A · open.
 std::vector<glm::vec4> surfaces_of(const Lumels& lumels)
 {
     std::vector<glm::vec4> surfaces;
-    for (const Lumel& lumel : lumels.lumels) {
-        const float open = open_share(lumel);
-        surfaces.emplace_back(lumel.albedo / open,
-                              (lumel.flags & kLumelBuried) ? 0.0f : lumel.area * open);
-    }
-    return surfaces;
-}
-
-std::vector<float> open_shares(const Lumels& lumels)
-{
-    std::vector<float> shares;
     for (const Lumel& lumel : lumels.lumels)
-        shares.push_back(open_share(lumel));
-    return shares;
+        surfaces.emplace_back(lumel.albedo, (lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
+    return surfaces;
 }
 
 std::vector<glm::vec3> emission_of(const Lumels& lumels)
@@ -159,7 +143,6 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
-      open_(open_shares(lumels)),
       world_(&world),
       pacer_(device),
       kernels_(device),
@@ -194,7 +177,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
             continue;
         if (std::max({lumel.albedo.r, lumel.albedo.g, lumel.albedo.b}) > 0.0f)
             reflecting_area_ += lumel.area;
-        emitted_power_ += luminance(lumel.emission) * double(lumel.area * open_share(lumel));
+        emitted_power_ += luminance(lumel.emission) * double(lumel.area);
     }
     phase_length_ = paper_ ? 1 : std::max(2u, kFirstPhaseShots / batch_);
 
@@ -415,10 +398,7 @@ std::vector<glm::vec3> StochasticRadiosity::irradiance()
         }
     });
     pacer_.finish();
-    std::vector<glm::vec3> irradiance = irradiance_.download();
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        irradiance[i] /= open_[i];
-    return irradiance;
+    return irradiance_.download();
 }
 
 }  // namespace lumel

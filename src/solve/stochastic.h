@@ -52,7 +52,6 @@ private:
     std::uint32_t batch_;  ///< K
     bool paper_;
     float near_radius_;
-    std::vector<float> open_;       ///< [N] share of each lumel's area that light can reach
     float reflecting_area_ = 0.0f;  ///< Σ A of lumels with albedo > 0 [m²]
     double emitted_power_ = 0.0;    ///< Σ A 𝓛(E) [lm]
 
@@ -62,7 +61,7 @@ private:
     Hemicubes hemicubes_;
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;
-    gpu::Array<glm::vec4> surface_;        ///< ρ and A of the open part; A = 0 for buried lumels
+    gpu::Array<glm::vec4> surface_;        ///< ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission_;       ///< E
     gpu::Array<glm::vec3> source_;         ///< X: what indirect shooters send
     gpu::Array<glm::vec3> direct_;         ///< [2][N] sums over shots drawn from E

@@ -62,7 +62,7 @@ void main()
 
     const uint j = drawn.lumel;
     const Lumel lumel = lumels[j];
-    const float area = lumel.area;  // all of it: points under a neighbour shoot into its back
+    const float area = lumel.area;
     LumelPoint y = point_on(lumel, u.y, u.z);
     if (p.centre != 0u) {
         y.position = lumel.position;

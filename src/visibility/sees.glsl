@@ -5,6 +5,9 @@
 const float kDepthSlack = 2e-4;
 // A curved receiver's neighbouring facets fall behind its plane by this much at most, relative.
 const float kPlaneSlack = 2e-3;
+// Planes that come nearer by more than this many pixel widths per pixel are seen edge-on: such a
+// plane meets many others, and being on it says nothing.
+const float kMostSlope = 8.0;
 
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
 // normal is `facing` (any length) in the eye's frame.
@@ -53,8 +56,11 @@ bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
                          : (along_t ? vec3(axis_sign, qa, qc) : vec3(qa, axis_sign, qc));
     const float slack = layout_.near * (1.0 + kDepthSlack);
     const bool by_point = stored * z <= slack;
-    const float plane = -dot(facing, q) * layout_.near;
-    const float found = -dot(facing, local) * stored;
-    const bool own_surface = found <= plane * (1.0 + kDepthSlack) && found >= plane * (1.0 - kPlaneSlack);
+    const float toward_pixel = -dot(facing, q), toward_point = -dot(facing, local);
+    const float plane = toward_pixel * layout_.near;
+    const float found = toward_point * stored;
+    const bool steep = toward_point < (1.0 - kMostSlope / side) * z * toward_pixel;
+    const bool own_surface = found <= plane * (1.0 + kDepthSlack) &&
+                             found >= plane * (1.0 - kPlaneSlack) && !steep;
     return by_point || own_surface;
 }

@@ -119,8 +119,9 @@ TEST(SealedBox, StaysExactlyDarkInside)
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
         const glm::vec3 h = solved.irradiance[i];
         if (world.scene.instances[world.lumels.lumels[i].instance].name == "box inside") {
+            const glm::vec3 p = world.lumels.lumels[i].position;
             ++inside;
-            EXPECT_EQ(h, glm::vec3(0.0f)) << "lumel " << i;
+            EXPECT_EQ(h, glm::vec3(0.0f)) << "lumel " << i << " at " << p.x << ' ' << p.y << ' ' << p.z;
         }
         brightest = std::max(brightest, h.g);
     }
