@@ -124,10 +124,9 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     print_head();
     Stopwatch watch;
     watch.start();
-    const NearField near = build_near_field(world.scene, world.rays, world.lumels,
-                                            {.radius = settings.near_radius,
-                                             .centre = settings.solver.rule == SampleRule::centre,
-                                             .seed = settings.solver.seed});
+    NearFieldOptions near_options = near_field_options(settings.solver);
+    near_options.radius = settings.near_radius;
+    const NearField near = build_near_field(world.scene, world.rays, world.lumels, near_options);
     const World gpu_world(device, world.scene, world.lumels);
     const auto solver = make_solver(device, gpu_world, world.lumels, near, settings.solver);
     watch.stop();

@@ -51,9 +51,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     stages.begin("near field");
     NearField near;
     if (options.solver.scheme == Scheme::phased)
-        near = build_near_field(
-            world.scene, world.rays, world.lumels,
-            {.centre = options.solver.rule == SampleRule::centre, .seed = options.solver.seed});
+        near = build_near_field(world.scene, world.rays, world.lumels,
+                                near_field_options(options.solver));
 
     stages.begin("uploading");
     const gpu::Device device(options.device);

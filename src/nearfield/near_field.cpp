@@ -33,7 +33,9 @@ constexpr float kDistant = 2.0f;
 /// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
 /// varies little, and as many as there are of them, their noise averages out.
 constexpr float kPointwise = 4.0f;
-/// And by one pair of points instead of two beyond this.
+/// Then one pair of points serves for so many of NearFieldOptions::samples, and for more beyond
+/// kOnePoint.
+constexpr int kPointPart = 8, kDistantPart = 16;
 constexpr float kOnePoint = 6.0f;
 
 /// Points of one receiver: for close pairs and for distant ones.
@@ -74,13 +76,16 @@ public:
     float pointwise(std::uint32_t i, std::uint32_t j) const
     {
         const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        const glm::vec2 s = sobol_pair(0, key), t = sobol_pair(0, hash_two(key, 1));
         const float size = std::max(world_[i].size, world_[j].size);
+        const bool is_distant = !is_near(world_[i].centre, size, world_[j].centre, size, kOnePoint);
         const int samples =
-            is_near(world_[i].centre, size, world_[j].centre, size, kOnePoint) ? 2 : 1;
+            std::max(options_.samples / (is_distant ? kDistantPart : kPointPart), 1);
         float sum = 0.0f;
         for (int k = 0; k < samples; ++k) {
-            const bool opposite = k > 0;
+            // Every second pair is opposite to the one before, about the lumels' middles.
+            const bool opposite = k % 2 == 1;
+            const glm::vec2 s = sobol_pair(std::uint32_t(k / 2), key);
+            const glm::vec2 t = sobol_pair(std::uint32_t(k / 2), hash_two(key, 1));
             const glm::vec2 one(1.0f);
             const LumelPoint x = options_.centre ? LumelPoint{world_[i].centre, world_[i].normal}
                                                  : world_.point_on(i, opposite ? one - s : s);

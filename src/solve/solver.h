@@ -69,6 +69,9 @@ inline constexpr MethodInfo kMethods[] = {
      "the default: any scene with diffuse surfaces and emissive lights"},
 };
 
+/// The near field that suits the options: finer where a smaller error is asked for.
+NearFieldOptions near_field_options(const SolverOptions& options);
+
 /// Throws Error{input} if options.method is not in the table. `near` may be empty for methods
 /// and schemes without a near field.
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,

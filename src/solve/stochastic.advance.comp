@@ -2,7 +2,7 @@
 #include "solve/stochastic.shared.h"
 
 // The next source from the averaged solution ([SKB03] Eq. (2): T* acts on the running average),
-// and, at the end of a phase, this phase's far light folded into that of earlier ones.
+// and, at the end of a phase, this phase's far light (for unit power) folded into that of earlier ones.
 
 layout(local_size_x = kReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };
@@ -24,7 +24,7 @@ void main()
     if (p.end_phase != 0u)
         for (uint h = 0u; h < 2u; ++h) {
             const uint at = h * p.count + i;
-            earlier[at] = far_indirect(p.averages, h, indirect[at], earlier[at]);
+            earlier[at] = far_pattern(p.averages, h, indirect[at], earlier[at]);
             indirect[at] = vec3(0.0);
         }
     source[i] = surface[i].rgb * irradiance[i] + (p.with_emission != 0u ? emission[i] : vec3(0.0));

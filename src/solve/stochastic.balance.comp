@@ -1,8 +1,7 @@
 #version 460
 #include "solve/stochastic.shared.h"
 
-// Sums of the energy balance (stochastic.glsl): Σ A ρ D and Σ A ρ T X of both half-solutions,
-// and Σ A X.
+// Sums of the energy balance, column by column as stochastic.glsl reads them.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
@@ -12,7 +11,8 @@ layout(binding = 2, scalar) readonly buffer Indirect { vec3 indirect[]; };
 layout(binding = 3, scalar) readonly buffer NearEmission { vec3 near_emission[]; };
 layout(binding = 4, scalar) readonly buffer NearSource { vec3 near_source[]; };
 layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 6, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(binding = 6, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N] U
+layout(binding = 7, scalar) writeonly buffer Parts { Terms parts[]; };
 
 #include "solve/sum.glsl"
 
@@ -25,7 +25,7 @@ void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     Terms terms;
-    for (int c = 0; c < 5; ++c)
+    for (uint c = 0u; c < kTermColumns; ++c)
         terms.column[c] = vec4(0.0);
     if (i < p.count) {
         const vec3 reflecting = surface[i].rgb * surface[i].w;
@@ -34,9 +34,11 @@ void main()
             const vec3 from_emission = mean(direct[at], p.averages.emission_shots[h]);
             const vec3 from_source = mean(indirect[at], p.averages.source_shots[h]);
             terms.column[h].rgb = reflecting * (from_emission + near_emission[i]);
-            terms.column[2u + h].rgb = reflecting * (from_source + near_source[i]);
+            terms.column[2u + h].rgb = reflecting * from_source;
+            terms.column[5u + h].rgb = reflecting * earlier[at];
         }
         terms.column[4].rgb = source[i] * surface[i].w;
+        terms.column[7].rgb = reflecting * near_source[i];
     }
     terms = add_over_group(terms);
     if (gl_LocalInvocationID.x == 0u)

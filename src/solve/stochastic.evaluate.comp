@@ -28,7 +28,7 @@ void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     Terms terms;
-    for (int c = 0; c < 5; ++c)
+    for (uint c = 0u; c < kTermColumns; ++c)
         terms.column[c] = vec4(0.0);
     if (i < p.count && surface[i].w > 0.0) {
         vec3 half_[2];

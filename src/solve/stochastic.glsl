@@ -6,33 +6,66 @@ vec3 mean(vec3 sum, float shots)
     return shots > 0.0 ? sum / shots : vec3(0.0);
 }
 
+// The columns of totals[0] (stochastic.balance.comp), h = 0, 1:
+const uint kDirectColumn = 0u;   // [2] Σ A ρ D
+const uint kPhaseColumn = 2u;    // [2] Σ A ρ T X, the mean of this phase's shots
+const uint kSourceColumn = 4u;   // Σ A X
+const uint kEarlierColumn = 5u;  // [2] Σ A ρ U
+const uint kNearColumn = 7u;     // Σ A ρ N, near light of X
+
 // How much brighter the true indirect light is than the one that was shot, for half-solution h.
-// All light together must balance: with X the source that was shot, T its far and near
-// transport, and D the direct light,
+// Write the reflected light as a pattern X / P of unit power times its power S. Its far light for
+// unit power is U, averaged over all phases, and N / P is its near light. Then S must balance:
 //
-//     s Σ A X  =  Σ A ρ (D + s T X)      ⟹      s = Σ A ρ D / (Σ A X - Σ A ρ T X),
+//                                                        Σ A ρ D
+//     S = Σ A ρ (D + S (U + N / P))      ⟹      S = ───────────────────────,      s = S / P,
+//                                                     1 - Σ A ρ (U + N / P)
 //
-// one unknown per colour channel. It carries the source's overall level to where the bounces
+// one unknown per colour channel. It carries the light's overall level to where the bounces
 // would settle, which averaging alone reaches only slowly when albedos are high.
 vec3 level(Averages averages, uint h)
 {
     const float kLeast = 0.05, kMost = 200.0;  // beyond these the sums hold only noise
+    const float kLeastLeft = 1e-3;             // of the power, absorbed or lost per bounce
     if (averages.balance == 0u)
         return vec3(1.0);
-    const vec3 direct = totals[0].column[h].rgb;
-    const vec3 shot = totals[0].column[4].rgb;
-    const vec3 left = shot - totals[0].column[2u + h].rgb;
-    vec3 s;
-    for (int c = 0; c < 3; ++c)
-        s[c] = left[c] > 1e-6 * shot[c] ? clamp(direct[c] / left[c], kLeast, kMost) : 1.0;
+    const float n = averages.source_shots[h], w = averages.earlier_weight[h];
+    vec3 s = vec3(1.0);
+    for (int c = 0; c < 3; ++c) {
+        const float power = totals[0].column[kSourceColumn][c];
+        if (power <= 0.0 || n + w <= 0.0)
+            continue;
+        const float returned = (n * totals[0].column[kPhaseColumn + h][c] / power +
+                                w * totals[0].column[kEarlierColumn + h][c]) / (n + w) +
+                               totals[0].column[kNearColumn][c] / power;
+        if (1.0 - returned > kLeastLeft)
+            s[c] = clamp(totals[0].column[kDirectColumn + h][c] / ((1.0 - returned) * power),
+                         kLeast, kMost);
+    }
     return s;
 }
 
-// Far indirect light of half-solution h: this phase's mean beside that of earlier phases.
-vec3 far_indirect(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
+// U: far light of half-solution h for unit source power, this phase's shots beside earlier ones.
+// Without balancing, the papers' plain mean.
+vec3 far_pattern(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
 {
     const float n = averages.source_shots[h], w = averages.earlier_weight[h];
     if (n + w <= 0.0)
         return vec3(0.0);
-    return (level(averages, h) * phase_sum + w * earlier) / (n + w);
+    if (averages.balance == 0u)
+        return phase_sum / n;
+    const vec3 power = totals[0].column[kSourceColumn].rgb;
+    vec3 pattern = w * earlier;
+    for (int c = 0; c < 3; ++c)
+        pattern[c] += power[c] > 0.0 ? phase_sum[c] / power[c] : 0.0;
+    return pattern / (n + w);
+}
+
+// Far indirect light of half-solution h.
+vec3 far_indirect(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
+{
+    const vec3 pattern = far_pattern(averages, h, phase_sum, earlier);
+    return averages.balance == 0u
+               ? pattern
+               : level(averages, h) * totals[0].column[kSourceColumn].rgb * pattern;
 }

@@ -61,12 +61,13 @@ private:
     Hemicubes hemicubes_;
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;
-    gpu::Array<glm::vec4> surface_;        ///< ρ, A; A = 0 for buried lumels
-    gpu::Array<glm::vec3> emission_;       ///< E
-    gpu::Array<glm::vec3> source_;         ///< X: what indirect shooters send
-    gpu::Array<glm::vec3> direct_;         ///< [2][N] sums over shots drawn from E
-    gpu::Array<glm::vec3> indirect_;       ///< [2][N] sums over shots drawn from X, this phase
-    gpu::Array<glm::vec3> earlier_;        ///< [2][N] far indirect light of earlier phases
+    gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
+    gpu::Array<glm::vec3> emission_;  ///< E
+    gpu::Array<glm::vec3> source_;    ///< X: what indirect shooters send
+    gpu::Array<glm::vec3> direct_;    ///< [2][N] sums over shots drawn from E
+    gpu::Array<glm::vec3> indirect_;  ///< [2][N] sums over shots drawn from X, this phase
+    gpu::Array<glm::vec3>
+        earlier_;  ///< [2][N] U: far light for unit source power, of earlier phases
     gpu::Array<glm::vec3> near_emission_;  ///< near light of E
     gpu::Array<glm::vec3> near_source_;    ///< near light of X
     gpu::Array<glm::vec3> far_, irradiance_, scratch_source_, scratch_near_;

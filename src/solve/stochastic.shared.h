@@ -80,9 +80,11 @@ struct AdvanceParams {
     uint with_emission;  ///< 1: the source is B = E + ρH (the papers), 0: ρH
 };
 
-/// Sums over all lumels, five columns of four.
+LUMEL_CONST uint kTermColumns = 8u;
+
+/// Sums over all lumels.
 struct Terms {
-    vec4 column[5];
+    vec4 column[kTermColumns];
 };
 
 LUMEL_SHARED_END

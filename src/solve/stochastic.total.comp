@@ -13,10 +13,10 @@ layout(binding = 1, scalar) writeonly buffer Totals { Terms totals[]; };
 void main()
 {
     Terms terms;
-    for (int c = 0; c < 5; ++c)
+    for (uint c = 0u; c < kTermColumns; ++c)
         terms.column[c] = vec4(0.0);
     for (uint part = gl_LocalInvocationID.x; part < p.parts; part += kSumGroup)
-        for (int c = 0; c < 5; ++c)
+        for (uint c = 0u; c < kTermColumns; ++c)
             terms.column[c] += parts[part].column[c];
     terms = add_over_group(terms);
     if (gl_LocalInvocationID.x == 0u)

@@ -9,7 +9,7 @@ Terms add_over_group(Terms mine)
     barrier();
     for (uint width = kSumGroup / 2u; width > 0u; width /= 2u) {
         if (me < width)
-            for (int c = 0; c < 5; ++c)
+            for (uint c = 0u; c < kTermColumns; ++c)
                 shared_terms[me].column[c] += shared_terms[me + width].column[c];
         barrier();
     }

@@ -29,9 +29,7 @@ inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels
 {
     NearField near;
     if (options.scheme == Scheme::phased)
-        near =
-            build_near_field(scene, rays, lumels,
-                             {.centre = options.rule == SampleRule::centre, .seed = options.seed});
+        near = build_near_field(scene, rays, lumels, near_field_options(options));
     const gpu::Device device;
     const World world(device, scene, lumels);
     const auto solver = make_solver(device, world, lumels, near, options);
