@@ -43,6 +43,21 @@ LumelError cornell_error(const Solved& solved)
                                 [](const Lumel&) { return true; });
 }
 
+/// Relative RMSE without the reference's own noise (0.9 % at 4096 samples): the product of the
+/// deviations from its two halves has the true squared error as its mean.
+double cornell_error_alone(const Solved& solved)
+{
+    double square = 0.0, sum = 0.0;
+    const Cornell& c = cornell();
+    for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
+        square += double(
+            glm::dot(solved.irradiance[i] - c.half[0][i], solved.irradiance[i] - c.half[1][i]));
+        sum += double(c.truth[i].r + c.truth[i].g + c.truth[i].b);
+    }
+    const double n = 3.0 * double(solved.irradiance.size());
+    return std::sqrt(std::max(square, 0.0) / n) / (sum / n);
+}
+
 bool everywhere(const Lumel&)
 {
     return true;
