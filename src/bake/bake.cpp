@@ -9,6 +9,7 @@
 #include "bake/prepare.h"
 #include "bake/stages.h"
 #include "core/log.h"
+#include "output/folder.h"
 #include "solve/solver.h"
 
 namespace lumel {
@@ -45,7 +46,11 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 {
     Stages stages(progress);
     stages.begin("reading");
-    const Prepared world(scene_path, options.atlas);
+    Scene scene = read_gltf(scene_path);
+    // What can fail before the long work should.
+    OutputFolder output(folder);
+    const gpu::Device device(options.device);
+    const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
 
     stages.begin("near field");
@@ -55,7 +60,6 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                                 near_field_options(options.solver));
 
     stages.begin("uploading");
-    const gpu::Device device(options.device);
     const World resident(device, world.scene, world.lumels);
     const std::unique_ptr<Solver> solver =
         make_solver(device, resident, world.lumels, near, options.solver);
@@ -78,7 +82,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                     .interrupted = !finished,
                     .near_pairs = near.column.size(),
                     .curve = std::move(curve)};
-    return write_bake(folder, options, world, device, *solver, irradiance, results, stages);
+    return write_bake(output, options, world, device, *solver, irradiance, results, stages);
 }
 
 BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
@@ -87,7 +91,9 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
 {
     Stages stages(progress);
     stages.begin("reading");
-    const Prepared world(scene_path, options.atlas);
+    Scene scene = read_gltf(scene_path);
+    OutputFolder output(folder);
+    const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
 
     stages.begin("path tracing");
@@ -99,7 +105,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
         });
 
     stages.begin("finishing");
-    return write_reference(folder, options, reference, world, irradiance, stopped, stages);
+    return write_reference(output, options, reference, world, irradiance, stopped, stages);
 }
 
 }  // namespace lumel

@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 /// Bytes of graphics memory a stochastic bake holds at its peak, but for the near field, whose
 /// size is known only once it is built: about this many pairs a lumel.
-constexpr double kNearPairsPerLumel = 8.0;
+constexpr double kNearPairsPerLumel = 60.0;
 
 std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
                               const SolverOptions& solver)
@@ -135,7 +135,7 @@ std::string describe(const std::string& scene_path, const BakeOptions& options, 
 {
     const Prepared world(scene_path, options.atlas);
     const ordered_json all = facts(world, options.solver);
-    return json ? all.dump(2) : text_of(all);
+    return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
 }
 
 }  // namespace lumel

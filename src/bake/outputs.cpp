@@ -1,6 +1,5 @@
 #include "bake/outputs.h"
 
-#include <fstream>
 #include <numbers>
 
 #include "bake/report.h"
@@ -8,18 +7,11 @@
 #include "output/folder.h"
 #include "output/gltf_write.h"
 #include "output/image_files.h"
+#include "output/write_bytes.h"
 #include "preview/preview.h"
 
 namespace lumel {
 namespace {
-
-void write_text(const std::string& path, const std::string& text)
-{
-    std::ofstream file(path, std::ios::binary);
-    file << text;
-    if (!file.flush())
-        throw Error(ErrorKind::output, path, "cannot be written");
-}
 
 /// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
 std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
@@ -48,12 +40,11 @@ void write_maps(const OutputFolder& folder, const Image& map, bool half, const P
 
 }  // namespace
 
-BakeSummary write_bake(const std::string& folder_path, const BakeOptions& options,
-                       const Prepared& world, const gpu::Device& device, const Solver& solver,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
+                       const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    OutputFolder folder(folder_path);
     const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
     const Image radiance =
         finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
@@ -78,11 +69,10 @@ BakeSummary write_bake(const std::string& folder_path, const BakeOptions& option
     return {results.shots, results.error, stages.seconds(), results.interrupted, report};
 }
 
-BakeSummary write_reference(const std::string& folder_path, const BakeOptions& options,
+BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const ReferenceOptions& reference, const Prepared& world,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
-    OutputFolder folder(folder_path);
     write_maps(folder, finish_map(world.scene, world.atlas, world.lumels, irradiance), options.half,
                world);
     stages.end();

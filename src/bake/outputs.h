@@ -8,6 +8,7 @@
 #include "bake/prepare.h"
 #include "bake/stages.h"
 #include "gpu/device.h"
+#include "output/folder.h"
 #include "output/report.h"
 
 namespace lumel {
@@ -23,13 +24,13 @@ struct Results {
 };
 
 /// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
-BakeSummary write_bake(const std::string& folder, const BakeOptions& options, const Prepared& world,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages);
 
 /// Writes all files of `lumel reference`.
-BakeSummary write_reference(const std::string& folder, const BakeOptions& options,
+BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const ReferenceOptions& reference, const Prepared& world,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages);
 
