@@ -21,5 +21,6 @@ void main()
     const vec3 arriving = textureLod(irradiance, lightmap, 0.0).rgb;
     const vec3 reflected = albedo * arriving / 3.14159265358979;
     const bool shows = gl_FrontFacing || p.double_sided != 0u;
-    radiance = vec4(shows ? reflected + p.emitted * texture(emissive, look.zw).rgb : vec3(0.0), 1.0);
+    const vec3 emitted = p.emitted * texture(emissive, look.zw).rgb;
+    radiance = vec4(shows ? reflected + emitted : vec3(0.0), 1.0);
 }

@@ -18,8 +18,8 @@ struct RayHit {
     std::uint32_t triangle = 0;   ///< index into Primitive::indices / 3
     glm::vec2 barycentric{0.0f};  ///< weights of the triangle's 2nd and 3rd vertex
     float distance = 0.0f;        ///< [m], direction must be unit length
-    glm::vec3 normal{0.0f};       ///< geometric, unit, world, outward by winding (flipped by mirroring)
-    bool front = true;            ///< the ray came from the side the normal points to
+    glm::vec3 normal{0.0f};  ///< geometric, unit, world, outward by winding (flipped by mirroring)
+    bool front = true;       ///< the ray came from the side the normal points to
 };
 
 /// All triangles of a scene in world space. Safe to query from many threads at once.

@@ -2,7 +2,8 @@
 #include "solve/stochastic.shared.h"
 
 // The next source from the averaged solution ([SKB03] Eq. (2): T* acts on the running average),
-// and, at the end of a phase, this phase's far light (for unit power) folded into that of earlier ones.
+// and, at the end of a phase, this phase's far light (for unit power) folded into that of
+// earlier ones.
 
 layout(local_size_x = kReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };

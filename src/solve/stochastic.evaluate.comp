@@ -6,7 +6,8 @@
 //
 //     H = mean over h of (D_h + far_h)  +  near light,
 //     terms: Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N,
-//            Σ A 𝓛(ρH);  Σ |H_0 - H_1|²/4 / (H² + dim²), the same relative to each lumel's own light.
+//            Σ A 𝓛(ρH);
+//            Σ |H_0 - H_1|²/4 / (H² + dim²), the same relative to each lumel's own light.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
