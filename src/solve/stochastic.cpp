@@ -79,7 +79,7 @@ constexpr std::uint64_t kFigureLag = 2;
 constexpr double kSharedError = 1.3;
 /// The stated error is that of the whole map, or this part of the mean error of lumels relative to
 /// their own light, if that is larger: a dark room beside a bright one counts too.
-constexpr double kLocalShare = 0.5;
+constexpr double kLocalShare = 0.6;
 /// Light below this part of the map's mean counts as that much when relative errors are taken.
 constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.

@@ -138,7 +138,7 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 TEST(TwoRooms, LightFindsTheDoorAndNothingElse)
 {
     const Prepared world(support::scene_path("two-rooms"), AtlasOptions{.size = 128});
-    const auto truth = path_traced(world, 2048);
+    const auto truth = path_traced(world, 4096);
     const Solved solved = support::solve_scene(world, {});
     const auto in_room = [&](const char* prefix) {
         return support::lumel_error(
