@@ -83,13 +83,21 @@ View choose_view(const Scene& scene, const RayScene& rays)
         return {camera.transform, camera.vertical_fov,
                 camera.aspect > 0.0f ? camera.aspect : kFreeAspect, camera.orthographic_height};
     }
-    std::vector<View> views = inside_views(rays.low(), rays.high());
-    const std::vector<View> outside = outside_views(rays.low(), rays.high());
-    views.insert(views.end(), outside.begin(), outside.end());
     const float diagonal = std::max(glm::length(rays.high() - rays.low()), 1e-6f);
-    return *std::max_element(views.begin(), views.end(), [&](const View& a, const View& b) {
+    const auto better = [&](const View& a, const View& b) {
         return judge(a, rays, diagonal) < judge(b, rays, diagonal);
-    });
+    };
+    const std::vector<View> inside = inside_views(rays.low(), rays.high());
+    const std::vector<View> outside = outside_views(rays.low(), rays.high());
+    const View& from_outside = *std::max_element(outside.begin(), outside.end(), better);
+    if (inside.empty())
+        return from_outside;
+    // A building's dark outer walls fill a view from outside, so an inside wins if there is one.
+    constexpr float kInsideWorth = 4.0f;
+    const View& from_inside = *std::max_element(inside.begin(), inside.end(), better);
+    return kInsideWorth * judge(from_inside, rays, diagonal) > judge(from_outside, rays, diagonal)
+               ? from_inside
+               : from_outside;
 }
 
 }  // namespace lumel
