@@ -44,18 +44,19 @@ std::vector<View> inside_views(const glm::vec3& low, const glm::vec3& high)
 {
     std::vector<View> views;
     const glm::vec3 centre = 0.5f * (low + high), extent = high - low;
-    for (const float height : {0.55f, 0.35f})
-        for (int i = 0; i < 8; ++i) {
-            const float angle = float(i) * 0.785398f + 0.3f;
-            const glm::vec3 out(std::cos(angle), 0.0f, std::sin(angle));
-            glm::vec3 eye =
-                centre + glm::vec3(0.44f * extent.x * out.x, 0.0f, 0.44f * extent.z * out.z);
-            eye.y = low.y + height * extent.y;
-            glm::vec3 target = centre - 0.2f * glm::vec3(extent.x * out.x, 0.0f, extent.z * out.z);
-            target.y = low.y + 0.42f * extent.y;
-            if (glm::length(eye - target) > 0.0f)
-                views.push_back({look_at(eye, target), kRoomFov, kFreeAspect});
-        }
+    // From the walls inwards: a building's middle may be what is open.
+    for (const float height : {0.55f, 0.35f, 0.2f})
+        for (const float reach : {0.44f, 0.3f, 0.15f})
+            for (int i = 0; i < 8; ++i) {
+                const float angle = float(i) * 0.785398f + 0.3f;
+                const glm::vec3 out(extent.x * std::cos(angle), 0.0f, extent.z * std::sin(angle));
+                glm::vec3 eye = centre + reach * out;
+                eye.y = low.y + height * extent.y;
+                glm::vec3 target = centre - 0.2f * out;
+                target.y = low.y + 0.76f * height * extent.y;
+                if (glm::length(eye - target) > 0.0f)
+                    views.push_back({look_at(eye, target), kRoomFov, kFreeAspect});
+            }
     return views;
 }
 
