@@ -24,7 +24,7 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
     if (limits.max_seconds > 0.0)
         fraction = std::max(fraction, seconds / limits.max_seconds);
     if (limits.target_error > 0.0 && state.error > 0.0) {
-        // The error falls about as shots^-0.65 (see docs/performance.md).
+        // For the bar only: how fast the error falls with shots, between random and ideal.
         constexpr double kSlope = 0.65;
         fraction = std::max(fraction, std::pow(limits.target_error / state.error, 1.0 / kSlope));
     }
