@@ -3,27 +3,28 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "atlas/atlas.h"
 
 namespace lumel {
 
-/// A point of a lumel and the normal there, instance frame.
+/// A point of a lumel and the normal there, in the frame of its pieces.
 struct LumelPoint {
     glm::vec3 position;
     glm::vec3 normal;
 };
 
-/// Maps (s, t) in the unit square to a point of the lumel, uniform by area.
-inline LumelPoint point_on(const Lumels& lumels, const Lumel& lumel, float s, float t)
+/// Maps (s, t) in the unit square to a point of the lumel that consists of `pieces`, uniform by
+/// area.
+inline LumelPoint point_on(std::span<const Piece> pieces, float s, float t)
 {
     // Choose the piece by its share of the area, and stretch s back to 0…1.
-    std::uint32_t index = lumel.first_piece;
+    std::size_t index = 0;
     float below = 0.0f;
-    while (index + 1 < lumel.first_piece + lumel.piece_count && s >= lumels.pieces[index].share)
-        below = lumels.pieces[index++].share;
-    const Piece& piece = lumels.pieces[index];
+    while (index + 1 < pieces.size() && s >= pieces[index].share)
+        below = pieces[index++].share;
+    const Piece& piece = pieces[index];
     const float width = piece.share - below;
     float u = width > 0.0f ? std::clamp((s - below) / width, 0.0f, 1.0f) : 0.5f;
     float v = t;
@@ -32,6 +33,12 @@ inline LumelPoint point_on(const Lumels& lumels, const Lumel& lumel, float s, fl
         v = 1.0f - v;
     }
     return {piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal};
+}
+
+/// The same in the lumel's instance frame.
+inline LumelPoint point_on(const Lumels& lumels, const Lumel& lumel, float s, float t)
+{
+    return point_on(std::span(lumels.pieces).subspan(lumel.first_piece, lumel.piece_count), s, t);
 }
 
 }  // namespace lumel

@@ -11,11 +11,11 @@ namespace lumel {
 
 namespace {
 
-constexpr std::uint32_t kFirstPoints = 8;   ///< all over a lumel, to see whether it is open
-constexpr std::uint32_t kCornerPieces = 4;  ///< pieces whose corners are looked at first
-constexpr float kInset = 0.02f;             ///< of corners, in parts of the piece or cell
-constexpr int kCells = 8;                   ///< along each side of a lumel that is partly hidden
-constexpr std::uint32_t kDirections = 16;   ///< per point
+constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to see whether it is open
+constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
+constexpr float kInset = 0.02f;            ///< of corners, in parts of the piece or cell
+constexpr int kCells = 8;                  ///< along each side of a lumel that is partly hidden
+constexpr std::uint32_t kDirections = 16;  ///< per point
 /// A lumel with less than this left open counts as buried: too little is seen of it to hold a value
 /// of its own, and its neighbours' light fills it better.
 constexpr float kLeastOpen = 0.1f;
@@ -74,39 +74,37 @@ bool is_hidden(const Look& look, std::size_t i, const LumelPoint& point)
     return true;
 }
 
-/// The same for a place on one of its pieces.
+/// The same for a place on one of its pieces, in the world.
 bool is_hidden(const Look& look, std::size_t i, const Piece& piece, const glm::vec2& uv)
 {
-    return is_hidden(
-        look, i,
-        look.world.to_world(
-            i, {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal}));
+    return is_hidden(look, i,
+                     {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal});
 }
 
 /// True if all of some first points of the lumel are open: points near the corners of its pieces,
 /// where a neighbour would begin to cover it, and points all over.
 bool looks_open(const Look& look, std::size_t i)
 {
-    const Lumel& lumel = look.lumels.lumels[i];
-    for (std::uint32_t k = 0; k < std::min(lumel.piece_count, kCornerPieces); ++k) {
-        const Piece& piece = look.lumels.pieces[lumel.first_piece + k];
+    const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
+    for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
         for (const glm::vec2& uv : {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
                                     glm::vec2(kInset, 1.0f - 2.0f * kInset),
                                     glm::vec2(piece.parallelogram ? 1.0f - kInset : 0.5f - kInset)})
             if (is_hidden(look, i, piece, uv))
                 return false;
-    }
     for (std::uint32_t k = 0; k < kFirstPoints; ++k)
         if (is_hidden(look, i, look.world.point_on(i, sobol_pair(k, 0))))
             return false;
     return true;
 }
 
-/// Appends the parts of a piece that are open: its cells in a side × side grid (in a triangle, the
-/// cells of both orientations) whose corners and centre are all open.
-void append_open_parts(const Look& look, std::size_t i, const Piece& piece, int side,
+/// Appends the parts of a piece that are open, in the lumel's frame: its cells in a side × side
+/// grid (in a triangle, the cells of both orientations) whose corners and centre are all open.
+void append_open_parts(const Look& look, std::size_t i, std::uint32_t index, int side,
                        std::vector<Piece>& parts)
 {
+    const Piece& piece = look.lumels.pieces[look.lumels.lumels[i].first_piece + index];
+    const Piece& in_world = look.world.pieces(look.world[i])[index];
     const float step = 1.0f / float(side);
     for (int row = 0; row < side; ++row)
         for (int column = 0; column < side; ++column) {
@@ -120,7 +118,7 @@ void append_open_parts(const Look& look, std::size_t i, const Piece& piece, int 
             for (const glm::vec2& uv :
                  {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
                   glm::vec2(kInset, 1.0f - 2.0f * kInset), glm::vec2(most), glm::vec2(0.5f * most)})
-                open = open && !is_hidden(look, i, piece, low + step * uv);
+                open = open && !is_hidden(look, i, in_world, low + step * uv);
             if (open)
                 parts.push_back({piece.origin + low.x * piece.edge_u + low.y * piece.edge_v,
                                  step * piece.edge_u, step * piece.edge_v, piece.normal, 0.0f,
@@ -149,9 +147,8 @@ OpenPart find_open_part(const Look& look, std::size_t i)
     const int side = std::max(2, int(float(kCells) / std::sqrt(float(lumel.piece_count))));
     float whole = 0.0f, open = 0.0f;
     for (std::uint32_t k = 0; k < lumel.piece_count; ++k) {
-        const Piece& piece = look.lumels.pieces[lumel.first_piece + k];
-        whole += local_area(piece);
-        append_open_parts(look, i, piece, side, part.pieces);
+        whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
+        append_open_parts(look, i, k, side, part.pieces);
     }
     for (Piece& piece : part.pieces)
         piece.share = open += local_area(piece);

@@ -197,9 +197,6 @@ private:
 void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lumels& lumels,
                      const NearPairs& pairs, std::vector<float>& factors)
 {
-    const auto row = [&](std::size_t i) {
-        return pairs.partner.begin() + std::ptrdiff_t(pairs.first[i]);
-    };
     const auto average = [&](std::uint32_t i, std::uint32_t j, float& ij, float& ji) {
         if (builder.is_pointwise(i, j)) {
             const float back = lumels.lumels[j].area;
@@ -220,12 +217,9 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
         ji = area_j > 0.0f ? exchange / area_j : 0.0f;
     };
     parallel_for(world.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::uint32_t i = std::uint32_t(first); i < last; ++i)
-            for (auto pair = std::lower_bound(row(i), row(i + 1), i); pair != row(i + 1); ++pair) {
-                const auto back = std::lower_bound(row(*pair), row(*pair + 1), i);
-                average(i, *pair, factors[std::size_t(pair - pairs.partner.begin())],
-                        factors[std::size_t(back - pairs.partner.begin())]);
-            }
+        for (std::size_t i = first; i < last; ++i)
+            for (std::size_t k = pairs.middle[i]; k < pairs.first[i + 1]; ++k)
+                average(std::uint32_t(i), pairs.partner[k], factors[k], factors[pairs.mirror[k]]);
     });
 }
 
@@ -241,18 +235,6 @@ void limit_rows(const NearPairs& pairs, std::vector<float>& factors)
             std::for_each(begin, end, [sum](float& factor) { factor /= sum; });
     }
 }
-
-}  // namespace
-
-bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j, float size_j,
-             float radius)
-{
-    const glm::vec3 way = centre_j - centre_i;
-    const float reach = radius * std::max(size_i, size_j);
-    return glm::dot(way, way) < reach * reach;
-}
-
-namespace {
 
 /// The largest radius of a few that keeps the table within its limit, judged by the neighbours of
 /// some of the lumels. Half of the neighbours, about, lie in the same plane and make no pair.

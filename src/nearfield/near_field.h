@@ -1,6 +1,7 @@
 #pragma once
 // Pairs of lumels too close for point sampling, solved exactly.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,8 +31,13 @@ struct NearField {
 
 /// The rule that the receiver kernel repeats: centres (world) closer than
 /// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
-bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j, float size_j,
-             float radius);
+inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
+                    float size_j, float radius)
+{
+    const glm::vec3 way = centre_j - centre_i;
+    const float reach = radius * std::max(size_i, size_j);
+    return glm::dot(way, way) < reach * reach;
+}
 
 /// Builds the table. Buried lumels have empty rows and appear in no column. No row adds up to more
 /// than 1; with the area rule A_i F_ij = A_j F_ji holds between flat lumels.

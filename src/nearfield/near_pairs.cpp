@@ -97,6 +97,50 @@ bool may_see(const WorldLumels& world, const WorldLumel& from, const WorldLumel&
     return false;
 }
 
+/// Moves every pair to the list of its lower index, and sorts the lists.
+void keep_at_lower(std::vector<std::vector<std::uint32_t>>& found)
+{
+    for (std::uint32_t i = 0; i < found.size(); ++i) {
+        const auto lower = std::partition(found[i].begin(), found[i].end(),
+                                          [i](std::uint32_t j) { return j > i; });
+        for (auto j = lower; j != found[i].end(); ++j)
+            found[*j].push_back(i);
+        found[i].erase(lower, found[i].end());
+    }
+    parallel_for(found.size(), 1024, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            std::sort(found[i].begin(), found[i].end());
+    });
+}
+
+/// Rows from lists that hold each pair once, at its lower index.
+NearPairs enter_both_sides(const std::vector<std::vector<std::uint32_t>>& found)
+{
+    NearPairs pairs;
+    pairs.first.assign(found.size() + 1, 0);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        pairs.first[i + 1] += found[i].size();
+        for (const std::uint32_t j : found[i])
+            ++pairs.first[j + 1];
+    }
+    for (std::size_t i = 0; i < found.size(); ++i)
+        pairs.first[i + 1] += pairs.first[i];
+
+    // Rows come in ascending order, so each row's lower partners do too.
+    pairs.partner.resize(pairs.first.back());
+    pairs.mirror.resize(pairs.first.back());
+    pairs.middle.assign(pairs.first.begin(), pairs.first.end() - 1);
+    for (std::uint32_t i = 0; i < found.size(); ++i)
+        for (std::size_t k = 0; k < found[i].size(); ++k) {
+            const std::uint32_t j = found[i][k];
+            const std::size_t here = pairs.middle[i] + k, there = pairs.middle[j]++;
+            pairs.partner[here] = j;
+            pairs.partner[there] = i;
+            pairs.mirror[here] = std::uint32_t(there);
+        }
+    return pairs;
+}
+
 }  // namespace
 
 NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float radius)
@@ -130,29 +174,8 @@ NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float 
         }
     });
 
-    // Enter each pair on both sides.
-    NearPairs pairs;
-    pairs.first.assign(world.size() + 1, 0);
-    for (std::size_t i = 0; i < world.size(); ++i)
-        for (const std::uint32_t j : found[i]) {
-            ++pairs.first[i + 1];
-            ++pairs.first[j + 1];
-        }
-    for (std::size_t i = 0; i < world.size(); ++i)
-        pairs.first[i + 1] += pairs.first[i];
-    pairs.partner.resize(pairs.first.back());
-    std::vector<std::size_t> next(pairs.first.begin(), pairs.first.end() - 1);
-    for (std::uint32_t i = 0; i < world.size(); ++i)
-        for (const std::uint32_t j : found[i]) {
-            pairs.partner[next[i]++] = j;
-            pairs.partner[next[j]++] = i;
-        }
-    parallel_for(world.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            std::sort(pairs.partner.begin() + std::ptrdiff_t(pairs.first[i]),
-                      pairs.partner.begin() + std::ptrdiff_t(pairs.first[i + 1]));
-    });
-    return pairs;
+    keep_at_lower(found);
+    return enter_both_sides(found);
 }
 
 }  // namespace lumel

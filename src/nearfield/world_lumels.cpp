@@ -30,13 +30,14 @@ glm::vec3 area_vector(const Facet& facet)
 }  // namespace
 
 WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels)
-    : source_(lumels),
-      lumels_(lumels.lumels.size()),
+    : lumels_(lumels.lumels.size()),
+      pieces_(lumels.pieces.size()),
       facets_(lumels.pieces.size())
 {
+    std::vector<Placement> placements;  // by instance
     for (const Instance& instance : scene.instances) {
         const glm::mat3 linear(instance.transform);
-        placements_.push_back({instance.transform, glm::transpose(glm::inverse(linear))});
+        placements.push_back({instance.transform, glm::transpose(glm::inverse(linear))});
     }
     for (int side = 1; side <= kMostSide; ++side)
         rules_.push_back(gauss_legendre(side));
@@ -44,32 +45,36 @@ WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels&
     const float extent = std::max({reach.x, reach.y, reach.z});
     parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            const Lumel& lumel = source_.lumels[i];
-            const Placement& placement = placements_[lumel.instance];
+            const Lumel& lumel = lumels.lumels[i];
+            const Placement& placement = placements[lumel.instance];
             WorldLumel& world = lumels_[i];
             world.centre = glm::vec3(placement.points * glm::vec4(lumel.position, 1.0f));
             world.normal = glm::normalize(placement.normals * lumel.normal);
             world.size = lumel.size;
             world.lift = std::max(kLift * lumel.size, kLiftOfExtent * extent);
-            place_facets(i, glm::determinant(glm::mat3(placement.points)) < 0.0f);
+            place_facets(i, lumel, &lumels.pieces[lumel.first_piece], placement);
         }
     });
 }
 
-void WorldLumels::place_facets(std::size_t i, bool mirrored)
+void WorldLumels::place_facets(std::size_t i, const Lumel& lumel, const Piece* local,
+                               const Placement& placement)
 {
-    const Lumel& lumel = source_.lumels[i];
-    const glm::mat4& to_world = placements_[lumel.instance].points;
+    const glm::mat3 linear(placement.points);
+    const bool mirrored = glm::determinant(linear) < 0.0f;
     WorldLumel& world = lumels_[i];
     world.first_facet = lumel.first_piece;
     world.facet_count = lumel.piece_count;
     float area = 0.0f, bump = 0.0f;
     for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
-        const Piece& piece = source_.pieces[lumel.first_piece + p];
+        Piece& piece = pieces_[lumel.first_piece + p] = local[p];
+        const glm::vec3 origin = piece.origin =
+            glm::vec3(placement.points * glm::vec4(local[p].origin, 1.0f));
+        const glm::vec3 u = piece.edge_u = linear * local[p].edge_u;
+        const glm::vec3 v = piece.edge_v = linear * local[p].edge_v;
+        piece.normal = glm::normalize(placement.normals * local[p].normal);
+
         Facet& facet = facets_[lumel.first_piece + p];
-        const glm::vec3 origin(to_world * glm::vec4(piece.origin, 1.0f));
-        const glm::vec3 u = glm::mat3(to_world) * piece.edge_u;
-        const glm::vec3 v = glm::mat3(to_world) * piece.edge_v;
         if (piece.parallelogram != 0)
             facet = {{origin, origin + u, origin + u + v, origin + v}, 4};
         else
@@ -86,33 +91,21 @@ void WorldLumels::place_facets(std::size_t i, bool mirrored)
     world.opacity = opacity < kOpaque ? opacity : 1.0f;
 }
 
-LumelPoint WorldLumels::to_world(std::size_t i, const LumelPoint& local) const
-{
-    const Placement& placement = placements_[source_.lumels[i].instance];
-    return {glm::vec3(placement.points * glm::vec4(local.position, 1.0f)),
-            glm::normalize(placement.normals * local.normal)};
-}
-
-LumelPoint WorldLumels::point_on(std::size_t i, const glm::vec2& st) const
-{
-    return to_world(i, lumel::point_on(source_, source_.lumels[i], st.x, st.y));
-}
-
 std::vector<WeightedPoint> WorldLumels::gauss_points(std::size_t i, int side) const
 {
-    const Lumel& lumel = source_.lumels[i];
-    const int pieces = int(lumel.piece_count), wanted = side * side;
+    const std::span<const Piece> pieces = this->pieces(lumels_[i]);
+    const int count = int(pieces.size()), wanted = side * side;
     std::vector<WeightedPoint> points;
-    if (pieces > wanted) {
+    if (count > wanted) {
         for (int k = 0; k < wanted; ++k)
             points.push_back({point_on(i, sobol_pair(std::uint32_t(k), 0)), 1.0f / float(wanted)});
         return points;
     }
-    const int per_side = std::max(1, int(std::lround(float(side) / std::sqrt(float(pieces)))));
+    const int per_side = std::max(1, int(std::lround(float(side) / std::sqrt(float(count)))));
     const std::vector<GaussPoint>& rule = rules_[std::size_t(per_side - 1)];
     float below = 0.0f;
-    for (int p = 0; p < pieces; ++p) {
-        const Piece& piece = source_.pieces[lumel.first_piece + std::uint32_t(p)];
+    points.reserve(std::size_t(count) * rule.size() * rule.size());
+    for (const Piece& piece : pieces) {
         for (const GaussPoint& s : rule)
             for (const GaussPoint& t : rule) {
                 // In a triangle, v runs to 1 - u only: the square's side shrinks with u.
@@ -120,7 +113,7 @@ std::vector<WeightedPoint> WorldLumels::gauss_points(std::size_t i, int side) co
                 const float density = piece.parallelogram != 0 ? 1.0f : 2.0f * height;
                 const glm::vec3 position =
                     piece.origin + s.position * piece.edge_u + height * t.position * piece.edge_v;
-                points.push_back({to_world(i, {position, piece.normal}),
+                points.push_back({{position, piece.normal},
                                   (piece.share - below) * density * s.weight * t.weight});
             }
         below = piece.share;

@@ -2,6 +2,7 @@
 // Lumels where they stand in the world, ready for geometry.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -30,7 +31,7 @@ struct WorldLumel {
     float lift = 0.0f;     ///< [m] how far above the surface rays start, to miss the surface
     float opacity = 1.0f;  ///< area / area of its facets: below 1 where it is cut out
     bool flat = false;     ///< all facets lie in the plane through `centre` along `normal`
-    std::uint32_t first_facet = 0;
+    std::uint32_t first_facet = 0;  ///< also of its pieces
     std::uint32_t facet_count = 0;
 };
 
@@ -49,11 +50,17 @@ public:
     const Facet* begin(const WorldLumel& lumel) const { return &facets_[lumel.first_facet]; }
     const Facet* end(const WorldLumel& lumel) const { return begin(lumel) + lumel.facet_count; }
 
-    /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
-    LumelPoint point_on(std::size_t i, const glm::vec2& st) const;
+    /// The pieces of a lumel, in the world.
+    std::span<const Piece> pieces(const WorldLumel& lumel) const
+    {
+        return std::span(pieces_).subspan(lumel.first_facet, lumel.facet_count);
+    }
 
-    /// A point of lumel i's instance frame in the world.
-    LumelPoint to_world(std::size_t i, const LumelPoint& local) const;
+    /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
+    LumelPoint point_on(std::size_t i, const glm::vec2& st) const
+    {
+        return lumel::point_on(pieces(lumels_[i]), st.x, st.y);
+    }
 
     /// Points for averages over lumel i, about side × side in all: Gauss points of each piece, or
     /// stratified points if it has more pieces than that. side ≤ kMostSide.
@@ -68,12 +75,12 @@ private:
         glm::mat3 normals;
     };
 
-    void place_facets(std::size_t i, bool mirrored);
+    void place_facets(std::size_t i, const Lumel& lumel, const Piece* local,
+                      const Placement& placement);
 
-    const Lumels& source_;
     std::vector<std::vector<GaussPoint>> rules_;  ///< of 1, 2, … points
-    std::vector<Placement> placements_;           ///< by instance
     std::vector<WorldLumel> lumels_;
+    std::vector<Piece> pieces_;
     std::vector<Facet> facets_;  ///< one for each piece, same index
 };
 

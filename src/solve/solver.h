@@ -65,7 +65,7 @@ struct MethodInfo {
 };
 
 inline constexpr MethodInfo kMethods[] = {
-    {"stochastic", "Stochastic radiosity by perspective ray bundles", "[SKB03], [BSS05]",
+    {"stochastic", "Stochastic radiosity by perspective ray bundles", "[BJ04], [BSS05]",
      "the default: any scene with diffuse surfaces and emissive lights"},
 };
 

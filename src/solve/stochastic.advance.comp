@@ -1,7 +1,7 @@
 #version 460
 #include "solve/stochastic.shared.h"
 
-// The next source from the averaged solution ([SKB03] Eq. (2): T* acts on the running average),
+// The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average),
 // and, at the end of a phase, this phase's far light (for unit power) folded into that of
 // earlier ones.
 

@@ -14,12 +14,8 @@ layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };
 layout(binding = 6, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N] U
 layout(binding = 7, scalar) writeonly buffer Parts { Terms parts[]; };
 
+#include "solve/stochastic.balance.glsl"
 #include "solve/sum.glsl"
-
-vec3 mean(vec3 sum, float shots)
-{
-    return shots > 0.0 ? sum / shots : vec3(0.0);
-}
 
 void main()
 {
@@ -33,12 +29,12 @@ void main()
             const uint at = h * p.count + i;
             const vec3 from_emission = mean(direct[at], p.averages.emission_shots[h]);
             const vec3 from_source = mean(indirect[at], p.averages.source_shots[h]);
-            terms.column[h].rgb = reflecting * (from_emission + near_emission[i]);
-            terms.column[2u + h].rgb = reflecting * from_source;
-            terms.column[5u + h].rgb = reflecting * earlier[at];
+            terms.column[kDirectColumn + h].rgb = reflecting * (from_emission + near_emission[i]);
+            terms.column[kPhaseColumn + h].rgb = reflecting * from_source;
+            terms.column[kEarlierColumn + h].rgb = reflecting * earlier[at];
         }
-        terms.column[4].rgb = source[i] * surface[i].w;
-        terms.column[7].rgb = reflecting * near_source[i];
+        terms.column[kSourceColumn].rgb = source[i] * surface[i].w;
+        terms.column[kNearColumn].rgb = reflecting * near_source[i];
     }
     terms = add_over_group(terms);
     if (gl_LocalInvocationID.x == 0u)

@@ -1,8 +1,6 @@
 // Stochastic radiosity by perspective ray bundles.
 //
-//   [SKB03] L. Szirmay-Kalos, G. Antal, B. Benedek. Global illumination animation with random
-//           radiance representation. Rendering Symposium 2003; on graphics hardware as
-//           "Stochastic radiosity on the GPU".
+//   [BJ04]  A. Barsi, G. Jakab. Stream Processing in Global Illumination. CESCG 2004.
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on
 //           the GPU. 2005.
 //
@@ -13,8 +11,8 @@
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(X_j) A_j          select
 //         see the world from y_k                                         look_from
 //         for all lumels i:                                              receive
-//             H_i += X_j A_j / (π p_j) V cosθ_i cosθ_j / r²     [SKB03] Eq. (3), [BSS05] Eq. (4)
-//         now and then:  X ← from the running average           [SKB03] Eq. (2)   advance
+//             H_i += X_j A_j / (π p_j) V cosθ_i cosθ_j / r²     [BJ04] Eq. (3), [BSS05] Eq. (4)
+//         now and then:  X ← from the running average           [BJ04] Eq. (2)   advance
 //
 // Cost of a step: K hemicubes of the occluders, and N × K point pairs.
 //

@@ -1,17 +1,7 @@
 // Running averages and the energy balance, shared by the kernels that read them. The includer
 // declares `Terms totals[]`.
 
-vec3 mean(vec3 sum, float shots)
-{
-    return shots > 0.0 ? sum / shots : vec3(0.0);
-}
-
-// The columns of totals[0] (stochastic.balance.comp), h = 0, 1:
-const uint kDirectColumn = 0u;   // [2] Σ A ρ D
-const uint kPhaseColumn = 2u;    // [2] Σ A ρ T X, the mean of this phase's shots
-const uint kSourceColumn = 4u;   // Σ A X
-const uint kEarlierColumn = 5u;  // [2] Σ A ρ U
-const uint kNearColumn = 7u;     // Σ A ρ N, near light of X
+#include "solve/stochastic.balance.glsl"
 
 // How much brighter the true indirect light is than the one that was shot, for half-solution h.
 // Write the reflected light as a pattern X / P of unit power times its power S. Its far light for

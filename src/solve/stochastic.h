@@ -1,5 +1,5 @@
 #pragma once
-// Stochastic radiosity by perspective ray bundles [SKB03], [BSS05]. See stochastic.cpp.
+// Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
 
 #include <array>
 

@@ -6,7 +6,7 @@
 #include "solve/low_discrepancy.glsl"
 #include "solve/power_pyramid.glsl"
 
-// Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [SKB03] section 3.1), the
+// Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
 // point y uniform on lumel j, the hemicube turned at random about the normal.
 
 layout(local_size_x = kSelectGroup) in;

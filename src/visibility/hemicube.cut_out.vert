@@ -12,11 +12,6 @@ layout(location = 0) out vec3 look;
 
 void main()
 {
-    const Eye eye = eyes[p.eye];
-    const Face face = hemicube_face(eye, p.face);
-    const vec3 d = position - eye.position;
-    const float w = dot(d, face.axis);
-    const float up = dot(d, face.up);
-    gl_Position = vec4(dot(d, face.right), p.face == 0u ? up : 2.0 * up - w, p.near, w);
+    gl_Position = through_face(eyes[p.eye], p.face, p.near, position);
     look = look_in;
 }

@@ -18,3 +18,14 @@ Face hemicube_face(Eye eye, uint face)
     default: return Face(eye.tangent, eye.normal, -eye.bitangent);
     }
 }
+
+// A point as the eye sees it through one face: 90° frustum, reversed z, far at infinity. A side
+// face shows only 0 ≤ up / w ≤ 1.
+vec4 through_face(Eye eye, uint index, float near, vec3 position)
+{
+    const Face face = hemicube_face(eye, index);
+    const vec3 d = position - eye.position;
+    const float w = dot(d, face.axis);
+    const float up = dot(d, face.up);
+    return vec4(dot(d, face.right), index == 0u ? up : 2.0 * up - w, near, w);
+}

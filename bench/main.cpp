@@ -1,0 +1,60 @@
+// lumel-bench: what the methods cost.
+
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "bench/modes.h"
+
+int main(int argc, char** argv)
+{
+    using namespace lumel;
+    using namespace lumel::bench;
+    Settings settings;
+    std::string scheme = "phased", sampling = "area";
+    CLI::App app("Error against time for each method, on the same atlas");
+    app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
+    app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
+    app.add_option("--lamp", settings.lamp, "adds a quad that shines down, for unlit scenes")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
+    app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
+        ->delimiter(',');
+    app.add_option("--reference", settings.reference, "EXR to compare with, made for this atlas");
+    app.add_option("--reference-spp", settings.reference_spp,
+                   "samples of the reference made here; 0: none")
+        ->capture_default_str();
+    app.add_option("--save-reference", settings.save_reference, "EXR to keep that reference in");
+    app.add_option("--shots", settings.shots, "stops at which a solver is judged")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
+        ->delimiter(',')
+        ->capture_default_str();
+    app.add_option("--scheme", scheme, "phased or paper")
+        ->check(CLI::IsMember({"phased", "paper"}));
+    app.add_option("--sampling", sampling, "area or centre")
+        ->check(CLI::IsMember({"area", "centre"}));
+    app.add_option("--batch", settings.solver.batch, "shooters per iteration")
+        ->capture_default_str();
+    app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
+        ->capture_default_str();
+    app.add_option("--near", settings.near_radius, "near field radius [lumel sizes]")
+        ->capture_default_str();
+    app.add_option("--seed", settings.solver.seed, "")->capture_default_str();
+    app.add_option("--device", settings.device, "as lumel devices lists");
+    app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();
+    CLI11_PARSE(app, argc, argv);
+    settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
+    settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
+    try {
+        settings.growth.empty() ? race(settings) : grow(settings);
+        return 0;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "lumel-bench: {}\n", error.what());
+        return 2;
+    }
+}

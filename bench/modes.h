@@ -1,0 +1,14 @@
+#pragma once
+// What the benchmark can do. All throw Error and print to stdout.
+
+#include "bench/settings.h"
+
+namespace lumel::bench {
+
+/// The scoreboard: the solver and the path tracer on one atlas, error against time.
+void race(const Settings& settings);
+
+/// Time per shooter and lumel for atlases of growing sides.
+void grow(const Settings& settings);
+
+}  // namespace lumel::bench

@@ -1,0 +1,39 @@
+#pragma once
+// What a run of the benchmark is asked for, and the scene it makes of it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/prepare.h"
+#include "solve/solver.h"
+
+namespace lumel::bench {
+
+/// A horizontal quad that shines down, for scenes without lights of their own.
+struct Lamp {
+    glm::vec3 centre;  ///< [m]
+    glm::vec2 size;    ///< along x and z [m]
+    float exitance;    ///< [lm/m²]
+};
+
+struct Settings {
+    std::string scene = "scenes/cornell-box.gltf";
+    int size = 128;           ///< side of the atlas [texels]
+    std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none
+    std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
+    int reference_spp = 4096;    ///< 0: none, nothing is compared
+    std::string save_reference;  ///< EXR to keep the reference in
+    std::vector<std::uint64_t> shots{256, 512, 1024, 2048, 4096, 8192};
+    std::vector<int> spp{16, 64, 256};
+    std::vector<int> growth;  ///< atlas sides to time instead of racing
+    SolverOptions solver;
+    std::string device;
+    float near_radius = NearFieldOptions{}.radius;
+    double target = 0.02;  ///< relative RMSE that the methods race to
+};
+
+/// The scene with its lamp, laid out in an atlas of side `size`. Throws Error.
+Prepared prepare(const Settings& settings, int size);
+
+}  // namespace lumel::bench
