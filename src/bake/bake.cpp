@@ -50,6 +50,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);
+
+    stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
 
@@ -93,6 +95,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     stages.begin("reading");
     Scene scene = read_gltf(scene_path);
     OutputFolder output(folder);
+    stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
 

@@ -21,14 +21,14 @@ struct BakeOptions {
 
 /// State of a running bake, for a progress display.
 struct BakeProgress {
-    std::string stage;        ///< "reading", "charts", "near field", "solving", "finishing"
+    std::string stage;        ///< "reading", "charts", "near field", "uploading", "solving", …
     double fraction = 0.0;    ///< of the whole stage, 0…1
     std::uint64_t shots = 0;  ///< shooters so far
     double error = -1.0;      ///< estimated relative error, < 0: not known yet
     double seconds = 0.0;     ///< since the stage began
 };
 
-/// Called a few times a second from the baking thread; false ends the solve early (the best
+/// Called from the baking thread at the start of each stage and often while solving; false ends the solve early (the best
 /// solution so far is still written).
 using ProgressFunction = std::function<bool(const BakeProgress&)>;
 

@@ -1,5 +1,6 @@
 #include "bake/prepare.h"
 
+#include "core/error.h"
 #include "nearfield/buried.h"
 
 namespace lumel {
@@ -10,6 +11,10 @@ Prepared::Prepared(Scene given, const AtlasOptions& options)
       atlas(make_atlas(scene, options)),
       lumels(lift(scene, atlas))
 {
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path,
+                    "has no surface that light could fall on: nothing is drawn, or all of it is "
+                    "cut out");
     mark_buried(scene, rays, lumels);
 }
 

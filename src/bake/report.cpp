@@ -77,7 +77,7 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
         report.gpu_milliseconds.emplace_back(stage, std::vector<double>{ms});
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
-    report.peak_gpu_bytes = std::int64_t(device.allocated_bytes());
+    report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
     report.files = {"lightmap.exr", "lightmap.png", "scene.glb", "scene-baked.glb", "report.json"};
     if (options.preview_width > 0)
         report.files.emplace_back("preview.png");

@@ -10,7 +10,7 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
     : device_(&device),
       bytes_(bytes)
 {
-    if (bytes > device.max_array_bytes())
+    if (place == Place::device && bytes > device.max_array_bytes())
         throw Error(ErrorKind::device, device.info().name,
                     "an array of " + std::to_string(bytes >> 20) + " MiB is larger than the " +
                         std::to_string(device.max_array_bytes() >> 20) +
@@ -24,7 +24,12 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
-    memory_ = device.allocate(requirements, place == Place::host, &mapped_);
+    try {
+        memory_ = device.allocate(requirements, place == Place::host, &mapped_);
+    } catch (...) {
+        vkDestroyBuffer(device.handle(), buffer_, nullptr);
+        throw;
+    }
     allocated_ = requirements.size;
     check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory");
 }

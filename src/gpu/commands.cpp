@@ -77,6 +77,11 @@ void Commands::begin()
     barrier();
 }
 
+bool Commands::has_room_for_stages() const
+{
+    return stages_.size() + 2 < kMaxTimestamps;
+}
+
 void Commands::stage(const char* name)
 {
     begin();
@@ -149,6 +154,10 @@ void Commands::dispatch_bytes(const Kernel& kernel, std::span<const Binding> bin
     bind(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, bindings);
     push_params(kernel.layout(), params, bytes);
     const std::size_t groups = (threads + kernel.group_size() - 1) / kernel.group_size();
+    if (groups > device_->max_groups())
+        throw Error(ErrorKind::device, device_->info().name,
+                    "cannot work on " + std::to_string(threads) +
+                        " elements at once; use a smaller --size or a simpler scene");
     vkCmdDispatch(buffer_, std::uint32_t(groups), 1, 1);
     barrier();
 }
@@ -309,10 +318,9 @@ void Commands::wait()
                                 stamps.size() * sizeof(std::uint64_t), stamps.data(),
                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT),
           "vkGetQueryPoolResults");
-    const double to_ms = device_->timestamp_period() * 1e-6;
     for (std::size_t i = 0; i < stages_.size(); ++i)
-        times_[stages_[i]] += double(stamps[i + 1] - stamps[i]) * to_ms;
-    last_milliseconds_ = double(stamps.back() - stamps.front()) * to_ms;
+        times_[stages_[i]] += device_->milliseconds(stamps[i], stamps[i + 1]);
+    last_milliseconds_ = device_->milliseconds(stamps.front(), stamps.back());
 }
 
 void Commands::run()

@@ -60,6 +60,8 @@ public:
 
     /// Gives the work recorded from here on a name in the timings.
     void stage(const char* name);
+    /// False if the next stage's time would be counted to the last one's.
+    bool has_room_for_stages() const;
 
     /// Runs the kernel over at least `threads` invocations (rounded up to whole groups).
     template <class Params>

@@ -129,6 +129,14 @@ int find_queue_family(VkPhysicalDevice physical)
     return -1;
 }
 
+std::uint32_t timestamp_bits(VkPhysicalDevice physical, std::uint32_t family)
+{
+    std::uint32_t count = family + 1;
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    return families[family].timestampValidBits;
+}
+
 /// The features Lumel needs, chained for a query or for device creation.
 struct Features {
     VkPhysicalDeviceVulkan13Features v13{.sType =
@@ -154,6 +162,7 @@ std::string missing_features(VkPhysicalDevice physical, std::uint32_t api_versio
     need(have.v13.synchronization2, "synchronization2");
     need(have.v13.maintenance4, "maintenance4");
     need(have.v12.scalarBlockLayout, "scalarBlockLayout");
+    need(have.core.features.fullDrawIndexUint32, "fullDrawIndexUint32");
     need(has_extension(physical, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME), "VK_KHR_push_descriptor");
     need(find_queue_family(physical) >= 0, "a queue for graphics and compute with timestamps");
     return missing;
@@ -210,7 +219,7 @@ std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick
     }
     std::size_t index = infos.size();
     const auto [end, error] = std::from_chars(pick.data(), pick.data() + pick.size(), index);
-    if (error != std::errc{} || end != pick.data() + pick.size()) {
+    if (error != std::errc{} || end != pick.data() + pick.size() || index >= infos.size()) {
         index = infos.size();
         for (std::size_t i = infos.size(); i-- > 0;)
             if (infos[i].name.find(pick) != std::string::npos)
@@ -284,6 +293,7 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;
     features.v12.scalarBlockLayout = VK_TRUE;
+    features.core.features.fullDrawIndexUint32 = VK_TRUE;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = queue_family_,
@@ -305,7 +315,9 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     max_array_bytes_ = properties.limits.maxStorageBufferRange;
     max_image_side_ = properties.limits.maxImageDimension2D;
+    max_groups_ = properties.limits.maxComputeWorkGroupCount[0];
     timestamp_period_ = double(properties.limits.timestampPeriod);
+    timestamp_mask_ = ~std::uint64_t(0) >> (64 - timestamp_bits(physical_, queue_family_));
 }
 
 Device::~Device()
@@ -334,6 +346,7 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool h
         host_visible ? host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT
                      : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
         host_visible ? host : 0u};
+    bool full = false;
     for (const VkMemoryPropertyFlags wish : wishes)
         for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
             if (!(requirements.memoryTypeBits >> type & 1u) ||
@@ -343,13 +356,21 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool h
                                             .allocationSize = requirements.size,
                                             .memoryTypeIndex = type};
             VkDeviceMemory memory = VK_NULL_HANDLE;
-            check(vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
+            const VkResult result = vkAllocateMemory(device_, &info, nullptr, &memory);
+            if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+                full = true;
+                continue;
+            }
+            check(result, "vkAllocateMemory");
             if (host_visible)
                 check(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, mapped), "vkMapMemory");
             allocated_bytes_ += requirements.size;
+            peak_bytes_ = std::max(peak_bytes_, allocated_bytes_);
             return memory;
         }
-    throw Error(ErrorKind::device, info_.name, "has no memory of the kind needed");
+    throw Error(ErrorKind::device, info_.name,
+                full ? "is out of memory; use a smaller --size"
+                     : "has no memory of the kind needed");
 }
 
 void Device::free(VkDeviceMemory memory, std::uint64_t bytes) const

@@ -44,11 +44,16 @@ public:
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
     std::uint32_t max_image_side() const { return max_image_side_; }
-    double timestamp_period() const { return timestamp_period_; }       ///< [ns]
-    std::uint64_t allocated_bytes() const { return allocated_bytes_; }  ///< held now
+    std::uint32_t max_groups() const { return max_groups_; }  ///< of one dispatch
+    std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
+
+    /// Time between two timestamps, which may wrap round [ms].
+    double milliseconds(std::uint64_t from, std::uint64_t to) const
+    {
+        return double((to - from) & timestamp_mask_) * timestamp_period_ * 1e-6;
+    }
 
     VkDevice handle() const { return device_; }
-    VkPhysicalDevice physical() const { return physical_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
 
@@ -69,9 +74,10 @@ private:
     DeviceInfo info_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::uint64_t max_array_bytes_ = 0;
-    std::uint32_t max_image_side_ = 0;
-    double timestamp_period_ = 1.0;
-    mutable std::uint64_t allocated_bytes_ = 0;
+    std::uint32_t max_image_side_ = 0, max_groups_ = 0;
+    double timestamp_period_ = 1.0;  ///< [ns]
+    std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
+    mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;
 };
 
 }  // namespace lumel::gpu

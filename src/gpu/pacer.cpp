@@ -25,6 +25,8 @@ void Pacer::work(const char* kind, std::uint32_t count, std::uint32_t probe, con
 {
     const double room = budget_ms_ * kHeadroom;
     std::uint32_t done = 0;
+    if (recording_ && !current().commands->has_room_for_stages())
+        flush();
     while (done < count) {
         const auto known = unit_cost_.find(kind);
         std::uint32_t units = std::min(probe, count);

@@ -63,7 +63,12 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
     check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
-    memory_ = device.allocate(requirements, false, nullptr);
+    try {
+        memory_ = device.allocate(requirements, false, nullptr);
+    } catch (...) {
+        vkDestroyImage(device.handle(), image_, nullptr);
+        throw;
+    }
     allocated_ = requirements.size;
     check(vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
     const VkImageViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,

@@ -13,9 +13,12 @@ namespace {
 
 constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to see whether it is open
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
-constexpr float kInset = 0.02f;            ///< of corners, in parts of the piece or cell
-constexpr int kCells = 8;                  ///< along each side of a lumel that is partly hidden
+constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
+constexpr int kStrips = 8;       ///< that a partly hidden lumel is cut into
+constexpr int kBisections = 6;   ///< to find where a strip is cut
 constexpr std::uint32_t kDirections = 16;  ///< per point
+/// Rays do not leave nearer to the surface than this cosine: what opens only below it is a crack.
+constexpr float kLeastCosine = 0.17f;
 /// A lumel with less than this left open counts as buried: too little is seen of it to hold a value
 /// of its own, and its neighbours' light fills it better.
 constexpr float kLeastOpen = 0.1f;
@@ -66,7 +69,8 @@ struct Look {
 bool is_hidden(const Look& look, std::size_t i, const LumelPoint& point)
 {
     for (std::uint32_t d = 0; d < kDirections; ++d) {
-        const glm::vec2 st = sobol_pair(d, hash_two(std::uint32_t(i), 1));
+        glm::vec2 st = sobol_pair(d, hash_two(std::uint32_t(i), 1));
+        st.x *= 1.0f - kLeastCosine * kLeastCosine;  // the squared sine
         if (!is_shut_in(look.scene, look.rays, look.world[i], point,
                         direction_about(point.normal, st)))
             return false;
@@ -98,33 +102,120 @@ bool looks_open(const Look& look, std::size_t i)
     return true;
 }
 
-/// Appends the parts of a piece that are open, in the lumel's frame: its cells in a side × side
-/// grid (in a triangle, the cells of both orientations) whose corners and centre are all open.
-void append_open_parts(const Look& look, std::size_t i, std::uint32_t index, int side,
-                       std::vector<Piece>& parts)
-{
-    const Piece& piece = look.lumels.pieces[look.lumels.lumels[i].first_piece + index];
-    const Piece& in_world = look.world.pieces(look.world[i])[index];
-    const float step = 1.0f / float(side);
-    for (int row = 0; row < side; ++row)
-        for (int column = 0; column < side; ++column) {
-            if (piece.parallelogram == 0 && row + column >= side)
-                continue;
-            // On the diagonal of a triangle only half a cell is left.
-            const bool whole = piece.parallelogram == 1 || row + column + 2 <= side;
-            const glm::vec2 low = step * glm::vec2(float(column), float(row));
-            const float most = whole ? 1.0f - kInset : 0.5f - kInset;
-            bool open = true;
-            for (const glm::vec2& uv :
-                 {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
-                  glm::vec2(kInset, 1.0f - 2.0f * kInset), glm::vec2(most), glm::vec2(0.5f * most)})
-                open = open && !is_hidden(look, i, in_world, low + step * uv);
-            if (open)
-                parts.push_back({piece.origin + low.x * piece.edge_u + low.y * piece.edge_v,
-                                 step * piece.edge_u, step * piece.edge_v, piece.normal, 0.0f,
-                                 whole ? 1u : 0u});
+/// A piece that is cut to its open part in strips. `swapped`: strips lie along v instead of u.
+class Strips {
+public:
+    Strips(const Look& look, std::size_t i, std::uint32_t index, int count)
+        : look_(look),
+          lumel_(i),
+          piece_(look.lumels.pieces[look.lumels.lumels[i].first_piece + index]),
+          in_world_(look.world.pieces(look.world[i])[index]),
+          count_(count),
+          swapped_(changes(true) > changes(false))
+    {
+    }
+
+    /// Appends the open part of each strip, in the lumel's frame.
+    void append_open_parts(std::vector<Piece>& parts) const
+    {
+        const float step = 1.0f / float(count_);
+        for (int strip = 0; strip < count_; ++strip) {
+            const float low = step * float(strip), middle = low + 0.5f * step;
+            for (const auto& [begin, end] : open_runs(middle))
+                append_run(low, step, begin, end, parts);
         }
-}
+    }
+
+private:
+    bool is_open(float along, float across, bool swapped) const
+    {
+        return !is_hidden(look_, lumel_, in_world_,
+                          swapped ? glm::vec2(across, along) : glm::vec2(along, across));
+    }
+
+    /// Length of the piece along its strips, at a place across them.
+    float length_at(float across) const { return piece_.parallelogram ? 1.0f : 1.0f - across; }
+
+    /// How often it changes between open and hidden along lines of one direction: strips should
+    /// run where it changes most.
+    int changes(bool swapped) const
+    {
+        int changes = 0;
+        for (int line = 0; line < count_; ++line) {
+            const float across = (float(line) + 0.5f) / float(count_);
+            bool before = false;
+            for (int k = 0; k < count_; ++k) {
+                const float along = length_at(across) * (float(k) + 0.5f) / float(count_);
+                const bool open = is_open(along, across, swapped);
+                changes += k > 0 && open != before;
+                before = open;
+            }
+        }
+        return changes;
+    }
+
+    /// Where a strip changes between an open and a hidden place, by bisection.
+    float edge_between(float open, float hidden, float across) const
+    {
+        for (int step = 0; step < kBisections; ++step) {
+            const float middle = 0.5f * (open + hidden);
+            (is_open(middle, across, swapped_) ? open : hidden) = middle;
+        }
+        return open;
+    }
+
+    /// Open stretches of the line through a strip's middle.
+    std::vector<std::pair<float, float>> open_runs(float across) const
+    {
+        const float length = length_at(across), step = length / float(count_);
+        std::vector<std::pair<float, float>> runs;
+        float before = kInset * step;
+        bool was_open = is_open(before, across, swapped_);
+        float begin = 0.0f;
+        for (int k = 0; k <= count_; ++k) {
+            const float at = k < count_ ? (float(k) + 0.5f) * step : length - kInset * step;
+            const bool open = is_open(at, across, swapped_);
+            if (open && !was_open)
+                begin = edge_between(at, before, across);
+            else if (!open && was_open)
+                runs.emplace_back(begin, edge_between(before, at, across));
+            was_open = open;
+            before = at;
+        }
+        if (was_open)
+            runs.emplace_back(begin, length);
+        return runs;
+    }
+
+    /// One stretch of a strip; at the long side of a triangle the strip ends in a triangle.
+    void append_run(float low, float step, float begin, float end, std::vector<Piece>& parts) const
+    {
+        const float straight = piece_.parallelogram ? 1.0f : std::max(1.0f - low - step, 0.0f);
+        if (begin < std::min(end, straight))
+            parts.push_back(part(begin, low, std::min(end, straight) - begin, step, true));
+        if (end > straight)
+            parts.push_back(part(straight, low, step, step, false));
+    }
+
+    Piece part(float along, float across, float length, float width, bool parallelogram) const
+    {
+        const glm::vec2 origin = swapped_ ? glm::vec2(across, along) : glm::vec2(along, across);
+        const glm::vec2 size = swapped_ ? glm::vec2(width, length) : glm::vec2(length, width);
+        return {piece_.origin + origin.x * piece_.edge_u + origin.y * piece_.edge_v,
+                size.x * piece_.edge_u,
+                size.y * piece_.edge_v,
+                piece_.normal,
+                0.0f,
+                parallelogram ? 1u : 0u};
+    }
+
+    const Look& look_;
+    std::size_t lumel_;
+    const Piece& piece_;
+    const Piece& in_world_;
+    int count_;
+    bool swapped_;
+};
 
 float local_area(const Piece& piece)
 {
@@ -144,11 +235,11 @@ OpenPart find_open_part(const Look& look, std::size_t i)
 {
     const Lumel& lumel = look.lumels.lumels[i];
     OpenPart part{i, {}, 0.0f};
-    const int side = std::max(2, int(float(kCells) / std::sqrt(float(lumel.piece_count))));
+    const int side = std::max(2, int(float(kStrips) / std::sqrt(float(lumel.piece_count))));
     float whole = 0.0f, open = 0.0f;
     for (std::uint32_t k = 0; k < lumel.piece_count; ++k) {
         whole += local_area(look.lumels.pieces[lumel.first_piece + k]);
-        append_open_parts(look, i, k, side, part.pieces);
+        Strips(look, i, k, side).append_open_parts(part.pieces);
     }
     for (Piece& piece : part.pieces)
         piece.share = open += local_area(piece);

@@ -3,7 +3,7 @@
 // For receiver i and shooter j, with points x of i and y of j,
 //
 //     F_ij = mean over x of F(x → polygon of j) × o_j × Σ w V(x, y) / Σ w,
-//     w = cosθ_i cosθ_j / (|y - x|² + A_j / 4π)
+//     w = cosθ_i cosθ_j / (|y - x|² + s_j² / 4π),   s_j the size of j
 //
 // F(x → polygon) is Lambert's edge sum, averaged over Gauss points x: no noise. Only visibility V
 // is sampled, by one ray for each x to a stratified y, and its mean is weighted by how much light

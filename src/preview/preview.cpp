@@ -177,7 +177,9 @@ Image shrink(const std::vector<float>& pixels, int width, int height)
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
                      const Image& irradiance, const View& view, int width)
 {
-    const int height = std::max(1, int(std::lround(float(width) / view.aspect)));
+    const int most = int(device.max_image_side()) / kSupersample;
+    width = std::min({width, most, std::max(1, int(float(most) * view.aspect))});
+    const int height = std::clamp(int(std::lround(float(width) / view.aspect)), 1, most);
     const auto wide = std::uint32_t(width * kSupersample),
                high = std::uint32_t(height * kSupersample);
     const Vertices vertices = gather(scene, atlas);

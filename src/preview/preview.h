@@ -8,7 +8,8 @@
 
 namespace lumel {
 
-/// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide.
+/// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide
+/// (narrower where the device cannot draw that).
 /// The lightmap is sampled bilinearly, material textures with mipmaps. `irradiance`: the
 /// finished map [lx], RGBA. One pixel is the mean of 2 × 2.
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,

@@ -69,13 +69,6 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
         candidate->valid[0] = 0;
 }
 
-bool may_be_transparent(const Material& material, const Primitive& primitive)
-{
-    return material.alpha_mode != AlphaMode::opaque &&
-           (material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 ||
-            !primitive.colors.empty());
-}
-
 QueryContext query_context(std::uint32_t seed)
 {
     QueryContext context;

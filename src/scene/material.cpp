@@ -101,6 +101,13 @@ MaterialSample sample_material(const Scene& scene, int material, const glm::vec2
     return sample;
 }
 
+bool may_be_transparent(const Material& material, const Primitive& primitive)
+{
+    return material.alpha_mode != AlphaMode::opaque &&
+           (material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 ||
+            !primitive.colors.empty());
+}
+
 bool is_uniform(const Material& material)
 {
     return material.base_color_texture.texture < 0 && material.emissive_texture.texture < 0;

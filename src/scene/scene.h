@@ -110,6 +110,9 @@ struct MaterialSample {
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
                                const glm::vec4& vertex_color);
 
+/// True if some of the primitive's surface may let light through: it is cut out or blended.
+bool may_be_transparent(const Material& material, const Primitive& primitive);
+
 /// True where the material's look does not vary over a surface (no textures are read).
 bool is_uniform(const Material& material);
 

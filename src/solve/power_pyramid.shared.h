@@ -4,7 +4,7 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kPyramidFanout = 32u;  ///< children summed into one parent
-LUMEL_CONST uint kPyramidLevels = 6u;   ///< 32⁵ leaves at most below the root
+LUMEL_CONST uint kPyramidLevels = 7u;   ///< for 32⁶ leaves, more than 32 bits can count
 LUMEL_CONST uint kPyramidGroup = 64u;
 
 /// Where the levels of a pyramid begin in its array: level 0 are the leaves, one per lumel; the

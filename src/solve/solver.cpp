@@ -19,7 +19,7 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     else if (options.max_shots > 0)
         finer = double(options.max_shots) / 2048.0;
     NearFieldOptions near;
-    near.samples = std::clamp(int(kSamples * finer), kSamples, kMostSamples);
+    near.samples = int(std::clamp(kSamples * finer, double(kSamples), double(kMostSamples)));
     near.centre = options.rule == SampleRule::centre;
     near.seed = options.seed;
     return near;

@@ -70,7 +70,7 @@ constexpr std::uint32_t kRoughPhases = 3;
 constexpr float kRoughWeight = 0.25f;
 /// Convergence figures are asked for each time the iterations have grown by this factor, and
 /// taken this many iterations later: a fixed lag keeps the result independent of timing.
-constexpr double kFigureGrowth = 1.08;
+constexpr double kFigureGrowth = 1.12;
 constexpr std::uint64_t kFigureLag = 2;
 /// The halves share the source of each phase and the near field, so their spread misses a part of
 /// the error. Measured on the Cornell box over five seeds, the true error is this times the spread.
@@ -81,7 +81,7 @@ constexpr double kLocalShare = 0.6;
 /// Light below this part of the map's mean counts as that much when relative errors are taken.
 constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
-constexpr int kPolishSweeps = 2;
+constexpr int kPolishSweeps = 1;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
 
@@ -145,7 +145,6 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       world_(&world),
-      pacer_(device),
       kernels_(device),
       hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
       eyes_(device, kMostBatch),
@@ -170,7 +169,8 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       figures_(device, 1),
       figures_host_(device, 1, gpu::Buffer::Place::host),
       emission_power_pyramid_(device, count_),
-      source_power_pyramid_(device, count_)
+      source_power_pyramid_(device, count_),
+      pacer_(device)
 {
     batch_ = std::min(batch_, hemicubes_.capacity());
     for (const Lumel& lumel : lumels.lumels) {
@@ -368,9 +368,12 @@ void StochasticRadiosity::take_figures()
     pending_.waiting = false;
     const glm::vec4 sums = figures_host_.mapped()->column[0];
     const double count = 3.0 * double(sums.z);
+    if (!std::isfinite(sums.x) || !std::isfinite(sums.y))
+        throw Error(ErrorKind::input, "emission",
+                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
     if (!(sums.y > 0.0f) || count <= 0.0) {
-        // A scene without light is solved at once.
-        state_.error = emitted_power_ > 0.0 ? -1.0 : 0.0;
+        // A scene without light is solved at once, and one that catches none of it soon.
+        state_.error = emitted_power_ > 0.0 && phase_ <= 1 ? -1.0 : 0.0;
         return;
     }
     mean_irradiance_ = double(sums.y) / count;

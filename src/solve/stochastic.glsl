@@ -3,6 +3,12 @@
 
 #include "solve/stochastic.balance.glsl"
 
+// True if half-solution h has shots of indirect light.
+bool has_indirect(Averages averages, uint h)
+{
+    return averages.source_shots[h] + averages.earlier_weight[h] > 0.0;
+}
+
 // How much brighter the true indirect light is than the one that was shot, for half-solution h.
 // Write the reflected light as a pattern X / P of unit power times its power S. Its far light for
 // unit power is U, averaged over all phases, and N / P is its near light. Then S must balance:
@@ -23,7 +29,7 @@ vec3 level(Averages averages, uint h)
     vec3 s = vec3(1.0);
     for (int c = 0; c < 3; ++c) {
         const float power = totals[0].column[kSourceColumn][c];
-        if (power <= 0.0 || n + w <= 0.0)
+        if (power <= 0.0 || !has_indirect(averages, h))
             continue;
         const float returned = (n * totals[0].column[kPhaseColumn + h][c] / power +
                                 w * totals[0].column[kEarlierColumn + h][c]) / (n + w) +
@@ -40,7 +46,7 @@ vec3 level(Averages averages, uint h)
 vec3 far_pattern(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
 {
     const float n = averages.source_shots[h], w = averages.earlier_weight[h];
-    if (n + w <= 0.0)
+    if (!has_indirect(averages, h))
         return vec3(0.0);
     if (averages.balance == 0u)
         return phase_sum / n;

@@ -56,7 +56,6 @@ private:
     double emitted_power_ = 0.0;    ///< Σ A 𝓛(E) [lm]
 
     const World* world_;
-    gpu::Pacer pacer_;
     Kernels kernels_;
     Hemicubes hemicubes_;
     gpu::Array<Eye> eyes_;
@@ -75,6 +74,7 @@ private:
     gpu::Array<float> near_factor_;
     gpu::Array<Terms> parts_, totals_, figures_, figures_host_;
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
+    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
     double mean_irradiance_ = 0.0;  ///< as last heard [lx]

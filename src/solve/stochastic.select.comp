@@ -25,7 +25,7 @@ layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
 // A point of the unit cube for shooter k, independent of all others or from a sequence.
 vec3 draw_point(uint index, uint stream)
 {
-    const uint seed = hash(p.seed ^ stream);
+    const uint seed = hash(hash(p.seed) ^ stream);
     if (p.random == 0u)
         return low_discrepancy_point(index, seed);
     const uint a = hash(seed ^ hash(index));
@@ -68,7 +68,7 @@ void main()
         y.position = lumel.position;
         y.normal = lumel.normal;
     }
-    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ p.seed) + (emits ? 1u : 2u)));
+    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)));
 
     const vec3 radiosity = emits ? emission[j] : source[j];
     const float scale = drawn.probability > 0.0 ? area / (kPi * drawn.probability) : 0.0;

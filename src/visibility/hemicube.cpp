@@ -26,7 +26,7 @@ constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
 HemicubeLayout make_layout(const gpu::Device& device, const World& world, std::uint32_t side,
                            std::uint32_t capacity)
 {
-    const std::uint32_t fit = device.max_image_side() / (2 * side);
+    const std::uint32_t fit = side > 0 ? device.max_image_side() / (2 * side) : 0;
     if (side < 2 || side % 2 != 0 || fit == 0)
         throw Error(ErrorKind::input, "--hemicube " + std::to_string(side),
                     "must be an even number of pixels that fits the device's images");

@@ -1,4 +1,4 @@
-// The five faces of a hemicube [CG85] and the question whether an eye sees a point.
+// The five faces of a hemicube [CG85].
 
 // Frame of a face: `axis` looks at its centre, `right` and `up` span it. On side faces `up` is
 // the normal and only the half above the horizon exists.

@@ -9,6 +9,106 @@ const float kPlaneSlack = 2e-3;
 // plane meets many others, and being on it says nothing.
 const float kMostSlope = 8.0;
 
+// How far behind a receiver's plane the facet beyond a convex edge may lie, in units of the slack.
+const float kEdgeSlack = 80.0;
+// What pixels show counts as flat if its depth's steps agree to this part.
+const float kFlatness = 0.1;
+
+// Where a point falls in a hemicube.
+struct FacePoint {
+    vec2 at;     // in pixels, from the face's corner
+    vec2 pixel;  // the pixel that holds it
+    float z;     // along the face's axis
+    bool front, along_t, negative;
+};
+
+FacePoint project(HemicubeLayout layout_, vec3 local)
+{
+    const vec3 size = abs(local);
+    FacePoint f;
+    f.front = local.z >= max(size.x, size.y);
+    f.along_t = size.x >= size.y;
+    f.negative = (f.along_t ? local.x : local.y) < 0.0;
+    f.z = f.front ? local.z : (f.along_t ? size.x : size.y);
+    const float right = f.front ? local.x : (f.along_t ? local.y : local.x);
+    const float up = f.front ? local.y : local.z;
+
+    const float half_side = 0.5 * float(layout_.side);
+    const float per_z = half_side / f.z;
+    f.at = vec2(right * per_z + half_side, up * per_z + (f.front ? half_side : 0.0));
+    const float rows = f.front ? float(layout_.side) : half_side;
+    f.pixel = clamp(floor(f.at), vec2(0.0), vec2(float(layout_.side), rows) - 1.0);
+    return f;
+}
+
+float stored_depth(HemicubeLayout layout_, uint tile, FacePoint f, vec2 pixel)
+{
+    const float side = float(layout_.side);
+    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
+    const vec2 second = f.front || !f.negative
+                            ? vec2(0.0)
+                            : (f.along_t ? vec2(0.0, 0.5 * side) : vec2(side, 0.0));
+    const uvec2 origin = uvec2(tile % layout_.columns * 2u * layout_.side,
+                               tile / layout_.columns * (3u * layout_.side / 2u));
+    return texelFetch(hemicubes, ivec2(origin) + ivec2(corner + second + pixel), 0).r;
+}
+
+// The ray through a pixel's centre, 1 along the face's axis.
+vec3 centre_ray(HemicubeLayout layout_, FacePoint f, vec2 pixel)
+{
+    const vec2 q = (pixel + 0.5) * (2.0 / float(layout_.side)) - vec2(1.0, f.front ? 1.0 : 0.0);
+    const float axis = !f.front && f.negative ? -1.0 : 1.0;
+    return f.front ? vec3(q, 1.0) : (f.along_t ? vec3(axis, q) : vec3(q.x, axis, q.y));
+}
+
+// How far the receiver's plane runs behind what a pixel stores (in front of it: below 0), times
+// toward_point. Affine over the pixels of one flat surface.
+float in_front_of_plane(HemicubeLayout layout_, FacePoint f, vec2 pixel, float stored, vec3 facing,
+                        float toward_point)
+{
+    return stored * toward_point + dot(facing, centre_ray(layout_, f, pixel)) * layout_.near;
+}
+
+bool is_on_face(HemicubeLayout layout_, FacePoint f, vec2 pixel)
+{
+    const float rows = f.front ? float(layout_.side) : 0.5 * float(layout_.side);
+    return all(greaterThanEqual(pixel, vec2(0.0))) && pixel.x < float(layout_.side) &&
+           pixel.y < rows;
+}
+
+// The pixel's centre shows another surface, `in_front` of the receiver's plane, but the next
+// pixel toward the point may not: does the point lie on the next pixel's side of the line between
+// the two?
+bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, float toward_point,
+                  float in_front, float slack)
+{
+    const vec2 offset = f.at - f.pixel - 0.5;
+    const vec2 way = abs(offset.x) > abs(offset.y) ? vec2(sign(offset.x), 0.0)
+                                                   : vec2(0.0, sign(offset.y));
+    if (!is_on_face(layout_, f, f.pixel + way) || !is_on_face(layout_, f, f.pixel - 2.0 * way))
+        return false;
+    // The next pixel must show the receiver's own surface, or nothing: surfaces on the scene's hull
+    // are not drawn.
+    const float next_stored = stored_depth(layout_, tile, f, f.pixel + way);
+    const float next = in_front_of_plane(layout_, f, f.pixel + way, next_stored, facing, toward_point);
+    if (next > slack || (next_stored > 0.0 && next < -kPlaneSlack / kDepthSlack * slack))
+        return false;
+    // A convex edge: the other facet lies a little behind the plane.
+    if (in_front <= 0.0)
+        return in_front > -kEdgeSlack * slack;
+    // A contact: the other surface comes down to the plane before the point is reached, if it
+    // goes on as it does over the pixels before.
+    const float before =
+        in_front_of_plane(layout_, f, f.pixel - way, stored_depth(layout_, tile, f, f.pixel - way),
+                          facing, toward_point);
+    const float first = in_front_of_plane(
+        layout_, f, f.pixel - 2.0 * way, stored_depth(layout_, tile, f, f.pixel - 2.0 * way),
+        facing, toward_point);
+    const float step = in_front - before;
+    const bool flat_ = abs(step - (before - first)) <= kFlatness * abs(step);
+    return flat_ && in_front + step * dot(offset, way) <= slack;
+}
+
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
 // normal is `facing` (any length) in the eye's frame.
 //
@@ -18,49 +118,22 @@ const float kMostSlope = 8.0;
 //     z_plane = (facing · local) / (facing · q),      q = ray with axis component 1,
 //
 // and if that is what is stored, the pixel shows the receiver's own surface: it is seen, whatever
-// its slope. Otherwise the point's own z decides, as in any shadow map. Only equality counts for
-// the plane: it may well run in front of an occluder that hides the point itself.
+// its slope. Otherwise the point's own z decides, as in any shadow map, but for points beside an
+// edge or a contact. Only equality counts for the plane: it may well run in front of an occluder
+// that hides the point itself.
 bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
 {
-    const vec3 size = abs(local);
-    const float side = float(layout_.side);
-    const bool front = local.z >= max(size.x, size.y);
-    const bool along_t = size.x >= size.y;
-
-    // Coordinates in the face: a to the right, c up, z along the axis.
-    const float z = front ? local.z : (along_t ? size.x : size.y);
-    const float a = front ? local.x : (along_t ? local.y : local.x);
-    const float c = front ? local.y : local.z;
-    const bool negative = (along_t ? local.x : local.y) < 0.0;
-
-    const float per_z = 1.0 / z;
-    const float half_side = 0.5 * side;
-    const float row_scale = half_side;
-    float column = clamp(floor((a * per_z + 1.0) * half_side), 0.0, side - 1.0);
-    float row = front ? clamp(floor((c * per_z + 1.0) * row_scale), 0.0, side - 1.0)
-                      : clamp(floor(c * per_z * row_scale), 0.0, half_side - 1.0);
-    // Through the pixel's centre.
-    const float qa = (column + 0.5) / half_side - 1.0;
-    const float qc = front ? (row + 0.5) / half_side - 1.0 : (row + 0.5) / half_side;
-
-    const vec2 corner = front ? vec2(0.0) : (along_t ? vec2(side, 0.0) : vec2(0.0, side)) ;
-    const vec2 second = front || !negative ? vec2(0.0)
-                                           : (along_t ? vec2(0.0, half_side) : vec2(side, 0.0));
-    const uvec2 origin = uvec2(tile % layout_.columns * 2u * layout_.side,
-                               tile / layout_.columns * (3u * layout_.side / 2u));
-    const ivec2 pixel = ivec2(origin) + ivec2(corner + second + vec2(column, row));
-    const float stored = texelFetch(hemicubes, pixel, 0).r;
-
-    const float axis_sign = !front && negative ? -1.0 : 1.0;
-    const vec3 q = front ? vec3(qa, qc, 1.0)
-                         : (along_t ? vec3(axis_sign, qa, qc) : vec3(qa, axis_sign, qc));
-    const float slack = layout_.near * (1.0 + kDepthSlack);
-    const bool by_point = stored * z <= slack;
-    const float toward_pixel = -dot(facing, q), toward_point = -dot(facing, local);
+    const FacePoint f = project(layout_, local);
+    const float stored = stored_depth(layout_, tile, f, f.pixel);
+    if (stored * f.z <= layout_.near * (1.0 + kDepthSlack))
+        return true;
+    const float toward_point = -dot(facing, local);
+    const float toward_pixel = -dot(facing, centre_ray(layout_, f, f.pixel));
+    if (toward_point < (1.0 - kMostSlope / float(layout_.side)) * f.z * toward_pixel)
+        return false;  // steep
     const float plane = toward_pixel * layout_.near;
-    const float found = toward_point * stored;
-    const bool steep = toward_point < (1.0 - kMostSlope / side) * z * toward_pixel;
-    const bool own_surface = found <= plane * (1.0 + kDepthSlack) &&
-                             found >= plane * (1.0 - kPlaneSlack) && !steep;
-    return by_point || own_surface;
+    const float in_front = toward_point * stored - plane;
+    if (in_front <= plane * kDepthSlack && in_front >= -plane * kPlaneSlack)
+        return true;
+    return is_past_edge(layout_, tile, f, facing, toward_point, in_front, plane * kDepthSlack);
 }

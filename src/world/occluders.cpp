@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "core/parallel.h"
 
@@ -41,8 +42,7 @@ std::vector<glm::vec3> extremes(const std::vector<glm::vec3>& points)
 }
 
 /// True if all points lie on one side of the triangle's plane.
-bool on_hull(const WorldTriangle& t, const std::vector<glm::vec3>& some,
-             const std::vector<glm::vec3>& all, float tolerance)
+bool has_one_side(const WorldTriangle& t, const std::vector<glm::vec3>& points, float tolerance)
 {
     const glm::vec3 cross = glm::cross(t.b - t.a, t.c - t.a);
     const float length = glm::length(cross);
@@ -50,23 +50,47 @@ bool on_hull(const WorldTriangle& t, const std::vector<glm::vec3>& some,
         return true;
     const glm::vec3 normal = cross / length;
     bool above = false, below = false;
-    const auto look = [&](const std::vector<glm::vec3>& points) {
-        for (const glm::vec3& p : points) {
-            const float height = glm::dot(p - t.a, normal);
-            above |= height > tolerance;
-            below |= height < -tolerance;
-            if (above && below)
-                return false;
-        }
-        return true;
-    };
-    return look(some) && look(all);
+    for (const glm::vec3& p : points) {
+        const float height = glm::dot(p - t.a, normal);
+        above |= height > tolerance;
+        below |= height < -tolerance;
+        if (above && below)
+            return false;
+    }
+    return true;
 }
 
-bool is_cut_out(const Material& material)
+/// For each triangle, corners three by three: does it lie on the convex hull of them all?
+/// Where that would take too long to tell, none is said to.
+std::vector<char> find_hull(const std::vector<glm::vec3>& corners, float tolerance)
 {
-    return material.alpha_mode != AlphaMode::opaque &&
-           (material.base_color_texture.texture >= 0 || material.base_color.a < 1.0f);
+    constexpr double kMostTests = 4e9;
+    std::vector<char> outer(corners.size() / 3, 0);
+    if (corners.empty())
+        return outer;
+    const auto keep = [&](const std::vector<glm::vec3>& points) {
+        parallel_for(outer.size(), 256, [&](std::size_t first, std::size_t last) {
+            for (std::size_t t = first; t < last; ++t)
+                outer[t] = outer[t] &&
+                           has_one_side({corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]},
+                                        points, tolerance);
+        });
+    };
+    std::fill(outer.begin(), outer.end(), char(1));
+    keep(extremes(corners));  // settles nearly all that are not
+
+    std::vector<glm::vec3> points = corners;
+    const auto before = [](const glm::vec3& a, const glm::vec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    };
+    std::sort(points.begin(), points.end(), before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const auto candidates = std::count(outer.begin(), outer.end(), char(1));
+    if (double(candidates) * double(points.size()) > kMostTests)
+        std::fill(outer.begin(), outer.end(), char(0));
+    else
+        keep(points);
+    return outer;
 }
 
 /// Everything about one primitive of one instance, appended to the vertex arrays.
@@ -101,16 +125,8 @@ Occluders find_occluders(const Scene& scene, bool leave_out_hull)
         high = glm::max(high, p);
     }
     const float tolerance = points.empty() ? 0.0f : kPlaneTolerance * glm::length(high - low);
-    const std::vector<glm::vec3> some = points.empty() ? points : extremes(points);
-
-    // Is each triangle, in scene order, on the hull?
-    std::vector<char> outer(points.size() / 3, 0);
-    if (leave_out_hull)
-        parallel_for(outer.size(), 256, [&](std::size_t first, std::size_t last) {
-            for (std::size_t t = first; t < last; ++t)
-                outer[t] = on_hull({points[3 * t], points[3 * t + 1], points[3 * t + 2]}, some,
-                                   points, tolerance);
-        });
+    const std::vector<char> outer =
+        leave_out_hull ? find_hull(points, tolerance) : std::vector<char>(points.size() / 3, 0);
 
     Occluders out;
     std::vector<std::vector<std::uint32_t>> per_material(scene.materials.size());
@@ -119,12 +135,12 @@ Occluders find_occluders(const Scene& scene, bool leave_out_hull)
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             const std::uint32_t base = append_vertices(out, primitive, i, material);
-            auto& indices = is_cut_out(material) ? per_material[primitive.material] : out.indices;
+            auto& indices = may_be_transparent(material, primitive)
+                                ? per_material[primitive.material]
+                                : out.indices;
             for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
-                if (outer[triangle]) {
-                    ++out.left_out;
+                if (outer[triangle])
                     continue;
-                }
                 for (std::size_t c = 0; c < 3; ++c)
                     indices.push_back(base + primitive.indices[k + c]);
             }

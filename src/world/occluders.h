@@ -23,7 +23,6 @@ struct Occluders {
     std::vector<std::uint32_t> indices;    ///< [3T]
     std::uint32_t opaque_index_count = 0;
     std::vector<CutOut> cut_outs;
-    std::size_t left_out = 0;  ///< triangles on the scene's convex hull
 };
 
 /// Collects all triangles but those that have the whole scene on one side of their plane: the

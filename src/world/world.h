@@ -25,10 +25,6 @@ class World {
 public:
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels);
 
-    /// Moves instances: transforms [instance count], the former ones are kept as `before`.
-    void place(std::span<const glm::mat4> transforms);
-
-    std::size_t lumel_count() const { return lumels_.size(); }
     const gpu::Array<Lumel>& lumels() const { return lumels_; }          ///< [N] in the world
     const gpu::Array<Piece>& pieces() const { return pieces_; }          ///< [P] in the world
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
@@ -36,10 +32,12 @@ public:
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     std::uint32_t opaque_index_count() const { return opaque_index_count_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
-    std::uint32_t index_count() const { return std::uint32_t(indices_.size()); }
     float diagonal() const { return diagonal_; }  ///< of the bounding box [m]
 
 private:
+    /// Puts instances where `transforms` [instance count] say; the former ones are kept as `before`.
+    void place(std::span<const glm::mat4> transforms);
+
     const gpu::Device* device_;
     std::vector<Placement> placements_;
     gpu::Array<Placement> placement_array_;

@@ -119,7 +119,7 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
             small, {.scheme = Scheme::paper, .batch = 1, .max_shots = shots, .target_error = 0.0});
         return support::lumel_error(small.lumels, solved.irradiance, truth, everywhere).rmse;
     };
-    const double early = error(512), late = error(4096);
+    const double early = error(256), late = error(4096);
     EXPECT_LT(late, 0.12);
     EXPECT_LT(late, 0.6 * early);
 }
