@@ -37,6 +37,8 @@ constexpr float kPointwise = 4.0f;
 /// kOnePoint.
 constexpr int kPointPart = 8, kDistantPart = 16;
 constexpr float kOnePoint = 6.0f;
+/// A lumel that lies over more facets than this (foliage, ornaments) is seen through a sample.
+constexpr std::uint32_t kMostFacets = 8;
 
 /// Points of one receiver: for close pairs and for distant ones.
 struct ReceiverPoints {
@@ -110,23 +112,42 @@ public:
         const bool is_close = is_near(world_[i].centre, size, world_[j].centre, size, kDistant);
         const Sample first = sample(i, j, is_close ? receiver.close : receiver.distant);
         if (!first.torn)
-            return first.factor;
-        return is_close ? torn_factor(i, j, receiver) : sample(i, j, receiver.close).factor;
+            return first.whole * first.visible;
+        return first.whole * torn_fraction(i, j, receiver, is_close);
     }
 
-    /// The same with the most points, for pairs that are known to see each other in part.
-    float torn_factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
+    /// F_ij with the most points, for pairs that are known to see each other in part.
+    float torn_factor(std::uint32_t i, std::uint32_t j) const
     {
-        if (receiver.torn.empty())
-            receiver.torn = spread(i, torn_);
-        return sample(i, j, receiver.torn).factor;
+        const Sample best = sample(i, j, spread(i, torn_));
+        return best.whole * best.visible;
     }
 
 private:
     struct Sample {
-        float factor;
-        bool torn;  ///< some of the points see the shooter, others do not
+        float whole;    ///< F_ij with nothing between
+        float visible;  ///< fraction of it
+        bool torn;      ///< some of the points see the shooter, others do not
     };
+
+    /// Visible fraction, looked at from more points.
+    float torn_fraction(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver,
+                        bool is_close) const
+    {
+        if (is_close && receiver.torn.empty())
+            receiver.torn = spread(i, torn_);
+        const std::vector<WeightedPoint>& points = is_close ? receiver.torn : receiver.close;
+        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
+        float lit = 0.0f, sampled = 0.0f;
+        for (std::uint32_t k = 0; k < points.size(); ++k) {
+            const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
+            const float w = points[k].weight * kernel(points[k].point, y, world_[j]);
+            sampled += w;
+            if (w > 0.0f && visible(points[k].point, world_[i], y, world_[j], key + k))
+                lit += w;
+        }
+        return sampled > 0.0f ? lit / sampled : 0.0f;
+    }
 
     Sample sample(std::uint32_t i, std::uint32_t j, const std::vector<WeightedPoint>& points) const
     {
@@ -137,7 +158,7 @@ private:
         for (std::uint32_t k = 0; k < points.size(); ++k) {
             const LumelPoint& x = points[k].point;
             if (k == 0 || !options_.centre)
-                unoccluded = seen_from(x, shooter);
+                unoccluded = seen_from(x, shooter, k);
             whole += points[k].weight * unoccluded;
             bool seen = false;
             if (unoccluded > 0.0f) {
@@ -151,7 +172,7 @@ private:
             all &= seen;
         }
         const float fraction = sampled > 0.0f ? lit / sampled : 0.0f;
-        return {whole * shooter.opacity * fraction, some && !all};
+        return {whole * shooter.opacity, fraction, some && !all};
     }
 
     std::vector<WeightedPoint> spread(std::size_t i, int side) const
@@ -159,12 +180,29 @@ private:
         return options_.centre ? world_.centroids(i, side) : world_.gauss_points(i, side);
     }
 
-    float seen_from(const LumelPoint& x, const WorldLumel& j) const
+    /// F(x → polygons of j). Of many, only some count, drawn by area; which, changes with k.
+    float seen_from(const LumelPoint& x, const WorldLumel& j, std::uint32_t k) const
     {
+        const auto form_factor = [&x](const Facet& facet) {
+            return polygon_form_factor(x.position, x.normal, facet.corner, facet.count);
+        };
+        if (j.facet_count <= kMostFacets)
+            return std::accumulate(
+                world_.begin(j), world_.end(j), 0.0f,
+                [&](float sum, const Facet& facet) { return sum + form_factor(facet); });
+
+        const std::span<const Piece> pieces = world_.pieces(j);
+        const float start = sobol_pair(k % 256, j.first_facet).x;
         float sum = 0.0f;
-        for (const Facet* facet = world_.begin(j); facet != world_.end(j); ++facet)
-            sum += polygon_form_factor(x.position, x.normal, facet->corner, facet->count);
-        return sum;
+        for (std::uint32_t pick = 0; pick < kMostFacets; ++pick) {
+            const float at = (float(pick) + start) / float(kMostFacets);
+            const auto piece = std::upper_bound(
+                pieces.begin(), pieces.end() - 1, at,
+                [](float share, const Piece& candidate) { return share < candidate.share; });
+            const float below = piece == pieces.begin() ? 0.0f : (piece - 1)->share;
+            sum += form_factor(world_.begin(j)[piece - pieces.begin()]) / (piece->share - below);
+        }
+        return sum / float(kMostFacets);
     }
 
     static float kernel(const LumelPoint& x, const LumelPoint& y, const WorldLumel& j)
@@ -206,11 +244,10 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
         if (!world[i].flat || !world[j].flat)
             return;
         // If only one found a way through, the other looks again.
-        ReceiverPoints again;
         if (ij <= 0.0f && ji > 0.0f)
-            ij = builder.torn_factor(i, j, again);
+            ij = builder.torn_factor(i, j);
         else if (ji <= 0.0f && ij > 0.0f)
-            ji = builder.torn_factor(j, i, again);
+            ji = builder.torn_factor(j, i);
         const float area_i = lumels.lumels[i].area, area_j = lumels.lumels[j].area;
         const float exchange = 0.5f * (area_i * ij + area_j * ji);
         ij = area_i > 0.0f ? exchange / area_i : 0.0f;
