@@ -28,8 +28,8 @@ struct BakeProgress {
     double seconds = 0.0;     ///< since the stage began
 };
 
-/// Called from the baking thread at the start of each stage and often while solving; false ends the solve early (the best
-/// solution so far is still written).
+/// Called from the baking thread at the start of each stage and often while solving; false ends the
+/// solve early (the best solution so far is still written).
 using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {

@@ -15,7 +15,7 @@ namespace lumel {
 struct NearFieldOptions {
     float radius = 12.0f;  ///< pairs closer than this × the larger of the two lumel sizes
     std::size_t most_pairs = 12'000'000;  ///< the radius shrinks until about so many are left
-    int samples = 16;  ///< points per close pair; four times as many where it is half hidden
+    int samples = 16;     ///< points per close pair; four times as many where it is half hidden
     bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
 };

@@ -90,7 +90,8 @@ bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, f
     // The next pixel must show the receiver's own surface, or nothing: surfaces on the scene's hull
     // are not drawn.
     const float next_stored = stored_depth(layout_, tile, f, f.pixel + way);
-    const float next = in_front_of_plane(layout_, f, f.pixel + way, next_stored, facing, toward_point);
+    const float next =
+        in_front_of_plane(layout_, f, f.pixel + way, next_stored, facing, toward_point);
     if (next > slack || (next_stored > 0.0 && next < -kPlaneSlack / kDepthSlack * slack))
         return false;
     // A convex edge: the other facet lies a little behind the plane.

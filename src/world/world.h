@@ -35,7 +35,8 @@ public:
     float diagonal() const { return diagonal_; }  ///< of the bounding box [m]
 
 private:
-    /// Puts instances where `transforms` [instance count] say; the former ones are kept as `before`.
+    /// Puts instances where `transforms` [instance count] say; the former ones are kept as
+    /// `before`.
     void place(std::span<const glm::mat4> transforms);
 
     const gpu::Device* device_;
