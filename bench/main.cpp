@@ -34,6 +34,8 @@ int main(int argc, char** argv)
     app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
         ->delimiter(',')
         ->capture_default_str();
+    app.add_option("--solver", settings.solver.method, "as lumel methods lists")
+        ->capture_default_str();
     app.add_option("--scheme", scheme, "phased or paper")
         ->check(CLI::IsMember({"phased", "paper"}));
     app.add_option("--sampling", sampling, "area or centre")
@@ -42,7 +44,8 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
         ->capture_default_str();
-    app.add_option("--near", settings.near_radius, "near field radius [lumel sizes]")
+    app.add_option("--near", settings.near_radius,
+                   "near field radius [lumel sizes]; 0: as the solver likes it")
         ->capture_default_str();
     app.add_option("--seed", settings.solver.seed, "")->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");

@@ -98,7 +98,8 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     Stopwatch watch;
     watch.start();
     NearFieldOptions near_options = near_field_options(settings.solver);
-    near_options.radius = settings.near_radius;
+    if (settings.near_radius > 0.0f)
+        near_options.radius = settings.near_radius;
     const NearField near = build_near_field(world.scene, world.rays, world.lumels, near_options);
     const World gpu_world(device, world.scene, world.lumels);
     const auto solver = make_solver(device, gpu_world, world.lumels, near, settings.solver);

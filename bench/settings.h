@@ -29,8 +29,8 @@ struct Settings {
     std::vector<int> growth;  ///< atlas sides to time instead of racing
     SolverOptions solver;
     std::string device;
-    float near_radius = NearFieldOptions{}.radius;
-    double target = 0.02;  ///< relative RMSE that the methods race to
+    float near_radius = 0.0f;  ///< 0: as the solver likes it
+    double target = 0.02;      ///< relative RMSE that the methods race to
 };
 
 /// The scene with its lamp, laid out in an atlas of side `size`. Throws Error.

@@ -181,9 +181,19 @@ double diameter(const std::vector<glm::dvec3>& points)
     return longest;
 }
 
+/// Exponent of a mirror-direction lobe as wide as that of glTF's roughness r: its half-vector
+/// lobe has the exponent 2 / r⁴ - 2, and one about the mirror direction a quarter of that.
+float shininess_of(double roughness)
+{
+    constexpr double kLeast = 1.0, kMost = 1000.0;
+    const double alpha2 = std::pow(std::max(roughness, 1e-3), 4.0);
+    return float(std::clamp((2.0 / alpha2 - 2.0) / 4.0, kLeast, kMost));
+}
+
 /// What one texel becomes: its front lumel with its pieces, or nothing.
 struct Lifted {
     Lumel lumel{};
+    Gloss gloss{};
     std::vector<Piece> pieces;
     float coverage = 0.0f;
 };
@@ -276,6 +286,8 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
         float(std::max(std::sqrt(double(lumel.area)), diameter(corners) / std::numbers::sqrt2));
     lumel.albedo = glm::clamp(look.albedo, 0.0, 1.0);
     lumel.emission = std::numbers::pi * look.luminance;
+    result.gloss = {glm::clamp(look.diffuse, 0.0, 1.0), glm::clamp(look.specular, 0.0, 1.0),
+                    shininess_of(look.roughness)};
     lumel.instance = parts.front().surface->instance;
     lumel.chart = texel.chart;
     lumel.texel = index;
@@ -288,6 +300,7 @@ void append_front(const Lifted& lifted, Lumels& lumels)
     lumel.first_piece = std::uint32_t(lumels.pieces.size());
     lumel.piece_count = std::uint32_t(lifted.pieces.size());
     lumels.lumels.push_back(lumel);
+    lumels.gloss.push_back(lifted.gloss);
     lumels.pieces.insert(lumels.pieces.end(), lifted.pieces.begin(), lifted.pieces.end());
 }
 
@@ -302,6 +315,7 @@ void append_backs(std::size_t first, Lumels& lumels)
         lumel.flags = kLumelBack;
         lumel.normal = -lumel.normal;
         lumels.lumels.push_back(lumel);
+        lumels.gloss.push_back(Gloss(lumels.gloss[i]));
         for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
             Piece piece = lumels.pieces[front_piece + p];
             std::swap(piece.edge_u, piece.edge_v);

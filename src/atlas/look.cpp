@@ -62,6 +62,9 @@ double noise(std::uint32_t a, std::uint32_t b)
 void add(Look& sum, const MaterialSample& sample, double area)
 {
     sum.albedo += area * double(sample.opacity) * glm::dvec3(sample.albedo);
+    sum.diffuse += area * double(sample.opacity) * glm::dvec3(sample.diffuse);
+    sum.specular += area * double(sample.opacity) * glm::dvec3(sample.specular);
+    sum.roughness += area * double(sample.opacity) * double(sample.roughness);
     sum.luminance += area * double(sample.opacity) * glm::dvec3(sample.emitted);
     sum.opacity += area * double(sample.opacity);
     sum.area += area;
@@ -116,6 +119,9 @@ Look mean_look(const Scene& scene, const std::vector<Part>& parts, int x, int y)
 
     if (mean.opacity > 0.0) {
         mean.albedo /= mean.opacity;
+        mean.diffuse /= mean.opacity;
+        mean.specular /= mean.opacity;
+        mean.roughness /= mean.opacity;
         mean.luminance /= mean.opacity;
     }
     mean.opacity = mean.area > 0.0 ? mean.opacity / mean.area : 0.0;

@@ -55,7 +55,8 @@ glm::dvec3 nearest_on(const std::vector<Piece>& pieces, const glm::dvec3& point)
 
 /// Area-weighted look of the parts.
 struct Look {
-    glm::dvec3 albedo{0.0};
+    glm::dvec3 albedo{0.0}, diffuse{0.0}, specular{0.0};
+    double roughness = 0.0;
     glm::dvec3 luminance{0.0};  ///< [cd/m²]
     double opacity = 0.0;       ///< mean over the area
     double area = 0.0;          ///< [m²] that the samples stand for

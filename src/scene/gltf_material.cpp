@@ -33,6 +33,7 @@ private:
         Material material;
         material.name = view.string_or("name", "");
         read_base_color(view, material);
+        read_gloss(view, material);
         read_emission(view, material);
         read_alpha(view, material);
         material.double_sided = view.boolean_or("doubleSided", false);
@@ -57,6 +58,29 @@ private:
         const glm::vec4 clamped = glm::clamp(material.base_color, 0.0f, 1.0f);
         list_.clamped |= clamped != material.base_color;
         material.base_color = clamped;
+    }
+
+    /// Metallic, roughness, and the F0 of dielectrics: ((ior - 1) / (ior + 1))² × specular factors.
+    void read_gloss(const JsonView& view, Material& material)
+    {
+        if (const auto pbr = view.find("pbrMetallicRoughness")) {
+            material.metallic = pbr->number_or("metallicFactor", 1.0f);
+            material.roughness = pbr->number_or("roughnessFactor", 1.0f);
+            if (const auto info = pbr->find("metallicRoughnessTexture"))
+                material.metallic_roughness_texture = read_texture_use(*info);
+        }
+        if (const auto extension = view.extension("KHR_materials_ior")) {
+            const float ior = extension->number_or("ior", 1.5f);
+            // 0 asks for a mirror at all angles.
+            const float root = ior >= 1.0f ? (ior - 1.0f) / (ior + 1.0f) : 1.0f;
+            material.dielectric_specular = glm::vec3(root * root);
+        }
+        if (const auto extension = view.extension("KHR_materials_specular")) {
+            glm::vec3 color(1.0f);
+            extension->numbers("specularColorFactor", &color.x, 3);
+            material.dielectric_specular *= extension->number_or("specularFactor", 1.0f) * color;
+        }
+        material.dielectric_specular = glm::clamp(material.dielectric_specular, 0.0f, 1.0f);
     }
 
     void read_emission(const JsonView& view, Material& material)

@@ -96,6 +96,14 @@ MaterialSample sample_material(const Scene& scene, int material, const glm::vec2
         sample.opacity = std::clamp(base.a, 0.0f, 1.0f);
         break;
     }
+    // glTF's metals reflect their base colour as a mirror does; what others reflect so is missing
+    // from their diffuse light.
+    const glm::vec4 gloss = sample_texture(scene, look.metallic_roughness_texture, texcoord);
+    const float metallic = std::clamp(look.metallic * gloss.b, 0.0f, 1.0f);
+    const glm::vec3& f0 = look.dielectric_specular;
+    sample.roughness = std::clamp(look.roughness * gloss.g, 0.0f, 1.0f);
+    sample.specular = glm::mix(f0, sample.albedo, metallic);
+    sample.diffuse = (1.0f - metallic) * (1.0f - std::max({f0.r, f0.g, f0.b})) * sample.albedo;
     sample.emitted =
         look.emitted * glm::vec3(sample_texture(scene, look.emissive_texture, texcoord));
     return sample;
@@ -110,7 +118,8 @@ bool may_be_transparent(const Material& material, const Primitive& primitive)
 
 bool is_uniform(const Material& material)
 {
-    return material.base_color_texture.texture < 0 && material.emissive_texture.texture < 0;
+    return material.base_color_texture.texture < 0 && material.emissive_texture.texture < 0 &&
+           material.metallic_roughness_texture.texture < 0;
 }
 
 }  // namespace lumel

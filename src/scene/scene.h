@@ -34,8 +34,12 @@ struct Material {
     std::string name;
     glm::vec4 base_color{1.0f};     ///< linear; rgb is taken as diffuse albedo ρ
     TextureUse base_color_texture;  ///< sRGB, multiplies base_color
-    glm::vec3 emitted{0.0f};        ///< emissiveFactor × strength [cd/m²], linear
-    TextureUse emissive_texture;    ///< sRGB, multiplies emitted
+    float metallic = 1.0f;          ///< for solvers that know gloss
+    float roughness = 1.0f;
+    TextureUse metallic_roughness_texture;  ///< linear; blue × metallic, green × roughness
+    glm::vec3 dielectric_specular{0.04f};   ///< F0 of what is not metal, 0…1
+    glm::vec3 emitted{0.0f};                ///< emissiveFactor × strength [cd/m²], linear
+    TextureUse emissive_texture;            ///< sRGB, multiplies emitted
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< for AlphaMode::mask
     bool double_sided = false;
@@ -103,9 +107,12 @@ Scene read_gltf(const std::string& path);
 
 /// What a material looks like at one point. `texcoord` [2]: TEXCOORD_0 and TEXCOORD_1.
 struct MaterialSample {
-    glm::vec3 albedo;   ///< ρ, linear, clamped to 0…1
-    float opacity;      ///< opaque: 1; mask: 0 or 1; blend: alpha 0…1
-    glm::vec3 emitted;  ///< luminance [cd/m²], linear
+    glm::vec3 albedo;    ///< ρ, linear, clamped to 0…1: all that is reflected, taken as diffuse
+    glm::vec3 diffuse;   ///< ρ_d, where gloss counts
+    glm::vec3 specular;  ///< ρ_s; ρ_d + ρ_s ≤ 1
+    float roughness;     ///< glTF's, 0…1
+    float opacity;       ///< opaque: 1; mask: 0 or 1; blend: alpha 0…1
+    glm::vec3 emitted;   ///< luminance [cd/m²], linear
 };
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
                                const glm::vec4& vertex_color);

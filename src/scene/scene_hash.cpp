@@ -77,6 +77,10 @@ void add_material(Hash& hash, const Material& material)
 {
     hash.add(material.base_color);
     add_texture_use(hash, material.base_color_texture);
+    hash.add(material.metallic);
+    hash.add(material.roughness);
+    hash.add(material.dielectric_specular);
+    add_texture_use(hash, material.metallic_roughness_texture);
     hash.add(material.emitted);
     add_texture_use(hash, material.emissive_texture);
     hash.add(static_cast<int>(material.alpha_mode));

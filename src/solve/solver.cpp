@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "solve/glossy.h"
 #include "solve/stochastic.h"
 
 namespace lumel {
@@ -13,6 +14,9 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     // The default serves 2 %; how much of an error is the table's was not measured alone.
     constexpr int kSamples = 16, kMostSamples = 144;
     constexpr double kTarget = 0.02;
+    // The glossy solver multiplies by the table in every iteration, and what close pairs exchange
+    // loses its lobes: few pairs are better there.
+    constexpr float kGlossyRadius = 3.0f;
     double finer = 1.0;
     if (options.target_error > 0.0)
         finer = kTarget / options.target_error;
@@ -22,6 +26,8 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     near.samples = int(std::clamp(kSamples * finer, double(kSamples), double(kMostSamples)));
     near.centre = options.rule == SampleRule::centre;
     near.seed = options.seed;
+    if (options.method == "glossy")
+        near.radius = kGlossyRadius;
     return near;
 }
 
@@ -31,6 +37,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
 {
     if (options.method == "stochastic")
         return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
+    if (options.method == "glossy")
+        return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
     std::string known;
     for (const MethodInfo& method : kMethods)
         known += std::string(known.empty() ? "" : ", ") + method.id;

@@ -67,6 +67,8 @@ struct MethodInfo {
 inline constexpr MethodInfo kMethods[] = {
     {"stochastic", "Stochastic radiosity by perspective ray bundles", "[BJ04], [BSS05]",
      "the default: any scene with diffuse surfaces and emissive lights"},
+    {"glossy", "Stochastic glossy global illumination", "[BSS05], [NNS99]",
+     "light that metals and polished surfaces pass on; noisier than the default"},
 };
 
 /// The near field that suits the options: finer where a smaller error is asked for.

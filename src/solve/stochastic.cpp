@@ -29,6 +29,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solve/lumel_arrays.h"
+
 namespace lumel {
 namespace {
 
@@ -37,9 +39,6 @@ constexpr std::uint32_t kSelectSpirv[] = {
 };
 constexpr std::uint32_t kReceiveSpirv[] = {
 #include "solve/stochastic.receive.comp.inc"
-};
-constexpr std::uint32_t kNearSpirv[] = {
-#include "solve/stochastic.near.comp.inc"
 };
 constexpr std::uint32_t kBalanceSpirv[] = {
 #include "solve/stochastic.balance.comp.inc"
@@ -85,33 +84,6 @@ constexpr int kPolishSweeps = 1;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
 
-std::vector<glm::vec4> surfaces_of(const Lumels& lumels)
-{
-    std::vector<glm::vec4> surfaces;
-    for (const Lumel& lumel : lumels.lumels)
-        surfaces.emplace_back(lumel.albedo, (lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
-    return surfaces;
-}
-
-std::vector<glm::vec3> emission_of(const Lumels& lumels)
-{
-    std::vector<glm::vec3> emission;
-    for (const Lumel& lumel : lumels.lumels)
-        emission.push_back((lumel.flags & kLumelBuried) ? glm::vec3(0.0f) : lumel.emission);
-    return emission;
-}
-
-double luminance(const glm::vec3& c)
-{
-    return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;
-}
-
-template <class T>
-std::span<const T> view(const std::vector<T>& values)
-{
-    return values;
-}
-
 std::size_t group_count(std::size_t n)
 {
     return (n + kSumGroup - 1) / kSumGroup;
@@ -127,12 +99,11 @@ StochasticRadiosity::Kernels::Kernels(const gpu::Device& device)
     : select(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
       receive(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
               kReceiveGroup),
-      near(device, "stochastic.near", kNearSpirv, 5, sizeof(NearParams), kReceiveGroup),
       balance(device, "stochastic.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
       total(device, "stochastic.total", kTotalSpirv, 2, sizeof(TotalParams), kSumGroup),
       evaluate(device, "stochastic.evaluate", kEvaluateSpirv, 10, sizeof(AverageParams), kSumGroup),
       advance(device, "stochastic.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams), kReceiveGroup),
-      polish(device, "stochastic.polish", kPolishSpirv, 6, sizeof(NearParams), kReceiveGroup)
+      polish(device, "stochastic.polish", kPolishSpirv, 6, sizeof(PolishParams), kReceiveGroup)
 {
 }
 
@@ -161,9 +132,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       irradiance_(device, count_),
       scratch_source_(device, count_),
       scratch_near_(device, count_),
-      near_first_(device, paper_ ? std::span<const std::uint32_t>() : view(near.first)),
-      near_column_(device, paper_ ? std::span<const std::uint32_t>() : view(near.column)),
-      near_factor_(device, paper_ ? std::span<const float>() : view(near.factor)),
+      near_rows_(device, paper_ ? NearField{} : near, count_),
       parts_(device, group_count(count_)),
       totals_(device, 1),
       figures_(device, 1),
@@ -187,7 +156,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
                                   &near_source_, &far_, &irradiance_})
             commands.fill(array->buffer());
         if (!paper_)
-            near_light(commands, emission_, near_emission_);
+            near_rows_.light(commands, emission_, near_emission_);
         emission_power_pyramid_.build(commands, emission_, surface_, 0.0f, 0.0f);
         if (paper_) {  // the first source is E alone
             commands.copy(emission_.buffer(), source_.buffer(), count_ * sizeof(glm::vec3));
@@ -294,13 +263,6 @@ void StochasticRadiosity::shoot()
     phase_source_shots_[h] += float(batch_ - emission_shots);
 }
 
-void StochasticRadiosity::near_light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
-                                     const gpu::Array<glm::vec3>& result)
-{
-    commands.dispatch(kernels_.near, {near_first_, near_column_, near_factor_, source, result},
-                      NearParams{count_}, count_);
-}
-
 void StochasticRadiosity::evaluate(gpu::Commands& commands)
 {
     const AverageParams params{averages(), count_, float(kDimShare * mean_irradiance_)};
@@ -327,7 +289,7 @@ void StochasticRadiosity::advance()
                           AdvanceParams{averages(), count_, end_phase ? 1u : 0u, paper_ ? 1u : 0u},
                           count_);
         if (!paper_)
-            near_light(commands, source_, near_source_);
+            near_rows_.light(commands, source_, near_source_);
         source_power_pyramid_.build(commands, source_, surface_, paper_ ? 0.0f : kDefensiveShare,
                                     reflecting_area_);
     });
@@ -394,11 +356,11 @@ std::vector<glm::vec3> StochasticRadiosity::irradiance()
         const auto sweep = [&](const gpu::Array<glm::vec3>& near) {
             commands.dispatch(kernels_.polish,
                               {surface_, far_, near_emission_, near, irradiance_, scratch_source_},
-                              NearParams{count_}, count_);
+                              PolishParams{count_}, count_);
         };
         sweep(near_source_);
         for (int i = 0; i < kPolishSweeps; ++i) {
-            near_light(commands, scratch_source_, scratch_near_);
+            near_rows_.light(commands, scratch_source_, scratch_near_);
             sweep(scratch_near_);
         }
     });

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "gpu/pacer.h"
+#include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
@@ -26,7 +27,7 @@ public:
 private:
     struct Kernels {
         explicit Kernels(const gpu::Device& device);
-        gpu::Kernel select, receive, near, balance, total, evaluate, advance, polish;
+        gpu::Kernel select, receive, balance, total, evaluate, advance, polish;
     };
 
     /// A convergence figure on its way back from the device.
@@ -38,8 +39,6 @@ private:
 
     void shoot();
     void select(gpu::Commands& commands, std::uint32_t emission_shots);
-    void near_light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
-                    const gpu::Array<glm::vec3>& result);
     void evaluate(gpu::Commands& commands);
     void advance();
     void ask_figures();
@@ -70,8 +69,7 @@ private:
     gpu::Array<glm::vec3> near_emission_;  ///< near light of E
     gpu::Array<glm::vec3> near_source_;    ///< near light of X
     gpu::Array<glm::vec3> far_, irradiance_, scratch_source_, scratch_near_;
-    gpu::Array<std::uint32_t> near_first_, near_column_;
-    gpu::Array<float> near_factor_;
+    NearRows near_rows_;
     gpu::Array<Terms> parts_, totals_, figures_, figures_host_;
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends

@@ -21,6 +21,7 @@ layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sum
 layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 
 #include "world/lumel.glsl"
+#include "solve/receiver.glsl"
 #include "visibility/sees.glsl"
 
 struct Receiver {
@@ -29,21 +30,6 @@ struct Receiver {
     float size;
     uint lumel;
 };
-
-// One point of the lumel for this batch: additive recurrence (R2 sequence) with a start of its
-// own for every lumel.
-LumelPoint receiving_point(Lumel lumel, uint i)
-{
-    const uint start = hash(i ^ hash(p.seed));
-    const float s = unit_float(start + p.iteration * 3242174889u);
-    const float t = unit_float(hash(start) + p.iteration * 2447445414u);
-    LumelPoint point = point_on(lumel, s, t);
-    if (p.centre != 0u) {
-        point.position = lumel.position;
-        point.normal = lumel.normal;
-    }
-    return point;
-}
 
 vec3 receive(Receiver r, uint k)
 {
@@ -75,7 +61,7 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
-    const LumelPoint point = receiving_point(lumel, i);
+    const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
     const Receiver r = Receiver(point.position, point.normal, point.facing, lumel.position,
                                 lumel.size, i);
     const uint at = p.half_ * p.count + i;

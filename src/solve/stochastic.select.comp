@@ -3,7 +3,6 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "solve/radiosity.glsl"
-#include "solve/low_discrepancy.glsl"
 #include "solve/power_pyramid.glsl"
 
 // Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
@@ -21,28 +20,7 @@ layout(binding = 6, scalar) writeonly buffer Eyes { Eye eyes[]; };
 layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
 
 #include "world/lumel.glsl"
-
-// A point of the unit cube for shooter k, independent of all others or from a sequence.
-vec3 draw_point(uint index, uint stream)
-{
-    const uint seed = hash(hash(p.seed) ^ stream);
-    if (p.random == 0u)
-        return low_discrepancy_point(index, seed);
-    const uint a = hash(seed ^ hash(index));
-    const uint b = hash(a ^ 0x9e3779b9u);
-    return vec3(unit_float(a), unit_float(b), unit_float(hash(b ^ 0x9e3779b9u)));
-}
-
-// Frame about the normal, turned by a random angle.
-Eye make_eye(vec3 position, vec3 normal, uint random)
-{
-    const vec3 other = abs(normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
-    const vec3 t0 = normalize(cross(other, normal));
-    const vec3 b0 = cross(normal, t0);
-    const float angle = unit_float(random) * 0.5 * kPi;  // a hemicube repeats every quarter turn
-    const vec3 t = cos(angle) * t0 + sin(angle) * b0;
-    return Eye(position, t, cross(normal, t), normal, random);
-}
+#include "solve/shooter.glsl"
 
 void main()
 {
@@ -51,7 +29,7 @@ void main()
         return;
     const bool emits = k < p.emission_count;
     const uint index = emits ? p.emission_index + k : p.source_index + k - p.emission_count;
-    const vec3 u = draw_point(index, emits ? 0u : 1u);
+    const vec3 u = draw_point(index, emits ? 0u : 1u, p.seed, p.random != 0u);
 
     const PyramidLayout layout_ = p.layout_;
     Drawn drawn;

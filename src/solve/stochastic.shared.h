@@ -47,9 +47,9 @@ struct ReceiveParams {
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
 };
 
-/// Push constants of stochastic.near.comp.
-struct NearParams {
-    uint count;  ///< rows
+/// Push constants of stochastic.polish.comp.
+struct PolishParams {
+    uint count;  ///< N
 };
 
 /// How far the running averages are. Per half-solution h = 0, 1.

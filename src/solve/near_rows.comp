@@ -1,9 +1,9 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/near_rows.shared.h"
 
 // The near field's light:  H_i = Σ_j F_ij X_j  over the sparse row of lumel i.
 
-layout(local_size_x = kReceiveGroup) in;
+layout(local_size_x = kNearGroup) in;
 layout(push_constant, scalar) uniform Params { NearParams p; };
 layout(binding = 0, scalar) readonly buffer First { uint first[]; };
 layout(binding = 1, scalar) readonly buffer Column { uint column[]; };

@@ -1,0 +1,288 @@
+// Stochastic glossy global illumination.
+//
+//   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
+//           GPU. 2005.
+//   [NNS99] The reflectance model; see phong.h.
+//
+// A lumel stores no directional light, only the actual irradiance of the last iteration and, common
+// to all lumels, where the shooters that caused it stood:
+//
+//     repeat
+//         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(E_j + Σ I_j a_j(ω_j)) A_j      select
+//         see the world from y_k                                                      look_from
+//         for all lumels i:                                                           receive
+//             I_i ← L_j(ω) V cosθ_i cosθ_j / r² · A_j / p_j         Eq. (2), (4), (7)
+//             H_i ← running average of I_i
+//
+// where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
+//
+// Differs from the paper, but with `Scheme::paper`:
+// - K shooters per iteration; of a shooter's K lobes one is sent, drawn by what it reflects.
+// - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
+// - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
+//   diffusely; lobes between them go through the same form factors. With `Scheme::paper` all pairs
+//   have the disc term of Eq. (8) instead.
+// - The average forgets the first iterations, in which light had not yet spread.
+
+#include "solve/glossy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/lumel_arrays.h"
+#include "solve/phong.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kSelectSpirv[] = {
+#include "solve/glossy.select.comp.inc"
+};
+constexpr std::uint32_t kReceiveSpirv[] = {
+#include "solve/glossy.receive.comp.inc"
+};
+constexpr std::uint32_t kEvaluateSpirv[] = {
+#include "solve/glossy.evaluate.comp.inc"
+};
+constexpr std::uint32_t kTotalSpirv[] = {
+#include "solve/stochastic.total.comp.inc"
+};
+
+/// Iterations after which the average begins anew: what came before lacks bounces.
+constexpr std::uint64_t kRestarts[] = {8, 32};
+/// Convergence figures are asked for each time the iterations have grown by this factor, and taken
+/// this many iterations later: a fixed lag keeps the result independent of timing.
+constexpr double kFigureGrowth = 1.12;
+constexpr std::uint64_t kFigureLag = 2;
+/// Units tried first when a kind of work is timed (see gpu::Pacer).
+constexpr std::uint32_t kProbeLumels = 4096;
+
+constexpr gpu::Slot kReceiveSlots[] = {
+    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
+    gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
+    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
+    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
+    gpu::Slot::array};
+
+std::size_t group_count(std::size_t n)
+{
+    return (n + kGlossySumGroup - 1) / kGlossySumGroup;
+}
+
+std::uint32_t batch_of(const SolverOptions& options)
+{
+    return std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostGlossyBatch);
+}
+
+}  // namespace
+
+GlossyIllumination::Kernels::Kernels(const gpu::Device& device)
+    : select(device, "glossy.select", kSelectSpirv, 11, sizeof(GlossySelectParams),
+             kGlossySelectGroup),
+      receive(device, "glossy.receive", kReceiveSpirv, kReceiveSlots, sizeof(GlossyReceiveParams),
+              kGlossyReceiveGroup),
+      evaluate(device, "glossy.evaluate", kEvaluateSpirv, 5, sizeof(GlossyEvaluateParams),
+               kGlossySumGroup),
+      total(device, "stochastic.total", kTotalSpirv, 2, sizeof(TotalParams), kSumGroup)
+{
+}
+
+GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
+                                       const Lumels& lumels, const NearField& near,
+                                       const SolverOptions& options)
+    : options_(options),
+      count_(std::uint32_t(lumels.lumels.size())),
+      batch_(batch_of(options)),
+      paper_(options.scheme == Scheme::paper),
+      near_radius_(paper_ ? 0.0f : near.radius),
+      world_(&world),
+      kernels_(device),
+      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
+      eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
+      shots_(device, kMostGlossyBatch),
+      surface_(device, view(surfaces_of(lumels))),
+      gloss_(device, view(lumels.gloss)),
+      albedo_table_(device, view(phong_albedo_table())),
+      emission_(device, view(emission_of(lumels))),
+      exitance_(device, count_),
+      diffuse_(device, count_),
+      near_(device, count_),
+      last_(device, std::size_t(batch_) * count_),
+      sums_(device, 2 * count_),
+      absorbed_(device, 2 * count_),
+      irradiance_(device, count_),
+      parts_(device, group_count(count_)),
+      figures_(device, 1),
+      figures_host_(device, 1, gpu::Buffer::Place::host),
+      near_rows_(device, paper_ ? NearField{} : near, count_),
+      power_(device, count_),
+      pacer_(device)
+{
+    batch_ = std::min(batch_, hemicubes_.capacity());
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried))
+            emitted_power_ += luminance(lumel.emission) * double(lumel.area);
+    begin();
+}
+
+void GlossyIllumination::begin()
+{
+    pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_})
+            commands.fill(array->buffer());
+        commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
+        commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
+        power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+    });
+}
+
+void GlossyIllumination::step()
+{
+    take_figures();
+    if (std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
+        std::end(kRestarts))
+        restart();
+    select();
+    const auto& eyes = eyes_[state_.iterations % 2];
+    const std::uint32_t faces = batch_ * kHemicubeFaces;
+    pacer_.work("hemicubes", faces, kHemicubeFaces,
+                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                    if (first == 0 && last == faces)
+                        hemicubes_.look_from(commands, eyes, batch_);
+                    else
+                        hemicubes_.look_from_faces(commands, eyes, first, last);
+                });
+    receive();
+    ++batches_[state_.iterations % 2];
+    ++state_.iterations;
+    state_.shots += batch_;
+    ask_figures();
+}
+
+void GlossyIllumination::restart()
+{
+    pacer_.work("restart", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        commands.fill(sums_.buffer());
+        commands.fill(absorbed_.buffer());
+    });
+    batches_ = {};
+    state_.error = -1.0;
+}
+
+void GlossyIllumination::select()
+{
+    const std::size_t now = state_.iterations % 2;
+    const GlossySelectParams params{.layout_ = power_.layout(),
+                                    .count = count_,
+                                    .shots = batch_,
+                                    .before = state_.iterations > 0 ? batch_ : 0u,
+                                    .index = std::uint32_t(state_.shots),
+                                    .seed = options_.seed,
+                                    .random = paper_ ? 1u : 0u};
+    pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        commands.dispatch(kernels_.select,
+                          {world_->lumels(), world_->pieces(), gloss_, emission_, last_, near_,
+                           power_.array(), eyes_[1 - now], albedo_table_, eyes_[now], shots_},
+                          params, batch_);
+    });
+}
+
+void GlossyIllumination::receive()
+{
+    const auto& eyes = eyes_[state_.iterations % 2];
+    if (!paper_)
+        pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+            near_rows_.light(commands, diffuse_, near_);
+        });
+    GlossyReceiveParams params{.hemicubes = hemicubes_.layout(),
+                               .count = count_,
+                               .shots = batch_,
+                               .half_ = std::uint32_t(state_.iterations % 2),
+                               .iteration = std::uint32_t(state_.iterations),
+                               .seed = options_.seed,
+                               .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                               .near_radius = near_radius_};
+    pacer_.work("receive", count_, kProbeLumels,
+                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                    params.first = first;
+                    params.last = last;
+                    commands.dispatch(kernels_.receive,
+                                      {world_->lumels(),
+                                       world_->pieces(),
+                                       eyes,
+                                       shots_,
+                                       {hemicubes_.image(), hemicubes_.sampler()},
+                                       gloss_,
+                                       emission_,
+                                       near_,
+                                       albedo_table_,
+                                       last_,
+                                       sums_,
+                                       exitance_,
+                                       absorbed_,
+                                       diffuse_,
+                                       near_rows_.first(),
+                                       near_rows_.column(),
+                                       near_rows_.factor()},
+                                      params, last - first);
+                });
+    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+    });
+}
+
+void GlossyIllumination::evaluate(gpu::Commands& commands)
+{
+    commands.dispatch(kernels_.evaluate, {surface_, sums_, absorbed_, irradiance_, parts_},
+                      GlossyEvaluateParams{count_, {batches_[0], batches_[1]}}, count_);
+    commands.dispatch(kernels_.total, {parts_, figures_}, TotalParams{std::uint32_t(parts_.size())},
+                      kSumGroup);
+    commands.copy(figures_.buffer(), figures_host_.buffer(), sizeof(Terms));
+}
+
+void GlossyIllumination::ask_figures()
+{
+    if (waiting_ || state_.iterations < next_figures_ || std::min(batches_[0], batches_[1]) < 1.0f)
+        return;
+    pacer_.work("figures", 1, 1,
+                [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
+    waiting_ = true;
+    ticket_ = pacer_.flush();
+    read_at_ = state_.iterations + kFigureLag;
+    next_figures_ =
+        std::max(read_at_ + 1, std::uint64_t(double(state_.iterations) * kFigureGrowth));
+}
+
+void GlossyIllumination::take_figures()
+{
+    if (!waiting_ || state_.iterations < read_at_)
+        return;
+    pacer_.wait(ticket_);
+    waiting_ = false;
+    const glm::vec4 sums = figures_host_.mapped()->column[0];
+    const double count = 3.0 * double(sums.z);
+    if (!std::isfinite(sums.x) || !std::isfinite(sums.y))
+        throw Error(ErrorKind::input, "emission",
+                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
+    const bool settled = state_.iterations > *std::rbegin(kRestarts) + kFigureLag;
+    if (!(sums.y > 0.0f) || count <= 0.0)
+        state_.error = emitted_power_ > 0.0 && !settled ? -1.0 : 0.0;
+    else if (settled)
+        state_.error = std::sqrt(double(sums.x) / count) / (double(sums.y) / count);
+}
+
+std::vector<glm::vec3> GlossyIllumination::irradiance()
+{
+    pacer_.work("evaluate", 1, 1,
+                [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
+    pacer_.finish();
+    return irradiance_.download();
+}
+
+EnergyBalance GlossyIllumination::energy()
+{
+    irradiance();
+    return {emitted_power_, double(figures_host_.mapped()->column[0].w)};
+}
+
+}  // namespace lumel

@@ -1,0 +1,135 @@
+#version 460
+#include "solve/glossy.shared.h"
+#include "core/hash.glsl"
+#include "solve/radiosity.glsl"
+
+// Every lumel takes its share of all K shots ([BSS05] Eq. (4)), keeps the actual irradiance of each
+// for the next iteration's reflections, and adds it to the running average:
+//
+//     I_k = L_j(ω) V cosθ_i cosθ_j / (r² + A_j/π) · A_j / (p_j K),
+//     B_i = E_i + Σ_k I_k a_i(ω_k) + near light, the power that the next selection draws from.
+//
+// Near pairs exchange diffuse light in the near field; only lobes are shot at them, through the
+// same form factors.
+
+layout(local_size_x = kGlossyReceiveGroup) in;
+layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
+layout(binding = 3, scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
+layout(binding = 4) uniform sampler2D hemicubes;
+layout(binding = 5, scalar) readonly buffer Glosses { Gloss gloss[]; };
+layout(binding = 6, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 7, scalar) readonly buffer Near { vec3 near[]; };
+layout(binding = 8, scalar) readonly buffer Table { float albedo_table[]; };
+layout(binding = 9, scalar) writeonly buffer Last { vec3 last[]; };    // [K][N]
+layout(binding = 10, scalar) buffer Sums { vec3 sums[]; };             // [2][N] of H
+layout(binding = 11, scalar) writeonly buffer Exitance { vec3 exitance[]; };  // [N] B
+layout(binding = 12, scalar) buffer Absorbed { vec3 absorbed[]; };     // [2][N] sums
+layout(binding = 14, scalar) readonly buffer NearFirst { uint near_first[]; };
+layout(binding = 15, scalar) readonly buffer NearColumn { uint near_column[]; };
+layout(binding = 16, scalar) readonly buffer NearFactor { float near_factors[]; };
+layout(binding = 13, scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
+
+#include "world/lumel.glsl"
+#include "solve/phong.glsl"
+#include "solve/receiver.glsl"
+#include "visibility/sees.glsl"
+
+// F_ij of a near pair, 0 if the table has none: the columns of a row ascend.
+float near_factor(uint i, uint j)
+{
+    uint low = near_first[i], high = near_first[i + 1u];
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (near_column[middle] < j)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
+}
+
+// The lobe as the whole lumel sees it: a narrow one is averaged over a grid of points on a square
+// as large as the lumel, shifted with the receiving point.
+const int kLobeGrid = 4;
+float mean_lobe(GlossyShot shot, Eye eye, Lumel lumel, LumelPoint x)
+{
+    const vec3 d = x.position - eye.position;
+    if (shot.shininess * lumel.size * lumel.size < dot(d, d))
+        return phong_lobe(shot.toward, normalize(d), eye.normal, shot.shininess);
+    const vec3 side = abs(x.normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
+    const vec3 u = normalize(cross(side, x.normal)), v = cross(x.normal, u);
+    const vec3 from = x.position - lumel.position;
+    const float cell = lumel.size / float(kLobeGrid);
+    const vec2 shift = fract(vec2(dot(from, u), dot(from, v)) / cell) * cell - 0.5 * lumel.size;
+    float sum = 0.0;
+    for (int a = 0; a < kLobeGrid; ++a)
+        for (int b = 0; b < kLobeGrid; ++b) {
+            const vec2 at = shift + cell * vec2(a, b);
+            const vec3 way = lumel.position + at.x * u + at.y * v - eye.position;
+            sum += phong_lobe(shot.toward, normalize(way), eye.normal, shot.shininess);
+        }
+    return sum / float(kLobeGrid * kLobeGrid);
+}
+
+// I_k at a point of lumel i; `cos_in` is its cosine there.
+vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
+{
+    const Eye eye = eyes[k];
+    const vec3 d = x.position - eye.position;
+    const float toward_j = dot(d, eye.normal);
+    const float toward_i = -dot(d, x.normal);
+    cos_in = 0.0;
+    if (toward_j <= 0.0 || toward_i <= 0.0 || dot(d, x.facing) >= 0.0)
+        return vec3(0.0);
+    const GlossyShot shot = shots[k];
+    const vec3 between = lumel.position - shot.centre;
+    const float reach = p.near_radius * max(lumel.size, shot.size);
+    const bool is_near = dot(between, between) < reach * reach;
+    if (shot.lumel == i || (is_near && shot.specular == vec3(0.0)))
+        return vec3(0.0);
+    const float r2 = dot(d, d);
+    const vec3 way = d * inversesqrt(r2);
+    cos_in = -dot(way, x.normal);
+    if (is_near)  // π F_ij stands for the geometry and the visibility of all points
+        return shot.specular * phong_lobe(shot.toward, way, eye.normal, shot.shininess) *
+               near_factor(i, shot.lumel) / shot.disc;
+    const float lobe_here =
+        shot.specular != vec3(0.0) ? mean_lobe(shot, eye, lumel, x) : 0.0;
+    const vec3 lobe = shot.specular * lobe_here;
+
+    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
+    if (!sees(p.hemicubes, k, d * frame, x.facing * frame))
+        return vec3(0.0);
+    const float disc = p.near_radius == 0.0 ? shot.disc : 0.0;
+    return (shot.diffuse + lobe) * (toward_i * toward_j / (r2 * (r2 + disc)));
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    const Gloss g = gloss[i];
+    const bool open = (lumel.flags & kLumelBuried) == 0u;
+    const LumelPoint x = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
+    vec3 sum = near[i];
+    vec3 diffuse = near[i] * (g.diffuse + g.specular * phong_mean_albedo(g.shininess));
+    vec3 lobes = vec3(0.0);
+    for (uint k = 0u; k < p.shots; ++k) {
+        float cos_in = 0.0;
+        const vec3 irradiance = open ? receive(i, lumel, x, k, cos_in) : vec3(0.0);
+        last[k * p.count + i] = irradiance;
+        sum += irradiance;
+        diffuse += irradiance * g.diffuse;
+        lobes += irradiance * g.specular * phong_albedo(cos_in, g.shininess);
+    }
+    diffuse_exitance[i] = emission[i] + diffuse;
+    exitance[i] = emission[i] + diffuse + lobes;
+    const uint at = p.half_ * p.count + i;
+    sums[at] += sum;
+    absorbed[at] += sum - diffuse - lobes;
+}

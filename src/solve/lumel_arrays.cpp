@@ -1,0 +1,21 @@
+#include "solve/lumel_arrays.h"
+
+namespace lumel {
+
+std::vector<glm::vec4> surfaces_of(const Lumels& lumels)
+{
+    std::vector<glm::vec4> surfaces;
+    for (const Lumel& lumel : lumels.lumels)
+        surfaces.emplace_back(lumel.albedo, (lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
+    return surfaces;
+}
+
+std::vector<glm::vec3> emission_of(const Lumels& lumels)
+{
+    std::vector<glm::vec3> emission;
+    for (const Lumel& lumel : lumels.lumels)
+        emission.push_back((lumel.flags & kLumelBuried) ? glm::vec3(0.0f) : lumel.emission);
+    return emission;
+}
+
+}  // namespace lumel

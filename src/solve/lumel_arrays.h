@@ -1,0 +1,30 @@
+#pragma once
+// What every solver uploads of the lumels. Buried lumels neither shine nor reflect: their area and
+// emission are 0.
+
+#include <span>
+#include <vector>
+
+#include "atlas/atlas.h"
+
+namespace lumel {
+
+/// (ρ, A) [N]
+std::vector<glm::vec4> surfaces_of(const Lumels& lumels);
+
+/// E [N] [lm/m²]
+std::vector<glm::vec3> emission_of(const Lumels& lumels);
+
+/// Rec. 709.
+inline double luminance(const glm::vec3& c)
+{
+    return 0.2126 * double(c.r) + 0.7152 * double(c.g) + 0.0722 * double(c.b);
+}
+
+template <class T>
+std::span<const T> view(const std::vector<T>& values)
+{
+    return values;
+}
+
+}  // namespace lumel

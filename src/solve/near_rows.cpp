@@ -1,0 +1,37 @@
+#include "solve/near_rows.h"
+
+#include "solve/lumel_arrays.h"
+#include "solve/near_rows.shared.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kSpirv[] = {
+#include "solve/near_rows.comp.inc"
+};
+
+/// Rows without entries where there is no near field.
+std::vector<std::uint32_t> starts_of(const NearField& near, std::size_t count)
+{
+    return near.first.size() == count + 1 ? near.first : std::vector<std::uint32_t>(count + 1, 0);
+}
+
+}  // namespace
+
+NearRows::NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count)
+    : count_(std::uint32_t(lumel_count)),
+      first_(device, view(starts_of(near, lumel_count))),
+      column_(device, view(near.column)),
+      factor_(device, view(near.factor)),
+      kernel_(device, "near_rows", kSpirv, 5, sizeof(NearParams), kNearGroup)
+{
+}
+
+void NearRows::light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
+                     const gpu::Array<glm::vec3>& result) const
+{
+    commands.dispatch(kernel_, {first_, column_, factor_, source, result}, NearParams{count_},
+                      count_);
+}
+
+}  // namespace lumel

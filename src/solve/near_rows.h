@@ -1,0 +1,29 @@
+#pragma once
+// The near field on the device.
+
+#include "gpu/commands.h"
+#include "nearfield/near_field.h"
+
+namespace lumel {
+
+/// The sparse rows of a NearField, and their product with a source.
+class NearRows {
+public:
+    NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count);
+
+    /// result_i = Σ_j F_ij source_j. source, result: [N].
+    void light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
+               const gpu::Array<glm::vec3>& result) const;
+
+    const gpu::Array<std::uint32_t>& first() const { return first_; }    ///< [N + 1]
+    const gpu::Array<std::uint32_t>& column() const { return column_; }  ///< [nnz]
+    const gpu::Array<float>& factor() const { return factor_; }          ///< [nnz] F_ij
+
+private:
+    std::uint32_t count_;
+    gpu::Array<std::uint32_t> first_, column_;
+    gpu::Array<float> factor_;
+    gpu::Kernel kernel_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,78 @@
+// The reflectance model of the glossy solver.
+
+#include "solve/phong.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+namespace lumel {
+namespace {
+
+constexpr float kExponents[] = {1.0f, 3.0f, 10.0f, 100.0f, 1000.0f};
+
+glm::dvec3 direction(double cosine, double angle)
+{
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    return {sine * std::cos(angle), sine * std::sin(angle), cosine};
+}
+
+/// ∫ f_r cosθ' dω' by a fine grid over the hemisphere.
+double reflected(double cos_in, float shininess)
+{
+    constexpr int kRings = 2000, kSectors = 2000;
+    const glm::dvec3 mirror = direction(cos_in, 0.0);
+    double sum = 0.0;
+    for (int ring = 0; ring < kRings; ++ring) {
+        const double cosine = (ring + 0.5) / kRings;
+        for (int sector = 0; sector < kSectors; ++sector) {
+            const double angle = 2.0 * std::numbers::pi * (sector + 0.5) / kSectors;
+            const double along = glm::dot(mirror, direction(cosine, angle));
+            sum +=
+                cosine * double(phong_lobe(float(cos_in), float(cosine), float(along), shininess));
+        }
+    }
+    return sum * 2.0 * std::numbers::pi / (double(kRings) * kSectors);
+}
+
+TEST(Phong, ReflectsNoMoreThanArrivesFromAnyDirection)
+{
+    for (const float shininess : kExponents)
+        for (int i = 0; i <= 100; ++i) {
+            const float albedo = phong_albedo(0.01f * float(i), shininess);
+            EXPECT_LE(albedo, 1.0f) << "n " << shininess << ", cos " << 0.01 * i;
+            EXPECT_GE(albedo, 0.0f);
+        }
+}
+
+TEST(Phong, ItsAlbedoIsTheIntegralOfItsLobe)
+{
+    for (const float shininess : {1.0f, 10.0f, 100.0f})
+        for (const double cos_in : {0.1, 0.5, 0.9})
+            EXPECT_NEAR(phong_albedo(float(cos_in), shininess), reflected(cos_in, shininess), 0.005)
+                << "n " << shininess << ", cos " << cos_in;
+}
+
+TEST(Phong, LooksTheSameBothWays)
+{
+    for (const float shininess : kExponents)
+        EXPECT_EQ(phong_lobe(0.3f, 0.8f, 0.9f, shininess), phong_lobe(0.8f, 0.3f, 0.9f, shininess));
+}
+
+TEST(Phong, ItsTableHoldsItsAlbedo)
+{
+    const std::vector<float> table = phong_albedo_table();
+    ASSERT_EQ(table.size(), std::size_t(kAlbedoExponents * (kAlbedoCosines + 1)));
+    const int last_row = (kAlbedoExponents - 1) * (kAlbedoCosines + 1);
+    EXPECT_NEAR(table[kAlbedoCosines - 1], phong_albedo(1.0f, 1.0f), 1e-6);
+    EXPECT_NEAR(table[std::size_t(last_row + kAlbedoCosines - 1)], phong_albedo(1.0f, 1000.0f),
+                1e-3);
+    // Diffuse light on n = 1: between the albedos of its steepest and its flattest part.
+    EXPECT_GT(table[kAlbedoCosines], table[0]);
+    EXPECT_LT(table[kAlbedoCosines], 1.0f);
+}
+
+}  // namespace
+}  // namespace lumel
