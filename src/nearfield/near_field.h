@@ -1,12 +1,12 @@
 #pragma once
 // Pairs of lumels too close for point sampling, solved exactly.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "nearfield/near_pairs.h"
 #include "rays/ray_scene.h"
 #include "scene/scene.h"
 
@@ -28,16 +28,6 @@ struct NearField {
     std::vector<std::uint32_t> column;  ///< [nnz] shooter j, ascending within a row
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
 };
-
-/// The rule that the receiver kernel repeats: centres (world) closer than
-/// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
-inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
-                    float size_j, float radius)
-{
-    const glm::vec3 way = centre_j - centre_i;
-    const float reach = radius * std::max(size_i, size_j);
-    return glm::dot(way, way) < reach * reach;
-}
 
 /// Builds the table. Buried lumels have empty rows and appear in no column. No row adds up to more
 /// than 1; with the area rule A_i F_ij = A_j F_ji holds between flat lumels.

@@ -9,7 +9,6 @@
 #include <map>
 
 #include "core/parallel.h"
-#include "nearfield/near_field.h"
 
 namespace lumel {
 

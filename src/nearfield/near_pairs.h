@@ -1,12 +1,23 @@
 #pragma once
 // Which lumels are close to each other and face each other.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "nearfield/world_lumels.h"
 
 namespace lumel {
+
+/// The rule that the receiver kernel repeats: centres (world) closer than
+/// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
+inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
+                    float size_j, float radius)
+{
+    const glm::vec3 way = centre_j - centre_i;
+    const float reach = radius * std::max(size_i, size_j);
+    return glm::dot(way, way) < reach * reach;
+}
 
 /// For each lumel i the partners j, ascending: partner[k], k in [first[i], first[i + 1]).
 struct NearPairs {
