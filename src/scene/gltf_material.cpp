@@ -16,7 +16,11 @@ constexpr int kLargestTexcoord = 1;
 
 class MaterialReader {
 public:
-    explicit MaterialReader(const GltfDocument& document) : root_(document.root()) {}
+    MaterialReader(const GltfDocument& document, MaterialModel model)
+        : root_(document.root()),
+          model_(model)
+    {
+    }
 
     MaterialList read(const std::vector<bool>& used)
     {
@@ -33,7 +37,8 @@ private:
         Material material;
         material.name = view.string_or("name", "");
         read_base_color(view, material);
-        read_gloss(view, material);
+        if (model_ == MaterialModel::glossy)
+            read_gloss(view, material);
         read_emission(view, material);
         read_alpha(view, material);
         material.double_sided = view.boolean_or("doubleSided", false);
@@ -191,15 +196,17 @@ private:
     }
 
     JsonView root_;
+    MaterialModel model_;
     MaterialList list_;
     bool in_use_ = false;
 };
 
 }  // namespace
 
-MaterialList read_materials(const GltfDocument& document, const std::vector<bool>& used)
+MaterialList read_materials(const GltfDocument& document, const std::vector<bool>& used,
+                            MaterialModel model)
 {
-    return MaterialReader(document).read(used);
+    return MaterialReader(document, model).read(used);
 }
 
 std::vector<Texture> read_textures(const GltfDocument& document,

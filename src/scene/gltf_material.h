@@ -1,5 +1,5 @@
 #pragma once
-// Materials of a glTF file, as diffuse surfaces.
+// Materials of a glTF file.
 
 #include <vector>
 
@@ -19,7 +19,8 @@ struct MaterialList {
 
 /// `used[i]`: whether material i is on a surface; only then its images are asked for.
 /// Throws Error{input}.
-MaterialList read_materials(const GltfDocument& document, const std::vector<bool>& used);
+MaterialList read_materials(const GltfDocument& document, const std::vector<bool>& used,
+                            MaterialModel model);
 
 /// Decodes the images in parallel. Throws Error{input} for the first in order that fails.
 std::vector<Texture> read_textures(const GltfDocument& document,

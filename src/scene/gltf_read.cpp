@@ -106,14 +106,15 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
 }
 
 /// Materials and textures that the primitives name.
-MaterialList read_looks(const GltfDocument& document, Scene& scene, Notes& notes)
+MaterialList read_looks(const GltfDocument& document, MaterialModel model, Scene& scene,
+                        Notes& notes)
 {
     const std::size_t default_material = document.root().count("materials");
     std::vector<bool> used(default_material + 1, false);
     for (const Mesh& mesh : scene.meshes)
         for (const Primitive& primitive : mesh.primitives)
             used[std::size_t(primitive.material)] = true;
-    MaterialList list = read_materials(document, used);
+    MaterialList list = read_materials(document, used, model);
     scene.materials = list.materials;
     if (used[default_material])
         scene.materials.push_back({.name = "default"});
@@ -164,7 +165,7 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
          "stored but not solved yet: no light comes from KHR_lights_punctual");
 }
 
-Scene read_scene(const std::string& path)
+Scene read_scene(const std::string& path, MaterialModel model)
 {
     const GltfDocument document = load_gltf_document(path);
     Scene scene;
@@ -175,7 +176,7 @@ Scene read_scene(const std::string& path)
     if (scene.instances.empty())
         throw Error(ErrorKind::input, path,
                     "its scene shows no triangles, there is nothing to bake");
-    const MaterialList looks = read_looks(document, scene, notes);
+    const MaterialList looks = read_looks(document, model, scene, notes);
     read_lights_and_cameras(document, nodes, scene);
     write_warnings(notes, looks, scene);
     scene.hash = hash_scene(scene);
@@ -184,10 +185,10 @@ Scene read_scene(const std::string& path)
 
 }  // namespace
 
-Scene read_gltf(const std::string& path)
+Scene read_gltf(const std::string& path, MaterialModel model)
 {
     try {
-        return read_scene(path);
+        return read_scene(path, model);
     } catch (const std::bad_alloc&) {
         throw Error(ErrorKind::input, path, "needs more memory than there is");
     }

@@ -101,9 +101,13 @@ struct Scene {
     std::string hash;                   ///< 16 hex digits over all content that light depends on
 };
 
+/// What is read of materials: base colour and emission alone, or metallic, roughness and F0 too,
+/// which else keep their defaults.
+enum class MaterialModel { diffuse, glossy };
+
 /// Reads glTF 2.0 (.gltf with its files, or .glb).
 /// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
-Scene read_gltf(const std::string& path);
+Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
 
 /// What a material looks like at one point. `texcoord` [2]: TEXCOORD_0 and TEXCOORD_1.
 struct MaterialSample {

@@ -31,19 +31,24 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     return near;
 }
 
+MaterialModel materials_of(const std::string& method)
+{
+    std::string known;
+    for (const MethodInfo& info : kMethods) {
+        if (method == info.id)
+            return info.materials;
+        known += std::string(known.empty() ? "" : ", ") + info.id;
+    }
+    throw Error(ErrorKind::input, "--solver " + method, "no such method; there are: " + known);
+}
+
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options)
 {
-    if (options.method == "stochastic")
-        return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
-    if (options.method == "glossy")
+    if (materials_of(options.method) == MaterialModel::glossy)
         return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
-    std::string known;
-    for (const MethodInfo& method : kMethods)
-        known += std::string(known.empty() ? "" : ", ") + method.id;
-    throw Error(ErrorKind::input, "--solver " + options.method,
-                "no such method; there are: " + known);
+    return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
 }
 
 bool solve(Solver& solver, const SolverOptions& options,

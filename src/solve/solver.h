@@ -60,16 +60,21 @@ public:
 struct MethodInfo {
     const char* id;
     const char* title;
-    const char* paper;   ///< keys of docs/references.md
-    const char* advice;  ///< when to use it
+    const char* paper;                                 ///< keys of docs/references.md
+    const char* advice;                                ///< when to use it
+    MaterialModel materials = MaterialModel::diffuse;  ///< what it reads of them
 };
 
 inline constexpr MethodInfo kMethods[] = {
     {"stochastic", "Stochastic radiosity by perspective ray bundles", "[BJ04], [BSS05]",
      "the default: any scene with diffuse surfaces and emissive lights"},
     {"glossy", "Stochastic glossy global illumination", "[BSS05], [NNS99]",
-     "light that metals and polished surfaces pass on; noisier than the default"},
+     "light that metals and polished surfaces pass on; noisier than the default",
+     MaterialModel::glossy},
 };
+
+/// What the method of that name reads of materials. Throws Error{input} if there is none.
+MaterialModel materials_of(const std::string& method);
 
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);
