@@ -140,10 +140,10 @@ std::string GltfBuilder::write(const TempFolder& folder) const
     return folder.write("scene.glb", glb());
 }
 
-Scene GltfBuilder::read() const
+Scene GltfBuilder::read(MaterialModel model) const
 {
     const TempFolder folder;
-    return read_gltf(write(folder));
+    return read_gltf(write(folder), model);
 }
 
 GltfBuilder one_triangle()

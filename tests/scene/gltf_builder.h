@@ -61,7 +61,7 @@ struct GltfBuilder {
     /// Writes scene.glb into the folder; returns its path.
     std::string write(const TempFolder& folder) const;
     /// Writes and reads it.
-    Scene read() const;
+    Scene read(MaterialModel model = MaterialModel::diffuse) const;
 };
 
 /// One triangle (0,0,0) (1,0,0) (0,1,0), no indices: accessor 0, mesh 0, node 0.

@@ -84,6 +84,40 @@ TEST(Materials, EmissiveStrengthScalesTheFactor)
     EXPECT_EQ(sample_material(scene, 0, kNowhere, glm::vec4(1)).emitted, glm::vec3(40, 20, 0));
 }
 
+// The mapping of README's "Gloss".
+TEST(Materials, DielectricsReflectF0AndMetalsTheirColour)
+{
+    const auto sample = [](float metallic, const Json& extensions) {
+        const Scene scene = with_material({{"pbrMetallicRoughness",
+                                            {{"baseColorFactor", {0.8, 0.4, 0.2, 1}},
+                                             {"metallicFactor", metallic},
+                                             {"roughnessFactor", 0.3}}},
+                                           {"extensions", extensions}})
+                                .read(MaterialModel::glossy);
+        return sample_material(scene, 0, kNowhere, glm::vec4(1));
+    };
+    const Json none = Json::object();
+    const MaterialSample plastic = sample(0.0f, none), metal = sample(1.0f, none);
+    EXPECT_FLOAT_EQ(plastic.specular.r, 0.04f);
+    EXPECT_FLOAT_EQ(plastic.diffuse.r, 0.96f * 0.8f);
+    EXPECT_FLOAT_EQ(plastic.roughness, 0.3f);
+    EXPECT_EQ(metal.specular, glm::vec3(0.8f, 0.4f, 0.2f));
+    EXPECT_EQ(metal.diffuse, glm::vec3(0.0f));
+
+    // Diamond, and half of ordinary glass in red.
+    const MaterialSample diamond = sample(0.0f, {{"KHR_materials_ior", {{"ior", 2.4}}}});
+    EXPECT_NEAR(diamond.specular.g, std::pow(1.4f / 3.4f, 2.0f), 1e-6f);
+    const MaterialSample red =
+        sample(0.0f, {{"KHR_materials_specular",
+                       {{"specularFactor", 0.5}, {"specularColorFactor", {1, 0, 0}}}}});
+    EXPECT_FLOAT_EQ(red.specular.r, 0.02f);
+    EXPECT_EQ(red.specular.g, 0.0f);
+
+    for (const MaterialSample& any : {plastic, metal, diamond, red})
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(any.diffuse[c] + any.specular[c], 1.0f);
+}
+
 TEST(Materials, AlphaModesDecideOpacity)
 {
     const auto opacity = [](const char* mode, float alpha) {
