@@ -143,15 +143,7 @@ void GlossyIllumination::step()
         std::end(kRestarts))
         restart();
     select();
-    const auto& eyes = eyes_[state_.iterations % 2];
-    const std::uint32_t faces = batch_ * kHemicubeFaces;
-    pacer_.work("hemicubes", faces, kHemicubeFaces,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    if (first == 0 && last == faces)
-                        hemicubes_.look_from(commands, eyes, batch_);
-                    else
-                        hemicubes_.look_from_faces(commands, eyes, first, last);
-                });
+    hemicubes_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
     receive();
     ++batches_[state_.iterations % 2];
     ++state_.iterations;

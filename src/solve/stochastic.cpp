@@ -82,7 +82,7 @@ constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
 constexpr int kPolishSweeps = 1;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeFaces = kHemicubeFaces, kProbeLumels = 4096;
+constexpr std::uint32_t kProbeLumels = 4096;
 
 std::size_t group_count(std::size_t n)
 {
@@ -226,14 +226,7 @@ void StochasticRadiosity::shoot()
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         select(commands, emission_shots);
     });
-    const std::uint32_t faces = batch_ * kHemicubeFaces;
-    pacer_.work("hemicubes", faces, kProbeFaces,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    if (first == 0 && last == faces)
-                        hemicubes_.look_from(commands, eyes_, batch_);
-                    else
-                        hemicubes_.look_from_faces(commands, eyes_, first, last);
-                });
+    hemicubes_.look_from(pacer_, eyes_, batch_);
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                     const ReceiveParams params{.hemicubes = hemicubes_.layout(),

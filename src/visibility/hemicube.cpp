@@ -125,6 +125,18 @@ void Hemicubes::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
     commands.end_pass();
 }
 
+void Hemicubes::look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, std::uint32_t count)
+{
+    const std::uint32_t faces = count * kHemicubeFaces;
+    pacer.work("hemicubes", faces, kHemicubeFaces,
+               [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                   if (first == 0 && last == faces)
+                       look_from(commands, eyes, count);
+                   else
+                       look_from_faces(commands, eyes, first, last);
+               });
+}
+
 void Hemicubes::look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
                                 std::uint32_t first, std::uint32_t last)
 {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "gpu/pacer.h"
 #include "visibility/hemicube.shared.h"
 #include "world/world.h"
 
@@ -26,10 +27,12 @@ public:
     /// Draws what eyes [0, count) see, in one pass. eyes: on the device, at least `count`.
     void look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count);
 
-    /// The same in parts, for work that must be split: face = 5 × eye + side, faces
-    /// [first, last).
+    /// The same in parts: face = 5 × eye + side, faces [first, last).
     void look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                          std::uint32_t last);
+
+    /// The same, face by face where one submission should not hold them all.
+    void look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, std::uint32_t count);
 
 private:
     void draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,

@@ -9,8 +9,8 @@ const float kPlaneSlack = 2e-3;
 // plane meets many others, and being on it says nothing.
 const float kMostSlope = 8.0;
 
-// How far behind a receiver's plane the facet beyond a convex edge may lie, in units of the slack.
-const float kEdgeSlack = 80.0;
+// The facet beyond a convex edge falls behind the receiver's plane by this much at most, relative.
+const float kEdgeSlack = 0.016;
 // What pixels show counts as flat if its depth's steps agree to this part.
 const float kFlatness = 0.1;
 
@@ -76,11 +76,11 @@ bool is_on_face(HemicubeLayout layout_, FacePoint f, vec2 pixel)
            pixel.y < rows;
 }
 
-// The pixel's centre shows another surface, `in_front` of the receiver's plane, but the next
+// The pixel's centre shows another surface, `in_front` of the receiver's `plane`, but the next
 // pixel toward the point may not: does the point lie on the next pixel's side of the line between
 // the two?
 bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, float toward_point,
-                  float in_front, float slack)
+                  float in_front, float plane)
 {
     const vec2 offset = f.at - f.pixel - 0.5;
     const vec2 way = abs(offset.x) > abs(offset.y) ? vec2(sign(offset.x), 0.0)
@@ -92,11 +92,11 @@ bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, f
     const float next_stored = stored_depth(layout_, tile, f, f.pixel + way);
     const float next =
         in_front_of_plane(layout_, f, f.pixel + way, next_stored, facing, toward_point);
-    if (next > slack || (next_stored > 0.0 && next < -kPlaneSlack / kDepthSlack * slack))
+    if (next > plane * kDepthSlack || (next_stored > 0.0 && next < -plane * kPlaneSlack))
         return false;
     // A convex edge: the other facet lies a little behind the plane.
     if (in_front <= 0.0)
-        return in_front > -kEdgeSlack * slack;
+        return in_front > -plane * kEdgeSlack;
     // A contact: the other surface comes down to the plane before the point is reached, if it
     // goes on as it does over the pixels before.
     const float before =
@@ -107,7 +107,7 @@ bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, f
         facing, toward_point);
     const float step = in_front - before;
     const bool flat_ = abs(step - (before - first)) <= kFlatness * abs(step);
-    return flat_ && in_front + step * dot(offset, way) <= slack;
+    return flat_ && in_front + step * dot(offset, way) <= plane * kDepthSlack;
 }
 
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
@@ -136,5 +136,5 @@ bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
     const float in_front = toward_point * stored - plane;
     if (in_front <= plane * kDepthSlack && in_front >= -plane * kPlaneSlack)
         return true;
-    return is_past_edge(layout_, tile, f, facing, toward_point, in_front, plane * kDepthSlack);
+    return is_past_edge(layout_, tile, f, facing, toward_point, in_front, plane);
 }
