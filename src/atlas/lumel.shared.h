@@ -23,11 +23,13 @@ struct Lumel {
     uint flags;        ///< kLumelBack | kLumelBuried
 };
 
+LUMEL_CONST float kMostShininess = 1000.0f;  ///< the least is 1
+
 /// How a lumel reflects where gloss counts: [NNS99]'s model, see solve/phong.glsl.
 struct Gloss {
     vec3 diffuse;     ///< ρ_d [1] diffuse reflectance
     vec3 specular;    ///< ρ_s [1] specular reflectance; ρ_d + ρ_s ≤ 1
-    float shininess;  ///< n   [1] exponent, 1…1000
+    float shininess;  ///< n   [1] exponent, 1…kMostShininess
 };
 
 /// A flat part of a lumel: the texel's square clipped to one triangle and cut into triangles

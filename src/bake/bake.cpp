@@ -46,7 +46,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 {
     Stages stages(progress);
     stages.begin("reading");
-    Scene scene = read_gltf(scene_path, materials_of(options.solver.method));
+    Scene scene = read_gltf(scene_path, method_of(options.solver.method).materials);
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);

@@ -130,6 +130,13 @@ private:
         bool torn;      ///< some of the points see the shooter, others do not
     };
 
+    /// What a pair's points saw of each other, by weight.
+    struct Seen {
+        float lit = 0.0f;
+        float looked_at = 0.0f;
+        float fraction() const { return looked_at > 0.0f ? lit / looked_at : 0.0f; }
+    };
+
     /// Visible fraction, looked at from more points.
     float torn_fraction(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver,
                         bool is_close) const
@@ -137,42 +144,39 @@ private:
         if (is_close && receiver.torn.empty())
             receiver.torn = spread(i, torn_);
         const std::vector<WeightedPoint>& points = is_close ? receiver.torn : receiver.close;
+        Seen seen;
+        for (std::uint32_t k = 0; k < points.size(); ++k)
+            look(i, j, points[k], k, seen);
+        return seen.fraction();
+    }
+
+    /// Looks from a point of i, the k-th, at one of j. Returns true if it is seen.
+    bool look(std::uint32_t i, std::uint32_t j, const WeightedPoint& from, std::uint32_t k,
+              Seen& seen) const
+    {
         const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        float lit = 0.0f, sampled = 0.0f;
-        for (std::uint32_t k = 0; k < points.size(); ++k) {
-            const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
-            const float w = points[k].weight * kernel(points[k].point, y, world_[j]);
-            sampled += w;
-            if (w > 0.0f && visible(points[k].point, world_[i], y, world_[j], key + k))
-                lit += w;
-        }
-        return sampled > 0.0f ? lit / sampled : 0.0f;
+        const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
+        const float weight = from.weight * kernel(from.point, y, world_[j]);
+        const bool is_seen = weight > 0.0f && visible(from.point, world_[i], y, world_[j], key + k);
+        seen.looked_at += weight;
+        seen.lit += is_seen ? weight : 0.0f;
+        return is_seen;
     }
 
     Sample sample(std::uint32_t i, std::uint32_t j, const std::vector<WeightedPoint>& points) const
     {
-        const WorldLumel& shooter = world_[j];
-        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        float whole = 0.0f, lit = 0.0f, sampled = 0.0f, unoccluded = 0.0f;
+        float whole = 0.0f, unoccluded = 0.0f;
         bool some = false, all = true;
+        Seen seen;
         for (std::uint32_t k = 0; k < points.size(); ++k) {
-            const LumelPoint& x = points[k].point;
             if (k == 0 || !options_.centre)
-                unoccluded = seen_from(x, shooter, k);
+                unoccluded = seen_from(points[k].point, world_[j], k);
             whole += points[k].weight * unoccluded;
-            bool seen = false;
-            if (unoccluded > 0.0f) {
-                const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
-                const float w = points[k].weight * kernel(x, y, shooter);
-                seen = w > 0.0f && visible(x, world_[i], y, shooter, key + k);
-                sampled += w;
-                lit += seen ? w : 0.0f;
-            }
-            some |= seen;
-            all &= seen;
+            const bool is_seen = unoccluded > 0.0f && look(i, j, points[k], k, seen);
+            some |= is_seen;
+            all &= is_seen;
         }
-        const float fraction = sampled > 0.0f ? lit / sampled : 0.0f;
-        return {whole * shooter.opacity, fraction, some && !all};
+        return {whole * world_[j].opacity, seen.fraction(), some && !all};
     }
 
     std::vector<WeightedPoint> spread(std::size_t i, int side) const

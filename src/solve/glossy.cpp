@@ -11,17 +11,21 @@
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(E_j + Σ I_j a_j(ω_j)) A_j      select
 //         see the world from y_k                                                      look_from
 //         for all lumels i:                                                           receive
-//             I_i ← L_j(ω) V cosθ_i cosθ_j / r² · A_j / p_j         Eq. (2), (4), (7)
+//             I_i ← L_j(ω) V cosθ_i cosθ_j / r² · A_j / p_j         Eq. (2), (4)
 //             H_i ← running average of I_i
 //
 // where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
 //
-// Differs from the paper, but with `Scheme::paper`:
+// `Scheme::paper` with K = 1 is the paper's iteration, but for the points, which move over
+// receivers and shooters instead of standing at their centres, and a first part that is not
+// averaged.
+//
+// Differs from the paper else:
 // - K shooters per iteration; of a shooter's K lobes one is sent, drawn by what it reflects.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
-//   diffusely; lobes between them go through the same form factors. With `Scheme::paper` all pairs
-//   have the disc term of Eq. (8) instead.
+//   diffusely; lobes between them go through the same form factors. In the paper all pairs have
+//   the disc term of Eq. (8) instead.
 // - The average forgets the first iterations, in which light had not yet spread.
 
 #include "solve/glossy.h"
@@ -44,16 +48,11 @@ constexpr std::uint32_t kReceiveSpirv[] = {
 constexpr std::uint32_t kEvaluateSpirv[] = {
 #include "solve/glossy.evaluate.comp.inc"
 };
-constexpr std::uint32_t kTotalSpirv[] = {
-#include "solve/stochastic.total.comp.inc"
-};
 
 /// Iterations after which the average begins anew: what came before lacks bounces.
 constexpr std::uint64_t kRestarts[] = {8, 32};
-/// Convergence figures are asked for each time the iterations have grown by this factor, and taken
-/// this many iterations later: a fixed lag keeps the result independent of timing.
-constexpr double kFigureGrowth = 1.12;
-constexpr std::uint64_t kFigureLag = 2;
+/// Iterations after the last restart before the error is stated.
+constexpr std::uint64_t kFirstStated = 2;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeLumels = 4096;
 
@@ -63,11 +62,6 @@ constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array};
-
-std::size_t group_count(std::size_t n)
-{
-    return (n + kGlossySumGroup - 1) / kGlossySumGroup;
-}
 
 std::uint32_t batch_of(const SolverOptions& options)
 {
@@ -82,8 +76,7 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device)
       receive(device, "glossy.receive", kReceiveSpirv, kReceiveSlots, sizeof(GlossyReceiveParams),
               kGlossyReceiveGroup),
       evaluate(device, "glossy.evaluate", kEvaluateSpirv, 5, sizeof(GlossyEvaluateParams),
-               kGlossySumGroup),
-      total(device, "stochastic.total", kTotalSpirv, 2, sizeof(TotalParams), kSumGroup)
+               kSumGroup)
 {
 }
 
@@ -111,10 +104,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       sums_(device, 2 * count_),
       absorbed_(device, 2 * count_),
       irradiance_(device, count_),
-      parts_(device, group_count(count_)),
-      figures_(device, 1),
-      figures_host_(device, 1, gpu::Buffer::Place::host),
-      near_rows_(device, paper_ ? NearField{} : near, count_),
+      figures_(device, count_),
+      near_rows_(device, near, count_),
       power_(device, count_),
       pacer_(device)
 {
@@ -148,7 +139,9 @@ void GlossyIllumination::step()
     ++batches_[state_.iterations % 2];
     ++state_.iterations;
     state_.shots += batch_;
-    ask_figures();
+    if (std::min(batches_[0], batches_[1]) >= 1.0f)
+        figures_.ask(pacer_, state_.iterations,
+                     [&](gpu::Commands& commands) { evaluate(commands); });
 }
 
 void GlossyIllumination::restart()
@@ -225,38 +218,20 @@ void GlossyIllumination::receive()
 
 void GlossyIllumination::evaluate(gpu::Commands& commands)
 {
-    commands.dispatch(kernels_.evaluate, {surface_, sums_, absorbed_, irradiance_, parts_},
+    commands.dispatch(kernels_.evaluate,
+                      {surface_, sums_, absorbed_, irradiance_, figures_.parts()},
                       GlossyEvaluateParams{count_, {batches_[0], batches_[1]}}, count_);
-    commands.dispatch(kernels_.total, {parts_, figures_}, TotalParams{std::uint32_t(parts_.size())},
-                      kSumGroup);
-    commands.copy(figures_.buffer(), figures_host_.buffer(), sizeof(Terms));
-}
-
-void GlossyIllumination::ask_figures()
-{
-    if (waiting_ || state_.iterations < next_figures_ || std::min(batches_[0], batches_[1]) < 1.0f)
-        return;
-    pacer_.work("figures", 1, 1,
-                [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
-    waiting_ = true;
-    ticket_ = pacer_.flush();
-    read_at_ = state_.iterations + kFigureLag;
-    next_figures_ =
-        std::max(read_at_ + 1, std::uint64_t(double(state_.iterations) * kFigureGrowth));
+    figures_.add_up(commands);
 }
 
 void GlossyIllumination::take_figures()
 {
-    if (!waiting_ || state_.iterations < read_at_)
+    const std::optional<Terms> terms = figures_.take(pacer_, state_.iterations);
+    if (!terms)
         return;
-    pacer_.wait(ticket_);
-    waiting_ = false;
-    const glm::vec4 sums = figures_host_.mapped()->column[0];
+    const glm::vec4 sums = terms->column[0];
     const double count = 3.0 * double(sums.z);
-    if (!std::isfinite(sums.x) || !std::isfinite(sums.y))
-        throw Error(ErrorKind::input, "emission",
-                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
-    const bool settled = state_.iterations > *std::rbegin(kRestarts) + kFigureLag;
+    const bool settled = state_.iterations > *std::rbegin(kRestarts) + kFirstStated;
     if (!(sums.y > 0.0f) || count <= 0.0)
         state_.error = emitted_power_ > 0.0 && !settled ? -1.0 : 0.0;
     else if (settled)
@@ -274,7 +249,7 @@ std::vector<glm::vec3> GlossyIllumination::irradiance()
 EnergyBalance GlossyIllumination::energy()
 {
     irradiance();
-    return {emitted_power_, double(figures_host_.mapped()->column[0].w)};
+    return {emitted_power_, double(figures_.now().column[0].w)};
 }
 
 }  // namespace lumel

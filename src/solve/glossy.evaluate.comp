@@ -1,11 +1,10 @@
 #version 460
 #include "solve/glossy.shared.h"
-#include "solve/stochastic.shared.h"
 
 // H as the mean over all iterations since the last restart, and how far its halves are apart: the
 // first three of stochastic.evaluate.comp's terms, and Σ A 𝓛 of what is absorbed.
 
-layout(local_size_x = kGlossySumGroup) in;
+layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyEvaluateParams p; };
 layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
 layout(binding = 1, scalar) readonly buffer Sums { vec3 sums[]; };        // [2][N]

@@ -4,11 +4,11 @@
 #include <array>
 
 #include "gpu/pacer.h"
+#include "solve/figures.h"
 #include "solve/glossy.shared.h"
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
-#include "solve/stochastic.shared.h"
 #include "visibility/hemicube.h"
 
 namespace lumel {
@@ -37,7 +37,7 @@ public:
 private:
     struct Kernels {
         explicit Kernels(const gpu::Device& device);
-        gpu::Kernel select, receive, evaluate, total;
+        gpu::Kernel select, receive, evaluate;
     };
 
     void begin();
@@ -45,7 +45,6 @@ private:
     void receive();
     void restart();
     void evaluate(gpu::Commands& commands);
-    void ask_figures();
     void take_figures();
 
     SolverOptions options_;
@@ -70,15 +69,13 @@ private:
     gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
     gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
-    gpu::Array<Terms> parts_, figures_, figures_host_;
+    Figures figures_;
     NearRows near_rows_;
     PowerPyramid power_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
     std::array<float, 2> batches_{};  ///< iterations in sums, per half
-    bool waiting_ = false;            ///< for figures
-    std::uint64_t ticket_ = 0, read_at_ = 0, next_figures_ = 0;
 };
 
 }  // namespace lumel

@@ -27,10 +27,10 @@ layout(binding = 9, scalar) writeonly buffer Last { vec3 last[]; };    // [K][N]
 layout(binding = 10, scalar) buffer Sums { vec3 sums[]; };             // [2][N] of H
 layout(binding = 11, scalar) writeonly buffer Exitance { vec3 exitance[]; };  // [N] B
 layout(binding = 12, scalar) buffer Absorbed { vec3 absorbed[]; };     // [2][N] sums
+layout(binding = 13, scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
 layout(binding = 14, scalar) readonly buffer NearFirst { uint near_first[]; };
 layout(binding = 15, scalar) readonly buffer NearColumn { uint near_column[]; };
 layout(binding = 16, scalar) readonly buffer NearFactor { float near_factors[]; };
-layout(binding = 13, scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
 
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"

@@ -1,13 +1,13 @@
 #ifndef LUMEL_SOLVE_GLOSSY_SHARED_H
 #define LUMEL_SOLVE_GLOSSY_SHARED_H
 #include "atlas/lumel.shared.h"
+#include "solve/figures.shared.h"
 #include "solve/power_pyramid.shared.h"
 #include "visibility/hemicube.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kGlossySelectGroup = 32u;
 LUMEL_CONST uint kGlossyReceiveGroup = 64u;
-LUMEL_CONST uint kGlossySumGroup = 64u;
 LUMEL_CONST uint kMostGlossyBatch = 128u;  ///< K; eyes and shots fit 16 KiB uniform blocks
 
 /// What a shooter sends: radiance × A_j / (p_j K), in a diffuse part and a lobe.

@@ -38,15 +38,15 @@ float phong_albedo(float cos_in, float shininess)
 
 std::vector<float> phong_albedo_table()
 {
-    constexpr int kColumns = kAlbedoCosines + 1;
-    std::vector<float> table(std::size_t(kAlbedoExponents) * kColumns);
+    constexpr std::size_t kColumns = kAlbedoCosines + 1;
+    std::vector<float> table(kAlbedoExponents * kColumns);
     parallel_for(kAlbedoExponents, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row) {
             const float exponent =
                 std::pow(kMostShininess, float(row) / float(kAlbedoExponents - 1));
             float* values = &table[row * kColumns];
             double mean = 0.0, weights = 0.0;
-            for (int column = 0; column < kAlbedoCosines; ++column) {
+            for (std::uint32_t column = 0; column < kAlbedoCosines; ++column) {
                 const float cosine = float(column) / float(kAlbedoCosines - 1);
                 values[column] = phong_albedo(cosine, exponent);
                 // ∫ a cosθ dω / π = 2 ∫ a cosθ d(cosθ), by the trapezium rule.

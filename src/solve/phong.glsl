@@ -1,8 +1,6 @@
 // The stretched Phong model [NNS99]; see phong.h. The includer declares `float albedo_table[]`.
 
-const uint kAlbedoCosines = 64u;
-const uint kAlbedoExponents = 32u;
-const float kMostShininess = 1000.0;
+#include "solve/phong.shared.h"
 
 // f_r without ρ_s, for ρ_d = 0. Unit vectors away from the surface; `normal` on their side.
 float phong_lobe(vec3 to_light, vec3 to_eye, vec3 normal, float shininess)

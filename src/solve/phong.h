@@ -13,6 +13,8 @@
 
 #include <vector>
 
+#include "solve/phong.shared.h"
+
 namespace lumel {
 
 /// f_r without ρ_s, for ρ_d = 0 [1/sr]. `mirrored`: m · ω'.
@@ -20,10 +22,6 @@ float phong_lobe(float cos_in, float cos_out, float mirrored, float shininess);
 
 /// Its albedo for light from cosθ: the reflected share ∫ f_r cosθ' dω', ρ_s = 1. 0…1.
 float phong_albedo(float cos_in, float shininess);
-
-inline constexpr int kAlbedoCosines = 64;    ///< columns of the table: cosθ = 0…1
-inline constexpr int kAlbedoExponents = 32;  ///< rows: log n = 0…log 1000
-inline constexpr float kMostShininess = 1000.0f;
 
 /// phong_albedo [kAlbedoExponents][kAlbedoCosines + 1]; the last column is the mean over diffuse
 /// incoming light.

@@ -14,9 +14,6 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     // The default serves 2 %; how much of an error is the table's was not measured alone.
     constexpr int kSamples = 16, kMostSamples = 144;
     constexpr double kTarget = 0.02;
-    // The glossy solver multiplies by the table in every iteration, and what close pairs exchange
-    // loses its lobes: few pairs are better there.
-    constexpr float kGlossyRadius = 3.0f;
     double finer = 1.0;
     if (options.target_error > 0.0)
         finer = kTarget / options.target_error;
@@ -26,27 +23,26 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     near.samples = int(std::clamp(kSamples * finer, double(kSamples), double(kMostSamples)));
     near.centre = options.rule == SampleRule::centre;
     near.seed = options.seed;
-    if (options.method == "glossy")
-        near.radius = kGlossyRadius;
+    near.radius = method_of(options.method).near_radius;
     return near;
 }
 
-MaterialModel materials_of(const std::string& method)
+const MethodInfo& method_of(const std::string& id)
 {
     std::string known;
     for (const MethodInfo& info : kMethods) {
-        if (method == info.id)
-            return info.materials;
+        if (id == info.id)
+            return info;
         known += std::string(known.empty() ? "" : ", ") + info.id;
     }
-    throw Error(ErrorKind::input, "--solver " + method, "no such method; there are: " + known);
+    throw Error(ErrorKind::input, "--solver " + id, "no such method; there are: " + known);
 }
 
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options)
 {
-    if (materials_of(options.method) == MaterialModel::glossy)
+    if (method_of(options.method).materials == MaterialModel::glossy)
         return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
     return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
 }

@@ -63,6 +63,7 @@ struct MethodInfo {
     const char* paper;                                 ///< keys of docs/references.md
     const char* advice;                                ///< when to use it
     MaterialModel materials = MaterialModel::diffuse;  ///< what it reads of them
+    float near_radius = NearFieldOptions{}.radius;     ///< NearFieldOptions::radius that suits it
 };
 
 inline constexpr MethodInfo kMethods[] = {
@@ -70,11 +71,13 @@ inline constexpr MethodInfo kMethods[] = {
      "the default: any scene with diffuse surfaces and emissive lights"},
     {"glossy", "Stochastic glossy global illumination", "[BSS05], [NNS99]",
      "light that metals and polished surfaces pass on; noisier than the default",
-     MaterialModel::glossy},
+     // It multiplies by the near field in every iteration, and what close pairs exchange loses its
+     // lobes: few pairs are better.
+     MaterialModel::glossy, 3.0f},
 };
 
-/// What the method of that name reads of materials. Throws Error{input} if there is none.
-MaterialModel materials_of(const std::string& method);
+/// The method of that name. Throws Error{input} if there is none.
+const MethodInfo& method_of(const std::string& id);
 
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);

@@ -11,12 +11,17 @@
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(X_j) A_j          select
 //         see the world from y_k                                         look_from
 //         for all lumels i:                                              receive
-//             H_i += X_j A_j / (π p_j) V cosθ_i cosθ_j / r²     [BJ04] Eq. (3), [BSS05] Eq. (4)
+//             H_i += X_j A_j / (π p_j) V cosθ_i cosθ_j / r²     [BJ04] Eq. (3), [BSS05] Eq. (2)
 //         now and then:  X ← from the running average           [BJ04] Eq. (2)   advance
 //
 // Cost of a step: K hemicubes of the occluders, and N × K point pairs.
 //
-// Differs from the papers, which `Scheme::paper` follows to the letter (with K = 1):
+// `Scheme::paper` with K = 1 is the papers' iteration, but for three things: points move over
+// receivers and shooters instead of standing at their centres, the running average is kept in two
+// halves for the error estimate, and T* acts on the average as in [BJ04] Eq. (2), not on the last
+// value as in [BSS05].
+//
+// Differs from the papers else:
 // - K shooters per iteration, drawn by an Owen-scrambled Sobol sequence.
 // - Emission and reflected light are averaged apart: E never changes, so its mean is over all
 //   shots; the reflected source X = ρH is frozen for phases of doubling length, and its overall
@@ -43,9 +48,6 @@ constexpr std::uint32_t kReceiveSpirv[] = {
 constexpr std::uint32_t kBalanceSpirv[] = {
 #include "solve/stochastic.balance.comp.inc"
 };
-constexpr std::uint32_t kTotalSpirv[] = {
-#include "solve/stochastic.total.comp.inc"
-};
 constexpr std::uint32_t kEvaluateSpirv[] = {
 #include "solve/stochastic.evaluate.comp.inc"
 };
@@ -67,10 +69,6 @@ constexpr double kEmissionShooters = 0.5, kLeastEmission = 1.0 / 16.0, kMostEmis
 constexpr float kEarlierWeight = 0.75f;
 constexpr std::uint32_t kRoughPhases = 3;
 constexpr float kRoughWeight = 0.25f;
-/// Convergence figures are asked for each time the iterations have grown by this factor, and
-/// taken this many iterations later: a fixed lag keeps the result independent of timing.
-constexpr double kFigureGrowth = 1.12;
-constexpr std::uint64_t kFigureLag = 2;
 /// The halves share the source of each phase and the near field, so their spread misses a part of
 /// the error. Measured on the Cornell box over five seeds, the true error is this times the spread.
 constexpr double kSharedError = 1.3;
@@ -84,11 +82,6 @@ constexpr int kPolishSweeps = 1;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeLumels = 4096;
 
-std::size_t group_count(std::size_t n)
-{
-    return (n + kSumGroup - 1) / kSumGroup;
-}
-
 constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
     gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array};
@@ -100,7 +93,6 @@ StochasticRadiosity::Kernels::Kernels(const gpu::Device& device)
       receive(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
               kReceiveGroup),
       balance(device, "stochastic.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
-      total(device, "stochastic.total", kTotalSpirv, 2, sizeof(TotalParams), kSumGroup),
       evaluate(device, "stochastic.evaluate", kEvaluateSpirv, 10, sizeof(AverageParams), kSumGroup),
       advance(device, "stochastic.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams), kReceiveGroup),
       polish(device, "stochastic.polish", kPolishSpirv, 6, sizeof(PolishParams), kReceiveGroup)
@@ -132,11 +124,9 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       irradiance_(device, count_),
       scratch_source_(device, count_),
       scratch_near_(device, count_),
-      near_rows_(device, paper_ ? NearField{} : near, count_),
-      parts_(device, group_count(count_)),
+      near_rows_(device, near, count_),
       totals_(device, 1),
-      figures_(device, 1),
-      figures_host_(device, 1, gpu::Buffer::Place::host),
+      figures_(device, count_),
       emission_power_pyramid_(device, count_),
       source_power_pyramid_(device, count_),
       pacer_(device)
@@ -185,7 +175,9 @@ void StochasticRadiosity::step()
     state_.shots += batch_;
     if (++phase_batch_ == phase_length_)
         advance();
-    ask_figures();
+    if (state_.iterations >= 2)
+        figures_.ask(pacer_, state_.iterations,
+                     [&](gpu::Commands& commands) { evaluate(commands); });
 }
 
 std::uint32_t StochasticRadiosity::emission_shots_of_batch()
@@ -259,17 +251,16 @@ void StochasticRadiosity::shoot()
 void StochasticRadiosity::evaluate(gpu::Commands& commands)
 {
     const AverageParams params{averages(), count_, float(kDimShare * mean_irradiance_)};
-    const TotalParams parts{std::uint32_t(parts_.size())};
-    commands.dispatch(
-        kernels_.balance,
-        {surface_, direct_, indirect_, near_emission_, near_source_, source_, earlier_, parts_},
-        params, count_);
-    commands.dispatch(kernels_.total, {parts_, totals_}, parts, kSumGroup);
+    commands.dispatch(kernels_.balance,
+                      {surface_, direct_, indirect_, near_emission_, near_source_, source_,
+                       earlier_, figures_.parts()},
+                      params, count_);
+    figures_.add_up(commands, totals_);
     commands.dispatch(kernels_.evaluate,
                       {surface_, direct_, indirect_, near_emission_, near_source_, earlier_,
-                       totals_, far_, irradiance_, parts_},
+                       totals_, far_, irradiance_, figures_.parts()},
                       params, count_);
-    commands.dispatch(kernels_.total, {parts_, figures_}, parts, kSumGroup);
+    figures_.add_up(commands);
 }
 
 void StochasticRadiosity::advance()
@@ -302,37 +293,20 @@ void StochasticRadiosity::advance()
     emission_share_ = std::min(emission_share_, kMostEmission);
 }
 
-void StochasticRadiosity::ask_figures()
-{
-    if (pending_.waiting || state_.iterations < next_figures_ || state_.iterations < 2)
-        return;
-    pacer_.work("figures", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        evaluate(commands);
-        commands.copy(figures_.buffer(), figures_host_.buffer(), sizeof(Terms));
-    });
-    pending_ = {true, pacer_.flush(), state_.iterations + kFigureLag};
-    next_figures_ = std::max(state_.iterations + kFigureLag + 1,
-                             std::uint64_t(double(state_.iterations) * kFigureGrowth));
-}
-
 void StochasticRadiosity::take_figures()
 {
-    if (!pending_.waiting || state_.iterations < pending_.read_at)
+    const std::optional<Terms> terms = figures_.take(pacer_, state_.iterations);
+    if (!terms)
         return;
-    pacer_.wait(pending_.ticket);
-    pending_.waiting = false;
-    const glm::vec4 sums = figures_host_.mapped()->column[0];
+    const glm::vec4 sums = terms->column[0];
     const double count = 3.0 * double(sums.z);
-    if (!std::isfinite(sums.x) || !std::isfinite(sums.y))
-        throw Error(ErrorKind::input, "emission",
-                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
     if (!(sums.y > 0.0f) || count <= 0.0) {
         // A scene without light is solved at once, and one that catches none of it soon.
         state_.error = emitted_power_ > 0.0 && phase_ <= 1 ? -1.0 : 0.0;
         return;
     }
     mean_irradiance_ = double(sums.y) / count;
-    const double local = std::sqrt(double(figures_host_.mapped()->column[1].x) / count);
+    const double local = std::sqrt(double(terms->column[1].x) / count);
     if (paper_ || phase_ > 1)
         state_.error = kSharedError * std::max(std::sqrt(double(sums.x) / count) / mean_irradiance_,
                                                kLocalShare * local);

@@ -32,20 +32,20 @@ void main()
     for (uint c = 0u; c < kTermColumns; ++c)
         terms.column[c] = vec4(0.0);
     if (i < p.count && surface[i].w > 0.0) {
-        vec3 half_[2], scaled_near = vec3(0.0);
+        vec3 half_[2], near = vec3(0.0);
         for (uint h = 0u; h < 2u; ++h) {
             // A half that has no shots yet takes the other's.
             const uint e = p.averages.emission_shots[h] > 0.0 ? h : 1u - h;
             const uint s = has_indirect(p.averages, h) ? h : 1u - h;
             const uint at = s * p.count + i;
+            const vec3 near_light = level(p.averages, s) * near_source[i];
             half_[h] = mean(direct[e * p.count + i], p.averages.emission_shots[e]) +
-                       far_indirect(p.averages, s, indirect[at], earlier[at]) +
-                       level(p.averages, s) * near_source[i];
-            scaled_near += 0.5 * level(p.averages, s) * near_source[i];
+                       far_indirect(p.averages, s, indirect[at], earlier[at]) + near_light;
+            near += 0.5 * near_light;
         }
         const vec3 mean_ = 0.5 * (half_[0] + half_[1]);
         const vec3 h_i = mean_ + near_emission[i];
-        far[i] = mean_ - scaled_near;
+        far[i] = mean_ - near;
         irradiance[i] = h_i;
 
         const vec3 d = 0.5 * (half_[0] - half_[1]);

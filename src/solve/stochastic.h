@@ -4,6 +4,7 @@
 #include <array>
 
 #include "gpu/pacer.h"
+#include "solve/figures.h"
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
@@ -27,21 +28,13 @@ public:
 private:
     struct Kernels {
         explicit Kernels(const gpu::Device& device);
-        gpu::Kernel select, receive, balance, total, evaluate, advance, polish;
-    };
-
-    /// A convergence figure on its way back from the device.
-    struct PendingFigures {
-        bool waiting = false;
-        std::uint64_t ticket = 0;
-        std::uint64_t read_at = 0;  ///< iteration at which it is taken
+        gpu::Kernel select, receive, balance, evaluate, advance, polish;
     };
 
     void shoot();
     void select(gpu::Commands& commands, std::uint32_t emission_shots);
     void evaluate(gpu::Commands& commands);
     void advance();
-    void ask_figures();
     void take_figures();
     std::uint32_t emission_shots_of_batch();
     Averages averages() const;
@@ -70,14 +63,13 @@ private:
     gpu::Array<glm::vec3> near_source_;    ///< near light of X
     gpu::Array<glm::vec3> far_, irradiance_, scratch_source_, scratch_near_;
     NearRows near_rows_;
-    gpu::Array<Terms> parts_, totals_, figures_, figures_host_;
+    gpu::Array<Terms> totals_;  ///< of the energy balance
+    Figures figures_;
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
     double mean_irradiance_ = 0.0;  ///< as last heard [lx]
-    PendingFigures pending_;
-    std::uint64_t next_figures_ = 0;  ///< iteration to ask again
     std::uint32_t phase_ = 0;
     std::uint32_t phase_batch_ = 0;  ///< batches done in this phase
     std::uint32_t phase_length_;     ///< batches in this phase

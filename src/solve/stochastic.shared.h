@@ -1,12 +1,12 @@
 #ifndef LUMEL_SOLVE_STOCHASTIC_SHARED_H
 #define LUMEL_SOLVE_STOCHASTIC_SHARED_H
+#include "solve/figures.shared.h"
 #include "solve/power_pyramid.shared.h"
 #include "visibility/hemicube.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kSelectGroup = 32u;
 LUMEL_CONST uint kReceiveGroup = 64u;
-LUMEL_CONST uint kSumGroup = 64u;  ///< of the kernels that reduce; a power of two
 
 LUMEL_CONST uint kMostBatch = 256u;  ///< K; 256 eyes fit the 16 KiB every uniform block holds
 
@@ -67,24 +67,12 @@ struct AverageParams {
     float dim;   ///< irradiance below which relative errors are relative to this [lx]; 0: unknown
 };
 
-/// Push constants of stochastic.total.comp.
-struct TotalParams {
-    uint parts;
-};
-
 /// Push constants of stochastic.advance.comp.
 struct AdvanceParams {
     Averages averages;
     uint count;
     uint end_phase;      ///< 1: fold indirect into earlier and clear it
     uint with_emission;  ///< 1: the source is B = E + ρH (the papers), 0: ρH
-};
-
-LUMEL_CONST uint kTermColumns = 8u;
-
-/// Sums over all lumels.
-struct Terms {
-    vec4 column[kTermColumns];
 };
 
 LUMEL_SHARED_END

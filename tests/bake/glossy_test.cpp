@@ -20,7 +20,6 @@ std::ostream& operator<<(std::ostream& out, const GlossyRoom& room)
 struct GlossySolution {
     EnergyBalance energy;
     double glow = 0.0;  ///< area-weighted mean of E + ρ_d H
-    float brightest = 0.0f, darkest = 1e30f;
 };
 
 GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
@@ -45,8 +44,6 @@ GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
         EXPECT_TRUE(std::isfinite(h) && h >= 0.0);
         solution.glow += double(lumel.area) * (double(lumel.emission.g) + room.diffuse * h);
         area += double(lumel.area);
-        solution.brightest = std::max(solution.brightest, irradiance[i].g);
-        solution.darkest = std::min(solution.darkest, irradiance[i].g);
     }
     solution.glow /= area;
     solution.energy = solver.energy();

@@ -48,14 +48,19 @@ TEST(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
     EXPECT_GE(glow.share_within, 0.99);
 }
 
+support::Quad dark_plate()
+{
+    support::Quad plate;
+    plate.albedo = glm::vec3(0.0f);
+    plate.res_u = plate.res_v = 40;
+    return plate;
+}
+
 /// Relative RMSE on a dark unit plate at z = 0 lit by a unit plate of emission 1.
 double plate_error(const support::Quad& emitter,
                    const std::function<double(double x, double y)>& form_factor)
 {
-    support::Quad receiver;
-    receiver.albedo = glm::vec3(0.0f);
-    receiver.res_u = receiver.res_v = 40;
-    const support::HandMade plates = support::make_quads({receiver, emitter});
+    const support::HandMade plates = support::make_quads({dark_plate(), emitter});
     const RayScene rays(plates.scene);
     const Solved solved = support::solve_scene(plates.scene, rays, plates.lumels,
                                                {.max_shots = 4096, .target_error = 0.0});
@@ -81,13 +86,11 @@ double plate_error(const support::Quad& emitter,
 
 TEST(Plates, FacingEachOtherMatchThePointFormFactor)
 {
-    support::Quad emitter;
+    support::Quad emitter = dark_plate();
     emitter.corner = {0, 0, 1};
     emitter.edge_u = {0, 1, 0};
     emitter.edge_v = {1, 0, 0};
-    emitter.albedo = glm::vec3(0.0f);
     emitter.emission = glm::vec3(1.0f);
-    emitter.res_u = emitter.res_v = 40;
     EXPECT_LT(plate_error(emitter,
                           [](double x, double y) {
                               return point_to_parallel_rectangle({-x, 1 - x}, {-y, 1 - y}, 1.0);
@@ -97,12 +100,10 @@ TEST(Plates, FacingEachOtherMatchThePointFormFactor)
 
 TEST(Plates, MeetingAtARightAngleMatchThePointFormFactor)
 {
-    support::Quad emitter;
+    support::Quad emitter = dark_plate();
     emitter.edge_u = {0, 0, 1};
     emitter.edge_v = {1, 0, 0};
-    emitter.albedo = glm::vec3(0.0f);
     emitter.emission = glm::vec3(1.0f);
-    emitter.res_u = emitter.res_v = 40;
     EXPECT_LT(plate_error(emitter,
                           [](double x, double y) {
                               return point_to_perpendicular_rectangle({-x, 1 - x}, {0, 1}, y);

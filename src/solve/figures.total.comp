@@ -1,5 +1,5 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/figures.shared.h"
 
 // Adds the workgroups' parts up to one.
 
