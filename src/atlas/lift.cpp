@@ -181,15 +181,6 @@ double diameter(const std::vector<glm::dvec3>& points)
     return longest;
 }
 
-/// Exponent of a mirror-direction lobe as wide as that of glTF's roughness r: its half-vector
-/// lobe has the exponent 2 / r⁴ - 2, and one about the mirror direction a quarter of that.
-float shininess_of(double roughness)
-{
-    constexpr double kLeast = 1.0, kMost = kMostShininess;
-    const double alpha2 = std::pow(std::max(roughness, 1e-3), 4.0);
-    return float(std::clamp((2.0 / alpha2 - 2.0) / 4.0, kLeast, kMost));
-}
-
 /// What one texel becomes: its front lumel with its pieces, or nothing.
 struct Lifted {
     Lumel lumel{};

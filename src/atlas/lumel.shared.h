@@ -1,6 +1,6 @@
 #ifndef LUMEL_ATLAS_LUMEL_SHARED_H
 #define LUMEL_ATLAS_LUMEL_SHARED_H
-#include "core/shared.h"
+#include "scene/shininess.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLumelBack = 1u;    ///< flag: the back side of a double-sided surface
@@ -22,8 +22,6 @@ struct Lumel {
     uint piece_count;  ///< ≥ 1
     uint flags;        ///< kLumelBack | kLumelBuried
 };
-
-LUMEL_CONST float kMostShininess = 1000.0f;  ///< the least is 1
 
 /// How a lumel reflects where gloss counts: [NNS99]'s model, see solve/phong.glsl.
 struct Gloss {

@@ -109,6 +109,15 @@ MaterialSample sample_material(const Scene& scene, int material, const glm::vec2
     return sample;
 }
 
+float shininess_of(double roughness)
+{
+    // The half-vector lobe of roughness r has the exponent 2 / r⁴ - 2, and one about the mirror
+    // direction a quarter of that.
+    constexpr double kLeast = 1.0, kMost = kMostShininess;
+    const double alpha2 = std::pow(std::max(roughness, 1e-3), 4.0);
+    return float(std::clamp((2.0 / alpha2 - 2.0) / 4.0, kLeast, kMost));
+}
+
 bool may_be_transparent(const Material& material, const Primitive& primitive)
 {
     return material.alpha_mode != AlphaMode::opaque &&

@@ -8,6 +8,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/shininess.shared.h"
+
 namespace lumel {
 
 /// 8-bit RGBA, top row first, as stored in the file (colour channels sRGB-coded).
@@ -120,6 +122,10 @@ struct MaterialSample {
 };
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
                                const glm::vec4& vertex_color);
+
+/// Exponent n of a Phong lobe about the mirror direction that is as wide as glTF's roughness says,
+/// 1…kMostShininess: mirrors are blurred.
+float shininess_of(double roughness);
 
 /// True if some of the primitive's surface may let light through: it is cut out or blended.
 bool may_be_transparent(const Material& material, const Primitive& primitive);
