@@ -32,11 +32,16 @@ int wrapped(long long texel, int size, Wrap wrap)
     return int(within < size ? within : period - 1 - within);
 }
 
-glm::vec4 texel_at(const Texture& texture, int x, int y)
+/// What the bytes of a texture stand for.
+enum class Coding { srgb, linear };
+
+glm::vec4 texel_at(const Texture& texture, int x, int y, Coding coding)
 {
-    const auto& linear = srgb_to_linear();
     const std::size_t row = std::size_t(y) * std::size_t(texture.width);
     const std::uint8_t* rgba = &texture.rgba[(row + std::size_t(x)) * 4];
+    if (coding == Coding::linear)
+        return glm::vec4(rgba[0], rgba[1], rgba[2], rgba[3]) / 255.0f;
+    const auto& linear = srgb_to_linear();
     return {linear[rgba[0]], linear[rgba[1]], linear[rgba[2]], float(rgba[3]) / 255.0f};
 }
 
@@ -57,21 +62,22 @@ Span span_of(float coordinate, int size, Wrap wrap)
     return {wrapped(texel, size, wrap), wrapped(texel + 1, size, wrap), float(position - floor)};
 }
 
-/// Bilinear, linear light: white where there is no texture.
-glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::vec2 texcoord[2])
+/// Bilinear, decoded: white where there is no texture.
+glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::vec2 texcoord[2],
+                         Coding coding = Coding::srgb)
 {
     if (use.texture < 0)
         return glm::vec4(1.0f);
     const Texture& texture = scene.textures[std::size_t(use.texture)];
     const glm::vec3 uv = use.transform * glm::vec3(texcoord[use.texcoord], 1.0f);
     if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
-        return texel_at(texture, 0, 0);
+        return texel_at(texture, 0, 0, coding);
     const Span x = span_of(uv.x, texture.width, use.wrap_s);
     const Span y = span_of(uv.y, texture.height, use.wrap_t);
-    const glm::vec4 top = glm::mix(texel_at(texture, x.first, y.first),
-                                   texel_at(texture, x.second, y.first), x.fraction);
-    const glm::vec4 bottom = glm::mix(texel_at(texture, x.first, y.second),
-                                      texel_at(texture, x.second, y.second), x.fraction);
+    const auto texel = [&](int column, int row) { return texel_at(texture, column, row, coding); };
+    const glm::vec4 top = glm::mix(texel(x.first, y.first), texel(x.second, y.first), x.fraction);
+    const glm::vec4 bottom =
+        glm::mix(texel(x.first, y.second), texel(x.second, y.second), x.fraction);
     return glm::mix(top, bottom, y.fraction);
 }
 
@@ -98,7 +104,8 @@ MaterialSample sample_material(const Scene& scene, int material, const glm::vec2
     }
     // glTF's metals reflect their base colour as a mirror does; what others reflect so is missing
     // from their diffuse light.
-    const glm::vec4 gloss = sample_texture(scene, look.metallic_roughness_texture, texcoord);
+    const glm::vec4 gloss =
+        sample_texture(scene, look.metallic_roughness_texture, texcoord, Coding::linear);
     const float metallic = std::clamp(look.metallic * gloss.b, 0.0f, 1.0f);
     const glm::vec3& f0 = look.dielectric_specular;
     sample.roughness = std::clamp(look.roughness * gloss.g, 0.0f, 1.0f);

@@ -133,6 +133,16 @@ TEST(Materials, AlphaModesDecideOpacity)
     EXPECT_FLOAT_EQ(opacity("BLEND", 0.2f), 0.2f);
 }
 
+TEST(Materials, MetallicAndRoughnessTexelsAreLinear)
+{
+    Scene scene;
+    scene.textures.push_back({1, 1, {255, 51, 102, 255}});
+    scene.materials.push_back({.roughness = 0.5f, .metallic_roughness_texture = {.texture = 0}});
+    const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
+    EXPECT_FLOAT_EQ(sample.roughness, 0.5f * 51.0f / 255.0f);
+    EXPECT_FLOAT_EQ(sample.specular.r, 0.6f * 0.04f + 102.0f / 255.0f);
+}
+
 TEST(Materials, SrgbTexelsAreDecodedByTheExactCurve)
 {
     Scene scene;
