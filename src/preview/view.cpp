@@ -6,7 +6,6 @@
 namespace lumel {
 namespace {
 
-constexpr float kFreeAspect = 1.5f;                 ///< of a camera that leaves it open
 constexpr float kRoomFov = 1.15f;                   ///< [rad] wide, as interiors are photographed
 constexpr int kProbeColumns = 16, kProbeRows = 10;  ///< rays that judge a candidate view
 
@@ -79,11 +78,8 @@ std::vector<View> outside_views(const glm::vec3& low, const glm::vec3& high)
 
 View choose_view(const Scene& scene, const RayScene& rays)
 {
-    if (!scene.cameras.empty()) {
-        const Camera& camera = scene.cameras.front();
-        return {camera.transform, camera.vertical_fov,
-                camera.aspect > 0.0f ? camera.aspect : kFreeAspect, camera.orthographic_height};
-    }
+    if (!scene.cameras.empty())
+        return view_of(scene.cameras.front());
     const float diagonal = std::max(glm::length(rays.high() - rays.low()), 1e-6f);
     const auto better = [&](const View& a, const View& b) {
         return judge(a, rays, diagonal) < judge(b, rays, diagonal);

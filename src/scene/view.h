@@ -1,0 +1,25 @@
+#pragma once
+// From where a scene is shown.
+
+#include "scene/scene.h"
+
+namespace lumel {
+
+inline constexpr float kFreeAspect = 1.5f;  ///< width / height of a view that leaves it open
+
+/// A camera position with its projection.
+struct View {
+    glm::mat4 transform{1.0f};         ///< looks along -z, +y up
+    float vertical_fov = 0.9f;         ///< [rad]
+    float aspect = kFreeAspect;        ///< width / height
+    float orthographic_height = 0.0f;  ///< of the picture [m], > 0: orthographic
+};
+
+/// What a camera of the scene shows.
+inline View view_of(const Camera& camera)
+{
+    return {camera.transform, camera.vertical_fov,
+            camera.aspect > 0.0f ? camera.aspect : kFreeAspect, camera.orthographic_height};
+}
+
+}  // namespace lumel
