@@ -85,7 +85,7 @@ glm::mat4 projection(const View& view, float diagonal)
     const glm::mat4 to_view = glm::inverse(view.transform);
     glm::mat4 clip(0.0f);
     if (view.orthographic_height > 0.0f) {
-        const float half = view.orthographic_height;
+        const float half = 0.5f * view.orthographic_height;
         clip[0][0] = 1.0f / (half * view.aspect);
         clip[1][1] = -1.0f / half;
         clip[2][2] = 1.0f / (4.0f * diagonal);  // nearer is larger; 4 diagonals deep
