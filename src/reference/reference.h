@@ -22,11 +22,12 @@ struct ReferenceOptions {
     int max_bounces = 1024;  ///< Russian roulette ends paths; this guards albedo 1
 };
 
-/// H [N] [lx] of every lumel. Unbiased: emission is what the surfaces' materials say at each
-/// point, not the lumel's mean. Runs that differ in seed are independent, so two of them give the
-/// noise. Emissive surfaces are the only lights; buried lumels get 0.
-/// `progress` is given the fraction done and returns false to stop, which leaves the samples taken
-/// so far; lumels without any get 0.
+/// H [N] [lx] of every lumel. Unbiased: emission and reflectance are what the surfaces' materials
+/// say at each point, not the lumel's mean. Of a scene read with MaterialModel::glossy light is
+/// passed on by diffuse and by glossy reflection (brdf.h). Runs that differ in seed are
+/// independent, so two of them give the noise. Emissive surfaces are the only lights; buried lumels
+/// get 0. `progress` is given the fraction done and returns false to stop, which leaves the samples
+/// taken so far; lumels without any get 0.
 std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
                                             const Lumels& lumels, const ReferenceOptions& options,
                                             const std::function<bool(double)>& progress = {});

@@ -50,6 +50,14 @@ MaterialSample Surfaces::textured_look(const PlacedSurface& surface, std::uint32
     return sample_material(*scene_, source.material, texcoord, color);
 }
 
+/// As the scene was read: without gloss all that is reflected is diffuse.
+Reflectance Surfaces::reflectance(const MaterialSample& look) const
+{
+    if (scene_->model == MaterialModel::diffuse)
+        return {look.albedo};
+    return {look.diffuse, look.specular, shininess_of(look.roughness)};
+}
+
 Shading Surfaces::shade(const RayHit& hit) const
 {
     const PlacedSurface& surface = surfaces_[index(hit.instance, hit.primitive)];
@@ -61,7 +69,7 @@ Shading Surfaces::shade(const RayHit& hit) const
         return shading;
 
     const MaterialSample look = look_at(surface, hit.triangle, hit.barycentric);
-    shading.albedo = look.albedo;
+    shading.reflectance = reflectance(look);
     shading.luminance = look.emitted;
     if (surface.source->normals.empty())
         return shading;

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "rays/ray_scene.h"
+#include "reference/brdf.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -26,7 +27,7 @@ struct PlacedSurface {
 struct Shading {
     glm::vec3 geometric{0.0f};  ///< unit normal of the triangle, world
     glm::vec3 normal{0.0f};     ///< interpolated, unit, world; never behind the triangle
-    glm::vec3 albedo{0.0f};     ///< ρ
+    Reflectance reflectance;
     glm::vec3 luminance{0.0f};  ///< emitted [cd/m²]
 };
 
@@ -54,6 +55,7 @@ public:
     Shading shade(const RayHit& hit) const;
 
 private:
+    Reflectance reflectance(const MaterialSample& look) const;
     MaterialSample textured_look(const PlacedSurface& surface, std::uint32_t triangle,
                                  const glm::vec2& barycentric) const;
 

@@ -170,6 +170,7 @@ Scene read_scene(const std::string& path, MaterialModel model)
     const GltfDocument document = load_gltf_document(path);
     Scene scene;
     scene.path = path;
+    scene.model = model;
     Notes notes;
     const std::vector<PlacedNode> nodes = place_nodes(document);
     read_geometry(document, nodes, scene, notes);

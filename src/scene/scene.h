@@ -90,8 +90,13 @@ struct Camera {
     float orthographic_height = 0.0f;  ///< [m], > 0: orthographic camera
 };
 
+/// What is read of materials: base colour and emission alone, or metallic, roughness and F0 too,
+/// which else keep their defaults.
+enum class MaterialModel { diffuse, glossy };
+
 struct Scene {
-    std::string path;  ///< the file it came from
+    std::string path;                              ///< the file it came from
+    MaterialModel model = MaterialModel::diffuse;  ///< what was read of the materials
     std::vector<Texture> textures;
     std::vector<Material> materials;  ///< the file's, then the default material if needed
     std::vector<Mesh> meshes;         ///< the file's; those not shown have no primitives
@@ -102,10 +107,6 @@ struct Scene {
     std::size_t dropped_triangles = 0;  ///< of zero area
     std::string hash;                   ///< 16 hex digits over all content that light depends on
 };
-
-/// What is read of materials: base colour and emission alone, or metallic, roughness and F0 too,
-/// which else keep their defaults.
-enum class MaterialModel { diffuse, glossy };
 
 /// Reads glTF 2.0 (.gltf with its files, or .glb).
 /// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.

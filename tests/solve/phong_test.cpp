@@ -8,6 +8,8 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "reference/brdf.h"
+
 namespace lumel {
 namespace {
 
@@ -59,6 +61,25 @@ TEST(Phong, LooksTheSameBothWays)
 {
     for (const float shininess : kExponents)
         EXPECT_EQ(phong_lobe(0.3f, 0.8f, 0.9f, shininess), phong_lobe(0.8f, 0.3f, 0.9f, shininess));
+}
+
+TEST(Phong, TheReferenceReflectsAlike)
+{
+    const glm::vec3 normal(0.0f, 0.0f, 1.0f);
+    for (const float shininess : kExponents)
+        for (const double cos_out : {0.1, 0.6, 1.0})
+            for (const double cos_in : {0.05, 0.5, 0.95})
+                for (const double angle : {0.0, 2.0, 3.0}) {
+                    const glm::vec3 toward = direction(cos_out, 0.0);
+                    const glm::vec3 incoming = direction(cos_in, angle);
+                    const Brdf brdf({{}, glm::vec3(0.5f), shininess}, normal, toward);
+                    const float mirrored =
+                        glm::dot(glm::vec3(-toward.x, -toward.y, toward.z), incoming);
+                    const float lobe =
+                        phong_lobe(float(cos_in), float(cos_out), mirrored, shininess);
+                    EXPECT_NEAR(brdf.respond(incoming).shape.x / std::numbers::pi_v<float>, lobe,
+                                1e-3f * lobe);
+                }
 }
 
 TEST(Phong, ItsTableHoldsItsAlbedo)

@@ -1,0 +1,52 @@
+#include "reference/averages.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+
+namespace lumel {
+
+namespace {
+
+/// Samples of a value taken in one go, between two progress reports.
+constexpr int kSamplesPerPass = 16;
+/// Values between two progress reports.
+constexpr std::size_t kValuesPerPass = 8192;
+/// Fewest values worth a task.
+constexpr std::size_t kValuesPerTask = 16;
+
+}  // namespace
+
+std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& estimate,
+                               const std::function<bool(double)>& progress)
+{
+    std::vector<glm::dvec4> sums(count, glm::dvec4(0.0));
+    std::vector<int> taken(count, 0);
+
+    // Pass over all values a few samples at a time, so that a stopped run is noisier, but whole.
+    bool stopped = false;
+    for (int done = 0; done < samples && !stopped; done += kSamplesPerPass) {
+        const int until = std::min(done + kSamplesPerPass, samples);
+        for (std::size_t begin = 0; begin < count && !stopped; begin += kValuesPerPass) {
+            const std::size_t width = std::min(kValuesPerPass, count - begin);
+            parallel_for(width, kValuesPerTask, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = begin + first; i < begin + last; ++i) {
+                    for (int sample = done; sample < until; ++sample)
+                        sums[i] += glm::dvec4(estimate(i, std::uint32_t(sample)));
+                    taken[i] = until;
+                }
+            });
+            const double share =
+                (double(begin + width) / double(count) * (until - done) + done) / samples;
+            stopped = progress && !progress(share);
+        }
+    }
+
+    std::vector<glm::vec4> means(count, glm::vec4(0.0f));
+    for (std::size_t i = 0; i < count; ++i)
+        if (taken[i] > 0)
+            means[i] = glm::vec4(sums[i] / double(taken[i]));
+    return means;
+}
+
+}  // namespace lumel
