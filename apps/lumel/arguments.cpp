@@ -199,6 +199,9 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
         ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
     add_choice(command, "--sampling", reference.reference.rule, kSampleRules,
                "Receive over the covered area of a lumel (the default) or at its centre");
+    command.add_flag_callback(
+        "--gloss", [&reference] { reference.materials = MaterialModel::glossy; },
+        "Pass light on by glossy reflection too, as --solver glossy does");
     add_atlas_options(command, reference.options.atlas);
     command.add_flag("--half", reference.options.half, "Write lightmap.exr in half precision");
     add_talk_options(command, reference.talk);

@@ -27,6 +27,7 @@ struct ReferenceArguments {
     std::string folder;
     BakeOptions options;
     ReferenceOptions reference;
+    MaterialModel materials = MaterialModel::diffuse;  ///< what is read of them
     Talk talk;
 };
 

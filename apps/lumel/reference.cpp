@@ -18,7 +18,7 @@ int run(const ReferenceArguments& arguments)
     ProgressBar bar(arguments.talk.progress && !arguments.talk.quiet, 0);
     const BakeSummary summary =
         bake_reference(arguments.scene, arguments.folder, arguments.options, arguments.reference,
-                       [&](const BakeProgress& progress) {
+                       arguments.materials, [&](const BakeProgress& progress) {
                            bar.show(progress);
                            return !interrupted();
                        });

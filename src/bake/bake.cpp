@@ -89,11 +89,11 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 
 BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
                            const BakeOptions& options, const ReferenceOptions& reference,
-                           const ProgressFunction& progress)
+                           MaterialModel materials, const ProgressFunction& progress)
 {
     Stages stages(progress);
     stages.begin("reading");
-    Scene scene = read_gltf(scene_path);
+    Scene scene = read_gltf(scene_path, materials);
     OutputFolder output(folder);
     stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);

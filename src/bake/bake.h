@@ -46,10 +46,10 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress = {});
 
 /// lumel reference: the same atlas by path tracing on the CPU: lightmap.exr, lightmap.png,
-/// report.json.
+/// report.json. `materials`: what is read of them, as the solver to compare with does.
 BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
                            const BakeOptions& options, const ReferenceOptions& reference,
-                           const ProgressFunction& progress = {});
+                           MaterialModel materials, const ProgressFunction& progress = {});
 
 /// lumel info: what is in the scene and what a bake would take, as text or JSON.
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json);

@@ -90,7 +90,8 @@ Report reference_report(const ReferenceOptions& reference, const Prepared& world
     Report report = common(world, stages);
     report.method = "reference";
     report.settings = {{"spp", std::to_string(reference.samples_per_lumel)},
-                       {"sampling", text_of(reference.rule)}};
+                       {"sampling", text_of(reference.rule)},
+                       {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"}};
     report.seed = reference.seed;
     report.interrupted = stopped;
     report.files = {"lightmap.exr", "lightmap.png", "report.json"};

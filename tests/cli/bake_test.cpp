@@ -127,6 +127,27 @@ TEST(Reference, WritesItsMapAndCompareMeasuresIt)
     EXPECT_EQ(bytes_of(place.path("heat.png")).substr(1, 3), "PNG");
 }
 
+TEST(Reference, SaysWhetherGlossCounts)
+{
+    const Workplace place;
+    for (const bool gloss : {false, true}) {
+        std::vector<std::string> line = {"reference",
+                                         own_scene("cornell-box.gltf"),
+                                         place.path("ref"),
+                                         "--spp",
+                                         "1",
+                                         "--size",
+                                         "32",
+                                         "--json"};
+        if (gloss)
+            line.emplace_back("--gloss");
+        const Outcome outcome = run_lumel(line);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
+        EXPECT_EQ(report["settings"]["gloss"], gloss ? "true" : "false") << outcome.out;
+    }
+}
+
 TEST(Info, SaysWhatABakeWouldTakeAndWritesNothing)
 {
     const Outcome text = run_lumel({"info", own_scene("cornell-box.gltf"), "--size", "32"});
