@@ -171,10 +171,11 @@ class Gltf:
             "bufferViews": [],
         }
 
-    def material(self, name, albedo, luminance=None, image=None, double_sided=False):
+    def material(self, name, albedo, luminance=None, image=None, double_sided=False,
+                 metallic=0.0, roughness=1.0):
         """Linear albedo (number or RGB), emitted luminance [cd/m²], PNG bytes that multiply albedo."""
         rgb = list(albedo) if isinstance(albedo, (tuple, list)) else [albedo] * 3
-        surface = {"baseColorFactor": rgb + [1.0], "metallicFactor": 0.0, "roughnessFactor": 1.0}
+        surface = {"baseColorFactor": rgb + [1.0], "metallicFactor": metallic, "roughnessFactor": roughness}
         material = {"name": name, "pbrMetallicRoughness": surface}
         if image is not None:
             surface["baseColorTexture"] = {"index": self._texture(name, image)}

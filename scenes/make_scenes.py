@@ -8,13 +8,20 @@ from gltf_writer import Gltf, Shape
 from room import room
 
 
-def cornell_box():
-    """The Cornell box as measured (mm), here in metres, with the RGB albedos in common use."""
+def cornell_box(glossy=False):
+    """The Cornell box as measured (mm), here in metres, with the RGB albedos in common use.
+
+    Glossy: a brushed metal block, a polished copper one, and a floor with a sheen."""
     gltf = Gltf()
     white = gltf.material("white", (0.725, 0.71, 0.68))
     green = gltf.material("green", (0.14, 0.45, 0.091))
     red = gltf.material("red", (0.63, 0.065, 0.05))
     lamp = gltf.material("light", 0.78, luminance=(17.0, 12.0, 4.0))
+    ground = tall = short = white
+    if glossy:
+        ground = gltf.material("sheen", (0.725, 0.71, 0.68), metallic=0.4, roughness=0.45)
+        tall = gltf.material("brushed metal", (0.85, 0.85, 0.83), metallic=1.0, roughness=0.35)
+        short = gltf.material("copper", (0.9, 0.6, 0.45), metallic=0.9, roughness=0.2)
 
     def metres(corners):
         return [[c / 1000 for c in corner] for corner in corners]
@@ -25,7 +32,7 @@ def cornell_box():
         gltf.object(name, shape)
 
     h = 548.8
-    wall("floor", white, (552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))
+    wall("floor", ground, (552.8, 0, 0), (0, 0, 0), (0, 0, 559.2), (549.6, 0, 559.2))
     wall("ceiling", white, (556, h, 0), (556, h, 559.2), (0, h, 559.2), (0, h, 0))
     wall("back wall", white, (549.6, 0, 559.2), (0, 0, 559.2), (0, h, 559.2), (556, h, 559.2))
     wall("right wall", green, (0, 0, 559.2), (0, 0, 0), (0, h, 0), (0, h, 559.2))
@@ -34,19 +41,92 @@ def cornell_box():
     y = h - 0.5
     wall("light", lamp, (343, y, 227), (343, y, 332), (213, y, 332), (213, y, 227))
 
-    def block(name, height, outline):
+    def block(name, material, height, outline):
         shape = Shape()
-        shape.quad(white, metres([(x, height, z) for x, z in outline]))
+        shape.quad(material, metres([(x, height, z) for x, z in outline]))
         for (x0, z0), (x1, z1) in zip(outline, outline[1:] + outline[:1]):
             side = [(x0, 0, z0), (x1, 0, z1), (x1, height, z1), (x0, height, z0)]
-            shape.quad(white, metres(side))
+            shape.quad(material, metres(side))
         gltf.object(name, shape)
 
-    block("short block", 165, [(130, 65), (82, 225), (240, 272), (290, 114)])
-    block("tall block", 330, [(423, 247), (265, 296), (314, 456), (472, 406)])
+    block("short block", short, 165, [(130, 65), (82, 225), (240, 272), (290, 114)])
+    block("tall block", tall, 330, [(423, 247), (265, 296), (314, 456), (472, 406)])
     eye = [0.278, 0.273, -0.8]
     vertical_fov = 2 * math.atan(0.0125 / 0.035)  # film 25 mm, focal length 35 mm
     gltf.camera("camera", eye, [eye[0], eye[1], 0.0], vertical_fov, 1.0)
+    return gltf
+
+
+def glossy_floor():
+    """A room with a polished floor, coloured blocks on it and a lamp in the ceiling."""
+    gltf = Gltf()
+    plaster = gltf.material("plaster", (0.7, 0.68, 0.65))
+    blue = gltf.material("blue wall", (0.25, 0.35, 0.6))
+    orange = gltf.material("orange", (0.75, 0.35, 0.1))
+    green = gltf.material("green", (0.25, 0.5, 0.2))
+    polished = gltf.material("polished floor", (0.6, 0.55, 0.5), metallic=0.7, roughness=0.3)
+    lamp = gltf.material("lamp", 0.5, luminance=(60.0, 55.0, 48.0))
+    width, height, depth = 4.0, 2.6, 3.0
+    sides = {"-x": plaster, "+x": blue, "-y": polished, "+y": plaster, "-z": plaster, "+z": plaster}
+    for side, material in sides.items():
+        shape = Shape()
+        skip = " ".join(set(sides) - {side})
+        shape.box(material, (0, 0, 0), (width, height, depth), skip=skip, inward=True)
+        gltf.object(f"wall {side}", shape)
+    for name, material, low, high in (
+        ("orange block", orange, (0.8, 0.0, 0.6), (1.4, 1.2, 1.2)),
+        ("green block", green, (2.4, 0.0, 0.9), (3.2, 0.5, 1.7)),
+    ):
+        shape = Shape()
+        shape.box(material, low, high, skip="-y")
+        gltf.object(name, shape)
+    light = Shape()
+    light.quad(lamp, [(1.5, height - 0.002, 1.0), (2.5, height - 0.002, 1.0),
+                      (2.5, height - 0.002, 2.0), (1.5, height - 0.002, 2.0)])
+    gltf.object("ceiling lamp", light)
+    gltf.camera("camera", [2.6, 1.5, 2.9], [1.8, 0.5, 0.6], 1.0, 1.5)
+    return gltf
+
+
+def specular_objects():
+    """Metal and glazed objects in a diffuse room, after figure 2 of the glossy paper."""
+    gltf = Gltf()
+    plaster = gltf.material("plaster", (0.75, 0.73, 0.7))
+    red = gltf.material("red wall", (0.6, 0.12, 0.1))
+    blue = gltf.material("blue wall", (0.12, 0.2, 0.55))
+    lamp = gltf.material("lamp", 0.5, luminance=(40.0, 38.0, 34.0))
+    gold = gltf.material("gold", (1.0, 0.77, 0.34), metallic=1.0, roughness=0.25)
+    steel = gltf.material("steel", (0.8, 0.8, 0.8), metallic=1.0, roughness=0.4)
+    glaze = gltf.material("glaze", (0.2, 0.45, 0.35), metallic=0.3, roughness=0.3)
+    width, height, depth = 3.0, 2.4, 3.0
+    sides = {"-x": red, "+x": blue, "-y": plaster, "+y": plaster, "-z": plaster, "+z": plaster}
+    for side, material in sides.items():
+        shape = Shape()
+        skip = " ".join(set(sides) - {side})
+        shape.box(material, (0, 0, 0), (width, height, depth), skip=skip, inward=True)
+        gltf.object(f"wall {side}", shape)
+
+    def ball(radius, rings=24):
+        angles = [math.pi * k / rings for k in range(1, rings)]
+        between = [(radius * math.sin(a), radius - radius * math.cos(a)) for a in angles]
+        return [(0.0, 0.0), *between, (0.0, 2 * radius)]
+
+    vase = [(0.0, 0.0), (0.16, 0.0), (0.26, 0.2), (0.28, 0.4), (0.2, 0.62), (0.11, 0.78), (0.15, 0.9),
+            (0.0, 0.92)]
+    cone = [(0.0, 0.0), (0.32, 0.0), (0.0, 0.9)]
+    for name, material, centre, profile, smooth in (
+        ("gold ball", gold, (0.9, 0.0, 1.1), ball(0.4), True),
+        ("steel vase", steel, (1.7, 0.0, 0.8), vase, True),
+        ("glazed cone", glaze, (2.2, 0.0, 1.5), cone, False),
+    ):
+        shape = Shape()
+        shape.lathe(material, centre, profile, segments=48, smooth=smooth)
+        gltf.object(name, shape)
+    light = Shape()
+    light.quad(lamp, [(1.0, height - 0.002, 1.0), (2.0, height - 0.002, 1.0),
+                      (2.0, height - 0.002, 2.0), (1.0, height - 0.002, 2.0)])
+    gltf.object("ceiling lamp", light)
+    gltf.camera("camera", [1.6, 1.1, 2.9], [1.55, 0.5, 0.9], 0.9, 1.4)
     return gltf
 
 
@@ -151,6 +231,9 @@ def main():
     folder = os.path.dirname(os.path.abspath(__file__))
     scenes = {
         "cornell-box": cornell_box(),
+        "glossy-cornell-box": cornell_box(glossy=True),
+        "glossy-floor": glossy_floor(),
+        "specular-objects": specular_objects(),
         "two-rooms": two_rooms(),
         "furnace-0.5": furnace(0.5),
         "furnace-0.9": furnace(0.9),

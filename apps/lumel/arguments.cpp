@@ -22,6 +22,9 @@ constexpr int kLargestBatch = 256;
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
 constexpr int kMostPaths = 100'000'000;
+constexpr int kMostCameras = 1'000'000;
+constexpr int kMostPlaces = 256;
+constexpr int kMostRays = 4096;
 
 /// Accepts whole numbers from `low` to `high`.
 CLI::Validator whole(std::int64_t low, std::int64_t high)
@@ -103,7 +106,7 @@ void add_talk_options(CLI::App& app, Talk& talk)
         "--no-progress", [&talk] { talk.progress = false; }, "Draw no progress line");
 }
 
-void add_solver_options(CLI::App& app, SolverOptions& solver)
+void add_method_options(CLI::App& app, SolverOptions& solver)
 {
     Choices<std::string> methods;
     for (const MethodInfo& method : kMethods)
@@ -120,6 +123,10 @@ void add_solver_options(CLI::App& app, SolverOptions& solver)
         });
     add_choice(app, "--scheme", solver.scheme, kSchemes,
                "Iteration scheme: phased (exact near pairs, the default) or the papers'");
+}
+
+void add_solver_options(CLI::App& app, SolverOptions& solver)
+{
     add_choice(app, "--sampling", solver.rule, kSampleRules,
                "Receive over the covered area of a lumel (the default) or at its centre");
     app.add_option("--seed", solver.seed, "Of all random numbers")
@@ -165,6 +172,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
         ->required()
         ->type_name("FOLDER");
     add_atlas_options(command, bake.options.atlas);
+    add_method_options(command, bake.options.solver);
     add_solver_options(command, bake.options.solver);
     add_stop_options(command, bake.options.solver);
     command
@@ -176,6 +184,56 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
         ->capture_default_str()
         ->check(whole(0, kLargestAtlas));
     add_talk_options(command, bake.talk);
+    return command;
+}
+
+CLI::App& add_render(CLI::App& app, RenderArguments& render)
+{
+    CLI::App& command = *app.add_subcommand(
+        "render", "Solve the light of a scene, gloss and all, and show it to a camera");
+    RenderOptions& options = render.options;
+    command.add_option("scene", render.scene, "A .gltf or .glb file")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("picture", render.picture, "PNG, or EXR of radiance in cd/m2")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option("--camera", options.camera,
+                    "Number of the file's camera, from 0 (default: the first, or one chosen)")
+        ->type_name("N")
+        ->check(whole(0, kMostCameras));
+    command.add_option("--width", options.width, "Of the picture in pixels")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kLargestAtlas));
+    command.add_option("--height", options.height, "Of the picture (default: as the camera says)")
+        ->type_name("N")
+        ->check(whole(1, kLargestAtlas));
+    command.add_option("--places", options.sets, "Places looked at within each pixel")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kMostPlaces));
+    command.add_option("--eye-shots", options.shots, "Shooters for glossy reflections in view")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostShots));
+    command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each place")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostRays));
+    command
+        .add_option("--paths", options.paths,
+                    "Trace this many paths per pixel on the CPU instead, to compare with")
+        ->type_name("N")
+        ->check(whole(1, kMostPaths));
+    add_atlas_options(command, options.bake.atlas);
+    add_solver_options(command, options.bake.solver);
+    add_stop_options(command, options.bake.solver);
+    command
+        .add_option("--device", options.bake.device, "Index or part of a name from lumel devices")
+        ->type_name("NAME");
+    add_talk_options(command, render.talk);
     return command;
 }
 
@@ -239,6 +297,11 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& compare)
         ->type_name("FILE");
     command.add_option("-o,--heat-map", compare.heat_map, "PNG to write (default: A-vs-B.png)")
         ->type_name("FILE");
+    command
+        .add_option("--ignore-above", compare.most,
+                    "Leave out what is brighter than this in B, such as lamps in a picture")
+        ->type_name("VALUE")
+        ->check(positive());
     command.add_flag("--json", compare.json, "Print JSON");
     return command;
 }
@@ -270,11 +333,13 @@ Arguments parse_arguments(int count, char** values)
     app.require_subcommand(1);
 
     BakeArguments bake;
+    RenderArguments render;
     ReferenceArguments reference;
     InfoArguments info;
     CompareArguments compare;
     DevicesArguments devices;
     const CLI::App& bake_command = add_bake(app, bake);
+    const CLI::App& render_command = add_render(app, render);
     const CLI::App& reference_command = add_reference(app, reference);
     const CLI::App& info_command = add_info(app, info);
     const CLI::App& compare_command = add_compare(app, compare);
@@ -294,6 +359,8 @@ Arguments parse_arguments(int count, char** values)
 
     if (bake_command.parsed())
         return bake;
+    if (render_command.parsed())
+        return render;
     if (reference_command.parsed())
         return reference;
     if (info_command.parsed())

@@ -1,10 +1,12 @@
 #pragma once
 // What was asked for on the command line.
 
+#include <limits>
 #include <string>
 #include <variant>
 
 #include "bake/bake.h"
+#include "bake/render.h"
 
 namespace lumel {
 
@@ -31,6 +33,13 @@ struct ReferenceArguments {
     Talk talk;
 };
 
+struct RenderArguments {
+    std::string scene;
+    std::string picture;  ///< PNG or EXR to write
+    RenderOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -41,6 +50,7 @@ struct CompareArguments {
     std::string map;        ///< EXR to judge
     std::string reference;  ///< EXR taken as the truth
     std::string heat_map;   ///< PNG to write; empty: named after the two
+    double most = std::numeric_limits<double>::infinity();  ///< brighter texels of it are left out
     bool json = false;
 };
 
@@ -55,8 +65,8 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, ReferenceArguments, InfoArguments, CompareArguments,
-                               DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments = std::variant<BakeArguments, RenderArguments, ReferenceArguments, InfoArguments,
+                               CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

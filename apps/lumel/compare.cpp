@@ -50,7 +50,7 @@ int run(const CompareArguments& arguments)
 {
     const Image map = read_exr(arguments.map);
     const Image reference = read_exr(arguments.reference);
-    const MapError error = compare_maps(map, reference);
+    const MapError error = compare_maps(map, reference, arguments.most);
     const std::string picture =
         arguments.heat_map.empty() ? default_heat_map(arguments) : arguments.heat_map;
     write_png(picture, heat_map(map, reference));

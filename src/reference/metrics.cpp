@@ -15,6 +15,12 @@ namespace {
 /// ε of the relative mean squared error, as a share of the mean reference.
 constexpr double kRelativeFloor = 0.01;
 
+double brightest(const Image& image, std::size_t texel)
+{
+    const float* value = &image.values[texel * image.channels];
+    return *std::max_element(value, value + std::min(3, image.channels));
+}
+
 bool covered(const Image& image, std::size_t texel)
 {
     return image.channels < 4 || image.values[texel * image.channels + 3] > 0.0f;
@@ -40,14 +46,16 @@ struct Pairs {
     std::size_t texels = 0;
 };
 
-Pairs pair_up(const Image& map, const Image& reference)
+Pairs pair_up(const Image& map, const Image& reference,
+              double most = std::numeric_limits<double>::infinity())
 {
     check_sizes(map, reference);
     const int channels = std::min({3, map.channels, reference.channels});
     Pairs pairs;
     double sum = 0.0;
     for (std::size_t texel = 0; texel < std::size_t(map.width) * map.height; ++texel) {
-        if (!covered(map, texel) || !covered(reference, texel))
+        if (!covered(map, texel) || !covered(reference, texel) ||
+            brightest(reference, texel) > most)
             continue;
         ++pairs.texels;
         for (int c = 0; c < channels; ++c) {
@@ -91,9 +99,9 @@ std::array<float, 3> heat(double level)
 
 }  // namespace
 
-MapError compare_maps(const Image& map, const Image& reference)
+MapError compare_maps(const Image& map, const Image& reference, double most)
 {
-    const Pairs pairs = pair_up(map, reference);
+    const Pairs pairs = pair_up(map, reference, most);
     const double mean = pairs.mean_reference;
     const double floor = kRelativeFloor * mean;
     const double count = double(pairs.difference.size());

@@ -1,6 +1,8 @@
 #pragma once
 // How far a map is from another.
 
+#include <limits>
+
 #include "core/image.h"
 
 namespace lumel {
@@ -15,8 +17,10 @@ struct MapError {
     std::size_t texels = 0;  ///< compared
 };
 
-/// Throws Error{input} if sizes differ or nothing is covered in both.
-MapError compare_maps(const Image& map, const Image& reference);
+/// Texels whose reference is above `most` in a channel are left out: lamps in a picture.
+/// Throws Error{input} if sizes differ or nothing is left that is covered in both.
+MapError compare_maps(const Image& map, const Image& reference,
+                      double most = std::numeric_limits<double>::infinity());
 
 /// |d| / mean(reference) as a heat map, RGBA, display-referred; `full_scale` is the hottest.
 Image heat_map(const Image& map, const Image& reference, double full_scale = 0.1);

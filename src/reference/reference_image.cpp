@@ -1,7 +1,5 @@
 #include "reference/reference_image.h"
 
-#include <cmath>
-
 #include "reference/averages.h"
 #include "reference/path_tracer.h"
 
@@ -11,24 +9,6 @@ namespace {
 
 /// Key of the random numbers of a picture: those of maps are independent.
 constexpr std::uint32_t kImageKey = 1;
-
-struct Ray {
-    glm::vec3 origin;     ///< [m] world
-    glm::vec3 direction;  ///< unit
-};
-
-/// The ray through a place of the picture, (0, 0) at its top left and (1, 1) at its bottom right.
-Ray ray_through(const View& view, const glm::vec2& place)
-{
-    const glm::vec2 offset(view.aspect * (2.0f * place.x - 1.0f), 1.0f - 2.0f * place.y);
-    glm::vec3 origin(0.0f), direction(0.0f, 0.0f, -1.0f);
-    if (view.orthographic_height > 0.0f)
-        origin = glm::vec3(0.5f * view.orthographic_height * offset, 0.0f);
-    else
-        direction = glm::vec3(std::tan(0.5f * view.vertical_fov) * offset, -1.0f);
-    return {glm::vec3(view.transform * glm::vec4(origin, 1.0f)),
-            glm::normalize(glm::mat3(view.transform) * direction)};
-}
 
 }  // namespace
 

@@ -15,6 +15,14 @@ struct View {
     float orthographic_height = 0.0f;  ///< of the picture [m], > 0: orthographic
 };
 
+struct Ray {
+    glm::vec3 origin{0.0f};     ///< [m] world
+    glm::vec3 direction{0.0f};  ///< unit
+};
+
+/// The ray through a place of the picture, (0, 0) at its top left and (1, 1) at its bottom right.
+Ray ray_through(const View& view, const glm::vec2& place);
+
 /// What a camera of the scene shows.
 inline View view_of(const Camera& camera)
 {

@@ -21,7 +21,8 @@
 // averaged.
 //
 // Differs from the paper else:
-// - K shooters per iteration; of a shooter's K lobes one is sent, drawn by what it reflects.
+// - K shooters per iteration; of a shooter's K lobes, wide ones are represented by one of them,
+//   drawn by what it reflects.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
 //   diffusely; lobes between them go through the same form factors. In the paper all pairs have
@@ -61,7 +62,7 @@ constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
-    gpu::Slot::array};
+    gpu::Slot::array,   gpu::Slot::array};
 
 std::uint32_t batch_of(const SolverOptions& options)
 {
@@ -88,11 +89,14 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       batch_(batch_of(options)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
+      device_(&device),
       world_(&world),
+      lumels_(&lumels),
       kernels_(device),
       hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
       eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
       shots_(device, kMostGlossyBatch),
+      lobes_(device, kMostGlossyBatch * kMostLobes),
       surface_(device, view(surfaces_of(lumels))),
       gloss_(device, view(lumels.gloss)),
       albedo_table_(device, view(phong_albedo_table())),
@@ -136,9 +140,12 @@ void GlossyIllumination::step()
     select();
     hemicubes_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
     receive();
+    if (eye_)
+        eye_->receive(pacer_, hemicubes_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
     ++batches_[state_.iterations % 2];
     ++state_.iterations;
     state_.shots += batch_;
+    next_index_ += batch_;
     if (std::min(batches_[0], batches_[1]) >= 1.0f)
         figures_.ask(pacer_, state_.iterations,
                      [&](gpu::Commands& commands) { evaluate(commands); });
@@ -161,13 +168,14 @@ void GlossyIllumination::select()
                                     .count = count_,
                                     .shots = batch_,
                                     .before = state_.iterations > 0 ? batch_ : 0u,
-                                    .index = std::uint32_t(state_.shots),
+                                    .index = next_index_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(kernels_.select,
-                          {world_->lumels(), world_->pieces(), gloss_, emission_, last_, near_,
-                           power_.array(), eyes_[1 - now], albedo_table_, eyes_[now], shots_},
+                          {world_->lumels(), world_->pieces(), gloss_, diffuse_, last_,
+                           power_.array(), eyes_[1 - now], albedo_table_, eyes_[now], shots_,
+                           lobes_},
                           params, batch_);
     });
 }
@@ -208,7 +216,8 @@ void GlossyIllumination::receive()
                                        diffuse_,
                                        near_rows_.first(),
                                        near_rows_.column(),
-                                       near_rows_.factor()},
+                                       near_rows_.factor(),
+                                       lobes_},
                                       params, last - first);
                 });
     pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -244,6 +253,61 @@ std::vector<glm::vec3> GlossyIllumination::irradiance()
                 [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
     pacer_.finish();
     return irradiance_.download();
+}
+
+void GlossyIllumination::set_emission(std::span<const glm::vec3> emission)
+{
+    pacer_.finish();
+    const std::vector<glm::vec3> before = emission_.download();
+    emission_.upload(emission);
+    emitted_power_ = 0.0;
+    for (std::size_t i = 0; i < count_; ++i)
+        emitted_power_ += luminance(emission[i]) * double(lumels_->lumels[i].area);
+    // What was sent but for the emission will be sent again.
+    for (gpu::Array<glm::vec3>* sent : {&exitance_, &diffuse_}) {
+        std::vector<glm::vec3> values = sent->download();
+        for (std::size_t i = 0; i < count_; ++i)
+            values[i] += emission[i] - before[i];
+        sent->upload(values);
+    }
+    restart();
+    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+    });
+    next_index_ = 0;
+}
+
+std::vector<float> GlossyIllumination::brightness()
+{
+    // The lobes' albedo counts as 1: a density need not be exact.
+    const std::vector<glm::vec3> arriving = irradiance();
+    std::vector<float> brightness(count_, 0.0f);
+    double power = 0.0;
+    for (std::uint32_t j = 0; j < count_; ++j) {
+        const Lumel& lumel = lumels_->lumels[j];
+        const Gloss& gloss = lumels_->gloss[j];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        brightness[j] =
+            float(luminance(lumel.emission + (gloss.diffuse + gloss.specular) * arriving[j]));
+        power += double(brightness[j]) * double(lumel.area);
+    }
+    for (float& value : brightness)
+        value = power > 0.0 ? float(double(value) / power) : 0.0f;
+    return brightness;
+}
+
+void GlossyIllumination::look_at(std::span<const EyePoint> points,
+                                 std::span<const float> brightness, const EyeSampling& sampling)
+{
+    eye_.emplace(*device_, points, brightness, sampling);
+    next_index_ = 0;
+}
+
+std::vector<glm::vec3> GlossyIllumination::eye_radiance()
+{
+    pacer_.finish();
+    return eye_ ? eye_->radiance() : std::vector<glm::vec3>();
 }
 
 EnergyBalance GlossyIllumination::energy()

@@ -2,8 +2,11 @@
 // Stochastic glossy global illumination [BSS05]. See glossy.cpp.
 
 #include <array>
+#include <optional>
+#include <span>
 
 #include "gpu/pacer.h"
+#include "solve/eye_image.h"
 #include "solve/figures.h"
 #include "solve/glossy.shared.h"
 #include "solve/near_rows.h"
@@ -34,6 +37,23 @@ public:
     /// Of the solution so far. Waits for the device.
     EnergyBalance energy();
 
+    /// E [N] [lm/m²] from now on. The solution goes on from where it is and with the numbers it
+    /// began with, so that a small change of light changes the noise but little; its average
+    /// starts again. Waits for the device.
+    void set_emission(std::span<const glm::vec3> emission);
+
+    /// [N] 𝓛(B_j) / Φ [1/m²]: about the density with which shooters are drawn from now on. Waits
+    /// for the device.
+    std::vector<float> brightness();
+    /// From now on, every step also adds to the image of an eye that sees these points. The
+    /// solution goes on from where it is; the same numbers are drawn for every eye, so that two
+    /// close ones see nearly the same noise. Waits for the device.
+    void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
+                 const EyeSampling& sampling);
+    /// [P] reflected by the lobes toward the eye [cd/m²]; empty before look_at. Waits for the
+    /// device.
+    std::vector<glm::vec3> eye_radiance();
+
 private:
     struct Kernels {
         explicit Kernels(const gpu::Device& device);
@@ -54,11 +74,14 @@ private:
     float near_radius_;
     double emitted_power_ = 0.0;  ///< Σ A 𝓛(E) [lm]
 
+    const gpu::Device* device_;
     const World* world_;
+    const Lumels* lumels_;
     Kernels kernels_;
     Hemicubes hemicubes_;
     gpu::Array<Eye> eyes_[2];  ///< this iteration's and the one's before, by turns
     gpu::Array<GlossyShot> shots_;
+    gpu::Array<GlossyLobe> lobes_;    ///< [K][kMostLobes]
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
     gpu::Array<Gloss> gloss_;         ///< [N]
     gpu::Array<float> albedo_table_;  ///< phong_albedo_table
@@ -70,11 +93,13 @@ private:
     gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;
+    std::optional<EyeImage> eye_;
     NearRows near_rows_;
     PowerPyramid power_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
+    std::uint32_t next_index_ = 0;    ///< of the next shooter in the random sequence
     std::array<float, 2> batches_{};  ///< iterations in sums, per half
 };
 

@@ -31,9 +31,11 @@ layout(binding = 13, scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[];
 layout(binding = 14, scalar) readonly buffer NearFirst { uint near_first[]; };
 layout(binding = 15, scalar) readonly buffer NearColumn { uint near_column[]; };
 layout(binding = 16, scalar) readonly buffer NearFactor { float near_factors[]; };
+layout(binding = 17, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
 
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"
+#include "solve/glossy.lobes.glsl"
 #include "solve/receiver.glsl"
 #include "visibility/sees.glsl"
 
@@ -51,25 +53,25 @@ float near_factor(uint i, uint j)
     return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
 }
 
-// The lobe as the whole lumel sees it: a narrow one is averaged over a grid of points on a square
-// as large as the lumel, shifted with the receiving point.
+// The lobes as the whole lumel sees them: narrow ones are averaged over a grid of points on a
+// square as large as the lumel, shifted with the receiving point.
 const int kLobeGrid = 4;
-float mean_lobe(GlossyShot shot, Eye eye, Lumel lumel, LumelPoint x)
+vec3 mean_lobes(uint k, GlossyShot shot, Eye eye, Lumel lumel, LumelPoint x)
 {
     const vec3 d = x.position - eye.position;
     if (shot.shininess * lumel.size * lumel.size < dot(d, d))
-        return phong_lobe(shot.toward, normalize(d), eye.normal, shot.shininess);
+        return lobes_toward(k, shot, eye, normalize(d));
     const vec3 side = abs(x.normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const vec3 u = normalize(cross(side, x.normal)), v = cross(x.normal, u);
     const vec3 from = x.position - lumel.position;
     const float cell = lumel.size / float(kLobeGrid);
     const vec2 shift = fract(vec2(dot(from, u), dot(from, v)) / cell) * cell - 0.5 * lumel.size;
-    float sum = 0.0;
+    vec3 sum = vec3(0.0);
     for (int a = 0; a < kLobeGrid; ++a)
         for (int b = 0; b < kLobeGrid; ++b) {
             const vec2 at = shift + cell * vec2(a, b);
             const vec3 way = lumel.position + at.x * u + at.y * v - eye.position;
-            sum += phong_lobe(shot.toward, normalize(way), eye.normal, shot.shininess);
+            sum += lobes_toward(k, shot, eye, normalize(way));
         }
     return sum / float(kLobeGrid * kLobeGrid);
 }
@@ -88,23 +90,19 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     const vec3 between = lumel.position - shot.centre;
     const float reach = p.near_radius * max(lumel.size, shot.size);
     const bool is_near = dot(between, between) < reach * reach;
-    if (shot.lumel == i || (is_near && shot.specular == vec3(0.0)))
+    if (shot.lumel == i || (is_near && shot.lobes == 0u))
         return vec3(0.0);
     const float r2 = dot(d, d);
     const vec3 way = d * inversesqrt(r2);
     cos_in = -dot(way, x.normal);
     if (is_near)  // π F_ij stands for the geometry and the visibility of all points
-        return shot.specular * phong_lobe(shot.toward, way, eye.normal, shot.shininess) *
-               near_factor(i, shot.lumel) / shot.disc;
-    const float lobe_here =
-        shot.specular != vec3(0.0) ? mean_lobe(shot, eye, lumel, x) : 0.0;
-    const vec3 lobe = shot.specular * lobe_here;
-
+        return lobes_toward(k, shot, eye, way) * near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
     if (!sees(p.hemicubes, k, d * frame, x.facing * frame))
         return vec3(0.0);
     const float disc = p.near_radius == 0.0 ? shot.disc : 0.0;
-    return (shot.diffuse + lobe) * (toward_i * toward_j / (r2 * (r2 + disc)));
+    const vec3 lobes = shot.lobes > 0u ? mean_lobes(k, shot, eye, lumel, x) : vec3(0.0);
+    return (shot.diffuse + lobes) * (toward_i * toward_j / (r2 * (r2 + disc)));
 }
 
 void main()

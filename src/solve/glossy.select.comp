@@ -5,22 +5,22 @@
 #include "solve/power_pyramid.glsl"
 
 // Draws the shooters of one iteration in proportion to their power ([BSS05] section 4.1) and
-// prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and the lobe
-// of one of the earlier shooters that lit them, drawn by what the lobe reflects.
+// prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and lobes of
+// the earlier shooters that lit them.
 
 layout(local_size_x = kGlossySelectGroup) in;
 layout(push_constant, scalar) uniform Params { GlossySelectParams p; };
 layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) readonly buffer Glosses { Gloss gloss[]; };
-layout(binding = 3, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 3, scalar) readonly buffer Diffuse { vec3 diffuse[]; };  // [N] exitance
 layout(binding = 4, scalar) readonly buffer Last { vec3 last[]; };   // [K][N] I of each shooter
-layout(binding = 5, scalar) readonly buffer Near { vec3 near[]; };   // [N] near light
-layout(binding = 6, scalar) readonly buffer Power { float power[]; };
-layout(binding = 7, scalar) readonly buffer Before { Eye before[]; };  // [K] earlier shooters
-layout(binding = 8, scalar) readonly buffer Table { float albedo_table[]; };
-layout(binding = 9, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 10, scalar) writeonly buffer Shots { GlossyShot shots[]; };
+layout(binding = 5, scalar) readonly buffer Power { float power[]; };
+layout(binding = 6, scalar) readonly buffer Before { Eye before[]; };  // [K] earlier shooters
+layout(binding = 7, scalar) readonly buffer Table { float albedo_table[]; };
+layout(binding = 8, scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(binding = 9, scalar) writeonly buffer Shots { GlossyShot shots[]; };
+layout(binding = 10, scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
 
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"
@@ -53,28 +53,31 @@ void main()
     const uint random = hash(hash(index ^ hash(p.seed)) + 1u);
     eyes[k] = make_eye(y.position, y.normal, random);
 
-    vec3 irradiance = vec3(0.0);
     float lobes = 0.0;
-    for (uint e = 0u; e < p.before; ++e) {
-        irradiance += last[e * p.count + j];
+    for (uint e = 0u; e < p.before; ++e)
         lobes += lobe_power(j, e, y);
-    }
-    const vec3 diffuse = emission[j] + g.diffuse * (irradiance + near[j]) +
-                         g.specular * near[j] * phong_mean_albedo(g.shininess);
     const float scale =
         drawn.probability > 0.0 ? lumel.area / (drawn.probability * float(p.shots)) : 0.0;
-    GlossyShot shot = GlossyShot(diffuse * scale / kPi, vec3(0.0), y.normal, lumel.position,
-                                 lumel.size, g.shininess,
-                                 lumel.area / kPi, j);
-    float rest = unit_float(hash(random)) * lobes;
-    for (uint e = 0u; e < p.before && lobes > 0.0; ++e) {
-        const float mine = lobe_power(j, e, y);
-        if (mine > 0.0 && rest < mine) {
-            shot.specular = g.specular * last[e * p.count + j] * (scale * lobes / mine);
-            shot.toward = normalize(before[e].position - y.position);
-            break;
-        }
-        rest -= mine;
-    }
+    GlossyShot shot = GlossyShot(diffuse[j] * scale / kPi, lumel.position, lumel.size, 0u,
+                                 g.shininess, lumel.area / kPi, j);
+    if (lobes > 0.0)
+        shot.lobes = g.shininess < kNarrowLobe ? 1u : min(p.before, kMostLobes);
     shots[k] = shot;
+
+    // As many lobes, drawn by what they reflect: one from each part of their sum.
+    const float part = lobes / float(max(shot.lobes, 1u));
+    const float start = unit_float(hash(random)) * part;
+    float below = 0.0;  // Σ of what the lobes before this one reflect
+    uint l = 0u;
+    for (uint earlier = 0u; earlier < p.before; ++earlier) {
+        const float mine = lobe_power(j, earlier, y);
+        const vec3 light = g.specular * last[earlier * p.count + j];
+        const vec3 toward = normalize(before[earlier].position - y.position);
+        below += mine;
+        for (; l < shot.lobes && start + float(l) * part < below; ++l)
+            lobes_sent[k * kMostLobes + l] = GlossyLobe(light * (scale * part / mine), toward);
+    }
+    // Rounding may have left the last one out.
+    for (; l < shot.lobes; ++l)
+        lobes_sent[k * kMostLobes + l] = GlossyLobe(vec3(0.0), y.normal);
 }

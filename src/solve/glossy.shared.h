@@ -10,16 +10,25 @@ LUMEL_CONST uint kGlossySelectGroup = 32u;
 LUMEL_CONST uint kGlossyReceiveGroup = 64u;
 LUMEL_CONST uint kMostGlossyBatch = 128u;  ///< K; eyes and shots fit 16 KiB uniform blocks
 
-/// What a shooter sends: radiance × A_j / (p_j K), in a diffuse part and a lobe.
+LUMEL_CONST uint kMostLobes = 64u;  ///< that a shooter sends
+/// Lobes of less shininess are wide: one of them says enough.
+LUMEL_CONST float kNarrowLobe = 32.0f;
+
+/// What a shooter sends: radiance × A_j / (p_j K), in a diffuse part and lobes.
 struct GlossyShot {
     vec3 diffuse;     ///< the same in all directions
-    vec3 specular;    ///< × phong_lobe(toward, ω)
-    vec3 toward;      ///< unit, to the earlier shooter whose light the lobe reflects
     vec3 centre;      ///< of the lumel [m], world
     float size;       ///< of the lumel [m]
-    float shininess;  ///< of the lobe
+    uint lobes;       ///< how many
+    float shininess;  ///< of all of them
     float disc;       ///< A_j / π [m²] added to r² where needed, [BSS05] Eq. (8)
     uint lumel;       ///< j
+};
+
+/// A lobe of a shooter: specular × phong_lobe(toward, ω).
+struct GlossyLobe {
+    vec3 specular;
+    vec3 toward;  ///< unit, to the earlier shooter whose light it reflects
 };
 
 /// Push constants of glossy.select.comp.

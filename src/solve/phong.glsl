@@ -1,16 +1,8 @@
-// The stretched Phong model [NNS99]; see phong.h. The includer declares `float albedo_table[]`.
+// The stretched Phong model [NNS99] with its albedo; see phong.h. The includer declares
+// `float albedo_table[]`.
 
+#include "solve/phong.lobe.glsl"
 #include "solve/phong.shared.h"
-
-// f_r without ρ_s, for ρ_d = 0. Unit vectors away from the surface; `normal` on their side.
-float phong_lobe(vec3 to_light, vec3 to_eye, vec3 normal, float shininess)
-{
-    const float cos_in = dot(normal, to_light), cos_out = dot(normal, to_eye);
-    const float mirrored = dot(2.0 * cos_in * normal - to_light, to_eye);
-    if (cos_in <= 0.0 || cos_out <= 0.0 || mirrored <= 0.0)
-        return 0.0;
-    return (shininess + 1.0) * (0.5 / kPi) * pow(mirrored, shininess) / max(cos_in, cos_out);
-}
 
 float albedo_row(float shininess)
 {

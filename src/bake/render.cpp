@@ -1,0 +1,191 @@
+#include "bake/render.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "bake/setting.h"
+#include "finish/finish.h"
+#include "output/image_files.h"
+#include "picture/lobe_rays.h"
+#include "picture/picture.h"
+#include "preview/view.h"
+#include "reference/reference_image.h"
+#include "solve/glossy.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kLargestPicture = 16384;  ///< side [pixels]
+
+bool is_exr(const std::string& path)
+{
+    return path.ends_with(".exr");
+}
+
+void check_name(const std::string& path)
+{
+    if (!is_exr(path) && !path.ends_with(".png"))
+        throw Error(ErrorKind::input, path, "should end in .png or .exr");
+}
+
+/// The view asked for, as wide as the picture.
+View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
+{
+    const int cameras = int(scene.cameras.size());
+    if (options.camera >= cameras)
+        throw Error(ErrorKind::input, "--camera " + std::to_string(options.camera),
+                    cameras == 0 ? "the scene has no cameras; leave it out and one is chosen"
+                                 : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
+    View view = options.camera >= 0 ? view_of(scene.cameras[std::size_t(options.camera)])
+                                    : choose_view(scene, rays);
+    if (options.height > 0)
+        view.aspect = float(options.width) / float(options.height);
+    else
+        options.height =
+            std::clamp(int(std::lround(float(options.width) / view.aspect)), 1, kLargestPicture);
+    return view;
+}
+
+/// What the lobes add at the points seen [G] [cd/m²].
+std::vector<glm::vec3> reflected(GlossyIllumination& solver, const Seen& seen,
+                                 const Setting& setting, const Surfaces& surfaces,
+                                 const LitScene& lit, const RenderOptions& options, Stages& stages)
+{
+    stages.begin("shooting for the eye");
+    const EyeSampling sampling{seen.first, options.shots, options.rays};
+    const std::vector<float> brightness = solver.brightness();
+    solver.look_at(seen.glossy, brightness, sampling);
+    const std::uint64_t start = solver.state().shots, end = start + options.shots;
+    while (solver.state().shots < end &&
+           stages.tell(double(solver.state().shots - start) / double(options.shots),
+                       solver.state().shots, solver.state().error))
+        solver.step();
+    std::vector<glm::vec3> radiance = solver.eye_radiance();
+
+    stages.begin("following lobes");
+    const LobeRayOptions lobes{.rays = options.rays,
+                               .shooters = options.shots > 0 ? sampling.shooters() : 0.0f,
+                               .seed = options.bake.solver.seed};
+    const std::vector<glm::vec3> along =
+        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, brightness, lobes);
+    for (std::size_t g = 0; g < radiance.size(); ++g)
+        radiance[g] += along[g];
+    return radiance;
+}
+
+void write_picture(const std::string& path, const Image& image)
+{
+    if (is_exr(path))
+        write_exr(path, image, Precision::float32,
+                  {{"quantity", "radiance"},
+                   {"unit", "cd/m2"},
+                   {"colorSpace", "linear Rec. 709"},
+                   {"software", "lumel " LUMEL_VERSION}});
+    else
+        write_png(path, tone_map(image));
+}
+
+std::string report_of(const RenderSummary& summary, const Stages& stages,
+                      const gpu::StageTimes& gpu_times)
+{
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (const StageTime& stage : stages.times())
+        parts.push_back({{"stage", stage.name},
+                         {"wall_seconds", stage.wall_seconds},
+                         {"cpu_seconds", stage.cpu_seconds}});
+    nlohmann::ordered_json report = {{"width", summary.width},
+                                     {"height", summary.height},
+                                     {"shots", summary.shots},
+                                     {"interrupted", summary.interrupted},
+                                     {"wall_seconds", summary.seconds},
+                                     {"stages", parts},
+                                     {"gpu_ms", gpu_times}};
+    if (summary.error >= 0.0)
+        report["estimated_error"] = summary.error;
+    return report.dump(2);
+}
+
+Rendered finished(Image image, RenderSummary summary, const Stages& stages,
+                  const gpu::StageTimes& gpu_times)
+{
+    summary.width = image.width;
+    summary.height = image.height;
+    summary.seconds = stages.seconds();
+    summary.report = report_of(summary, stages, gpu_times);
+    return {std::move(image), std::move(summary)};
+}
+
+Rendered path_trace(const Scene& scene, RenderOptions options, Stages& stages)
+{
+    const RayScene rays(scene);
+    const View view = view_for(scene, rays, options);
+    stages.begin("path tracing");
+    RenderSummary summary;
+    const ReferenceImageOptions reference{.width = options.width,
+                                          .height = options.height,
+                                          .samples_per_pixel = options.paths,
+                                          .seed = options.bake.solver.seed};
+    Image image = reference_image(scene, rays, view, reference, [&](double fraction) {
+        summary.interrupted = !stages.tell(fraction);
+        return !summary.interrupted;
+    });
+    stages.end();
+    return finished(std::move(image), std::move(summary), stages, {});
+}
+
+Rendered shoot(Scene scene, RenderOptions options, Stages& stages)
+{
+    const gpu::Device device(options.bake.device);
+    const Setting setting(std::move(scene), device, options.bake, stages);
+    const Prepared& world = setting.world;
+    const View view = view_for(world.scene, world.rays, options);
+    GlossyIllumination solver(device, setting.resident, world.lumels, setting.near,
+                              options.bake.solver);
+    const SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
+
+    stages.begin("looking");
+    const Image map = finish_map(world.scene, world.atlas, world.lumels, solver.irradiance());
+    const Surfaces surfaces(world.scene);
+    const LitScene lit(world.scene, world.atlas, world.lumels, map);
+    const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces);
+    Image image =
+        compose(seen, lit, reflected(solver, seen, setting, surfaces, lit, options, stages));
+    stages.end();
+    if (const std::string messages = device.validation_messages(); !messages.empty())
+        throw Error(ErrorKind::device, "Vulkan validation", messages);
+    return finished(std::move(image),
+                    {.shots = solver.state().shots,
+                     .error = solver.state().error,
+                     .interrupted = !run.finished},
+                    stages, solver.times());
+}
+
+Rendered render(Scene scene, RenderOptions options, Stages& stages)
+{
+    options.bake.solver.method = "glossy";
+    return options.paths > 0 ? path_trace(scene, options, stages)
+                             : shoot(std::move(scene), options, stages);
+}
+
+}  // namespace
+
+Rendered render(Scene scene, const RenderOptions& options, const ProgressFunction& progress)
+{
+    Stages stages(progress);
+    return render(std::move(scene), options, stages);
+}
+
+RenderSummary render(const std::string& scene_path, const std::string& picture_path,
+                     const RenderOptions& options, const ProgressFunction& progress)
+{
+    check_name(picture_path);
+    Stages stages(progress);
+    stages.begin("reading");
+    const Rendered rendered = render(read_gltf(scene_path, MaterialModel::glossy), options, stages);
+    write_picture(picture_path, rendered.image);
+    return rendered.summary;
+}
+
+}  // namespace lumel

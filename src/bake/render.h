@@ -1,0 +1,45 @@
+#pragma once
+// lumel render: a picture of a scene from one of its cameras, gloss and all.
+
+#include <cstdint>
+#include <string>
+
+#include "bake/bake.h"
+#include "core/image.h"
+
+namespace lumel {
+
+struct RenderOptions {
+    BakeOptions bake;            ///< the solution the picture is made from; its solver is `glossy`
+    int camera = -1;             ///< index into the file's cameras; -1: the first, or one chosen
+    int width = 1280;            ///< [pixels]
+    int height = 0;              ///< [pixels]; 0: as the camera's aspect says
+    std::uint32_t sets = 4;      ///< places looked at within a pixel
+    std::uint64_t shots = 1024;  ///< shooters for the eye, after those of the solution
+    std::uint32_t rays = 16;     ///< along the lobe at each place
+    int paths = 0;               ///< > 0: path traced on the CPU instead, with so many per pixel
+};
+
+struct RenderSummary {
+    int width = 0;  ///< [pixels]
+    int height = 0;
+    std::uint64_t shots = 0;  ///< shooters in all
+    double error = -1.0;      ///< estimated, of the irradiance
+    double seconds = 0.0;
+    bool interrupted = false;
+    std::string report;  ///< JSON
+};
+
+struct Rendered {
+    Image image;  ///< radiance [cd/m²], RGBA
+    RenderSummary summary;
+};
+
+/// A picture of a scene that was read with MaterialModel::glossy. Throws Error.
+Rendered render(Scene scene, const RenderOptions& options, const ProgressFunction& progress = {});
+
+/// The same, written to a file: radiance where the name ends in .exr, a tone-mapped .png else.
+RenderSummary render(const std::string& scene_path, const std::string& picture_path,
+                     const RenderOptions& options, const ProgressFunction& progress = {});
+
+}  // namespace lumel

@@ -1,0 +1,36 @@
+#pragma once
+// A scene made ready for a solver, and a solver let run, as the stages that a user sees.
+
+#include <vector>
+
+#include "bake/bake.h"
+#include "bake/prepare.h"
+#include "bake/stages.h"
+
+namespace lumel {
+
+/// Says what the scene's reader and the atlas had to say.
+void tell_user(const Prepared& world);
+
+/// A scene on a device with all that a solver is made of. Stays where it was made.
+struct Setting {
+    /// Throws Error.
+    Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages);
+    Setting(const Setting&) = delete;
+    Setting& operator=(const Setting&) = delete;
+
+    Prepared world;
+    NearField near;
+    World resident;
+};
+
+/// How a solve went.
+struct SolveRun {
+    bool finished = false;  ///< false: stopped by the caller
+    std::vector<ConvergencePoint> curve;
+};
+
+/// Runs a solver up to the limits in its options, as the stage "solving".
+SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages);
+
+}  // namespace lumel

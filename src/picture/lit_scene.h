@@ -1,0 +1,35 @@
+#pragma once
+// A solved scene as rays meet it.
+
+#include <cstdint>
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "core/image.h"
+#include "rays/ray_scene.h"
+
+namespace lumel {
+
+/// Looks up a scene's lightmap and lumels where a ray hit. What it is made of must outlive it.
+class LitScene {
+public:
+    /// map: the finished irradiance [lx].
+    LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& map);
+
+    /// H [lx], bilinear.
+    glm::vec3 irradiance(const RayHit& hit) const;
+
+    static constexpr std::uint32_t kNone = ~0u;
+    /// Index of the lumel, on the side that was hit; kNone where there is none.
+    std::uint32_t lumel(const RayHit& hit) const;
+
+private:
+    glm::vec2 place(const RayHit& hit) const;
+
+    const Atlas* atlas_;
+    const Image* map_;
+    std::vector<std::size_t> first_surface_;   ///< [instances]
+    std::vector<std::uint32_t> front_, back_;  ///< [height][width] lumel of each texel
+};
+
+}  // namespace lumel

@@ -1,0 +1,28 @@
+#pragma once
+// Light that rays along the lobes of glossy points find: the other way to choose y, by what x
+// reflects instead of by what y sends. Shooters (solve/eye_image.h) are good at wide lobes and
+// lamps, rays at narrow lobes.
+
+#include <span>
+#include <vector>
+
+#include "picture/lit_scene.h"
+#include "reference/surfaces.h"
+#include "solve/eye_image.h"
+
+namespace lumel {
+
+struct LobeRayOptions {
+    std::uint32_t rays = 4;  ///< n_B, for each point
+    float shooters = 0.0f;   ///< n_A that a point met on the device; 0: rays do it alone
+    std::uint32_t seed = 1;
+};
+
+/// [P] cd/m² toward the eye, weighed against the shooters by the balance heuristic [VG95].
+/// brightness [N]: 𝓛(B_j) / Φ [1/m²], as the shooters were weighed with.
+std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
+                                          const Surfaces& surfaces, const LitScene& lit,
+                                          std::span<const float> brightness,
+                                          const LobeRayOptions& options);
+
+}  // namespace lumel

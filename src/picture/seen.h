@@ -1,0 +1,37 @@
+#pragma once
+// What an eye sees through the pixels of a picture.
+
+#include <cstdint>
+#include <vector>
+
+#include "rays/ray_scene.h"
+#include "reference/surfaces.h"
+#include "scene/view.h"
+#include "solve/eye_image.h"
+
+namespace lumel {
+
+/// A point of a surface behind a pixel.
+struct SeenPoint {
+    RayHit hit;
+    glm::vec3 diffuse{0.0f};    ///< ρ_d
+    glm::vec3 luminance{0.0f};  ///< emitted [cd/m²]
+    bool there = false;         ///< false: nothing is seen
+};
+
+/// S points behind each pixel, at the same places within all of them.
+struct Seen {
+    int width = 0;
+    int height = 0;
+    std::uint32_t sets = 0;            ///< S
+    std::vector<SeenPoint> points;     ///< [S][height][width]
+    std::vector<EyePoint> glossy;      ///< [G] those with gloss, in the same order
+    std::vector<std::uint32_t> index;  ///< [G] into points
+    std::vector<std::uint32_t> first;  ///< [S + 1] where each set begins among the glossy
+};
+
+/// Follows a ray through S places of every pixel, S = 1 or more.
+Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
+          const Surfaces& surfaces);
+
+}  // namespace lumel
