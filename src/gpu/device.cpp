@@ -288,7 +288,11 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     info_ = infos[chosen];
     queue_family_ = std::uint32_t(find_queue_family(physical_));
 
+    Features have;
+    vkGetPhysicalDeviceFeatures2(physical_, &have.core);
+    can_tessellate_ = have.core.features.tessellationShader == VK_TRUE;
     Features features;
+    features.core.features.tessellationShader = have.core.features.tessellationShader;
     features.v13.dynamicRendering = VK_TRUE;
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;

@@ -45,6 +45,7 @@ public:
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
     std::uint32_t max_image_side() const { return max_image_side_; }
     std::uint32_t max_groups() const { return max_groups_; }  ///< of one dispatch
+    bool can_tessellate() const { return can_tessellate_; }   ///< has tessellation shaders
     std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
 
     /// Time between two timestamps, which may wrap round [ms].
@@ -75,6 +76,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
+    bool can_tessellate_ = false;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
     mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;

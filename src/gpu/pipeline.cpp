@@ -28,6 +28,14 @@ void set_name(const Device& device, VkPipeline pipeline, const char* name)
     vkSetDebugUtilsObjectNameEXT(device.handle(), &info);
 }
 
+VkShaderStageFlags stages_of(const RasterState& state)
+{
+    const VkShaderStageFlags tessellation =
+        VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT | VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT;
+    return VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
+           (state.control.empty() ? 0u : tessellation);
+}
+
 VkFormat stream_format(std::uint32_t components)
 {
     constexpr VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
@@ -93,17 +101,23 @@ Layout::Layout(Layout&& other) noexcept
 }
 
 Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
-               std::uint32_t param_bytes, std::uint32_t group_size)
+               std::uint32_t param_bytes, std::uint32_t group_size, std::uint32_t variant)
     : layout_(device, slots, param_bytes, VK_SHADER_STAGE_COMPUTE_BIT),
       group_size_(group_size)
 {
     const VkShaderModule module = make_module(device, spirv);
+    const VkSpecializationMapEntry constant{.constantID = 0, .size = sizeof(variant)};
+    const VkSpecializationInfo specialization{.mapEntryCount = 1,
+                                              .pMapEntries = &constant,
+                                              .dataSize = sizeof(variant),
+                                              .pData = &variant};
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   .stage = VK_SHADER_STAGE_COMPUTE_BIT,
                   .module = module,
-                  .pName = "main"},
+                  .pName = "main",
+                  .pSpecializationInfo = &specialization},
         .layout = layout_.handle()};
     const VkResult result =
         vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
@@ -133,21 +147,21 @@ Kernel::Kernel(Kernel&& other) noexcept
 }
 
 Raster::Raster(const Device& device, const char* name, const RasterState& state)
-    : layout_(device, state.slots, state.param_bytes,
-              VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)
+    : layout_(device, state.slots, state.param_bytes, stages_of(state))
 {
-    const VkShaderModule vertex = make_module(device, state.vertex);
-    const VkShaderModule fragment =
-        state.fragment.empty() ? VK_NULL_HANDLE : make_module(device, state.fragment);
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_VERTEX_BIT,
-         .module = vertex,
-         .pName = "main"},
-        {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-         .stage = VK_SHADER_STAGE_FRAGMENT_BIT,
-         .module = fragment,
-         .pName = "main"}};
+    const bool tessellated = !state.control.empty();
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    const auto add_stage = [&](VkShaderStageFlagBits stage, Spirv spirv) {
+        if (!spirv.empty())
+            stages.push_back({.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                              .stage = stage,
+                              .module = make_module(device, spirv),
+                              .pName = "main"});
+    };
+    add_stage(VK_SHADER_STAGE_VERTEX_BIT, state.vertex);
+    add_stage(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, state.control);
+    add_stage(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, state.evaluation);
+    add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, state.fragment);
 
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> attributes;
@@ -164,7 +178,11 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
         .pVertexAttributeDescriptions = attributes.data()};
     const VkPipelineInputAssemblyStateCreateInfo assembly{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
-        .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+        .topology =
+            tessellated ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
+    const VkPipelineTessellationStateCreateInfo tessellation{
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO,
+        .patchControlPoints = 3};
     const VkPipelineViewportStateCreateInfo viewport{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO,
         .viewportCount = 1,
@@ -197,25 +215,25 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
         .colorAttachmentCount = state.color ? 1u : 0u,
         .pColorAttachmentFormats = &color_format,
         .depthAttachmentFormat = format_of(Pixel::depth)};
-    const VkGraphicsPipelineCreateInfo info{.sType =
-                                                VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
-                                            .pNext = &rendering,
-                                            .stageCount = fragment ? 2u : 1u,
-                                            .pStages = stages,
-                                            .pVertexInputState = &vertices,
-                                            .pInputAssemblyState = &assembly,
-                                            .pViewportState = &viewport,
-                                            .pRasterizationState = &rasterization,
-                                            .pMultisampleState = &multisample,
-                                            .pDepthStencilState = &depth,
-                                            .pColorBlendState = &blend,
-                                            .pDynamicState = &dynamic,
-                                            .layout = layout_.handle()};
+    const VkGraphicsPipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO,
+        .pNext = &rendering,
+        .stageCount = std::uint32_t(stages.size()),
+        .pStages = stages.data(),
+        .pVertexInputState = &vertices,
+        .pInputAssemblyState = &assembly,
+        .pTessellationState = tessellated ? &tessellation : nullptr,
+        .pViewportState = &viewport,
+        .pRasterizationState = &rasterization,
+        .pMultisampleState = &multisample,
+        .pDepthStencilState = &depth,
+        .pColorBlendState = &blend,
+        .pDynamicState = &dynamic,
+        .layout = layout_.handle()};
     const VkResult result =
         vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
-    vkDestroyShaderModule(device.handle(), vertex, nullptr);
-    if (fragment)
-        vkDestroyShaderModule(device.handle(), fragment, nullptr);
+    for (const VkPipelineShaderStageCreateInfo& stage : stages)
+        vkDestroyShaderModule(device.handle(), stage.module, nullptr);
     check(result, "vkCreateGraphicsPipelines");
     set_name(device, pipeline_, name);
 }

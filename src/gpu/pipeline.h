@@ -43,11 +43,12 @@ private:
     std::vector<Slot> slots_;
 };
 
-/// A compute shader. `name` labels it in debuggers.
+/// A compute shader. `name` labels it in debuggers. `variant` becomes its specialization constant
+/// 0, if it has one.
 class Kernel {
 public:
     Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
-           std::uint32_t param_bytes, std::uint32_t group_size);
+           std::uint32_t param_bytes, std::uint32_t group_size, std::uint32_t variant = 0);
     /// All bindings are arrays.
     Kernel(const Device& device, const char* name, Spirv spirv, std::size_t array_count,
            std::uint32_t param_bytes, std::uint32_t group_size);
@@ -72,6 +73,8 @@ struct VertexStream {
 
 struct RasterState {
     Spirv vertex;
+    Spirv control,
+        evaluation;  ///< of tessellated triangles (Device::can_tessellate); or both empty
     Spirv fragment;  ///< empty: depth only
     std::span<const Slot> slots;
     std::uint32_t param_bytes = 0;
