@@ -24,8 +24,7 @@ std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
 {
     const std::uint64_t lumels = world.lumels.lumels.size();
     constexpr std::uint64_t vectors_per_lumel = 15;  // the vec3 arrays of StochasticRadiosity
-    const std::uint64_t pixels =
-        std::uint64_t(solver.hemicube) * std::uint64_t(solver.hemicube) * 3;
+    const std::uint64_t pixels = view_pixels(solver.projection, std::uint32_t(solver.hemicube));
     std::uint64_t bytes = lumels * (2 * sizeof(Lumel) + sizeof(glm::vec4) +
                                     vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float));
     bytes += world.lumels.pieces.size() * 2 * sizeof(Piece);

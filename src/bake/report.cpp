@@ -46,6 +46,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& 
     return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
             {"sampling", text_of(solver.rule)},
             {"batch", std::to_string(solver.batch)},
+            {"projection", solver.projection == Projection::hemisphere ? "hemisphere" : "hemicube"},
             {"hemicube", std::to_string(solver.hemicube)},
             {"shots", std::to_string(solver.max_shots)},
             {"time", fmt::format("{}", solver.max_seconds)},

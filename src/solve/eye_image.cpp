@@ -16,18 +16,19 @@ constexpr std::uint32_t kProbePoints = 4096;
 
 }  // namespace
 
-EyeImage::EyeImage(const gpu::Device& device, std::span<const EyePoint> points,
-                   std::span<const float> brightness, const EyeSampling& sampling)
+EyeImage::EyeImage(const gpu::Device& device, Projection projection,
+                   std::span<const EyePoint> points, std::span<const float> brightness,
+                   const EyeSampling& sampling)
     : sampling_(sampling),
       points_(device, points),
       brightness_(device, brightness),
       sums_(device, std::span<const glm::vec3>(std::vector<glm::vec3>(points.size()))),
       receive_(device, "eye_image.receive", kReceiveSpirv, kReceiveSlots, sizeof(EyeParams),
-               kEyeGroup)
+               kEyeGroup, std::uint32_t(projection))
 {
 }
 
-void EyeImage::receive(gpu::Pacer& pacer, const Hemicubes& hemicubes, const gpu::Array<Eye>& eyes,
+void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Array<Eye>& eyes,
                        const gpu::Array<GlossyShot>& shots, const gpu::Array<GlossyLobe>& lobes,
                        std::uint32_t count)
 {
@@ -35,24 +36,20 @@ void EyeImage::receive(gpu::Pacer& pacer, const Hemicubes& hemicubes, const gpu:
     const std::uint32_t begin = sampling_.first[set], end = sampling_.first[set + 1];
     if (begin == end)
         return;
-    EyeParams params{.hemicubes = hemicubes.layout(),
+    EyeParams params{.views = views.layout(),
                      .shots = count,
                      .shooters = sampling_.shooters(),
                      .rays = float(sampling_.rays)};
-    pacer.work("eye", end - begin, kProbePoints,
-               [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                   params.first = begin + first;
-                   params.last = begin + last;
-                   commands.dispatch(receive_,
-                                     {points_,
-                                      eyes,
-                                      shots,
-                                      {hemicubes.image(), hemicubes.sampler()},
-                                      brightness_,
-                                      sums_,
-                                      lobes},
-                                     params, last - first);
-               });
+    pacer.work(
+        "eye", end - begin, kProbePoints,
+        [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+            params.first = begin + first;
+            params.last = begin + last;
+            commands.dispatch(
+                receive_,
+                {points_, eyes, shots, {views.image(), views.sampler()}, brightness_, sums_, lobes},
+                params, last - first);
+        });
 }
 
 std::vector<glm::vec3> EyeImage::radiance() const

@@ -7,7 +7,7 @@
 #include "gpu/pacer.h"
 #include "solve/eye_image.shared.h"
 #include "solve/glossy.shared.h"
-#include "visibility/hemicube.h"
+#include "visibility/eye_views.h"
 
 namespace lumel {
 
@@ -28,11 +28,11 @@ struct EyeSampling {
 class EyeImage {
 public:
     /// brightness [N]: 𝓛(B_j) / Φ [1/m²], the density with which shooters are about to be drawn.
-    EyeImage(const gpu::Device& device, std::span<const EyePoint> points,
+    EyeImage(const gpu::Device& device, Projection projection, std::span<const EyePoint> points,
              std::span<const float> brightness, const EyeSampling& sampling);
 
     /// Takes the light of an iteration's shooters.
-    void receive(gpu::Pacer& pacer, const Hemicubes& hemicubes, const gpu::Array<Eye>& eyes,
+    void receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Array<Eye>& eyes,
                  const gpu::Array<GlossyShot>& shots, const gpu::Array<GlossyLobe>& lobes,
                  std::uint32_t count);
 

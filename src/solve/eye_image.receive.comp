@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Params { EyeParams p; };
 layout(binding = 0, scalar) readonly buffer Points { EyePoint points[]; };
 layout(binding = 1, scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
 layout(binding = 2, scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
-layout(binding = 3) uniform sampler2D hemicubes;
+layout(binding = 3) uniform sampler2D views;
 layout(binding = 4, scalar) readonly buffer Density { float density[]; };  // [N] 𝓛(B_j)/Φ [1/m²]
 layout(binding = 5, scalar) buffer Sums { vec3 sums[]; };                  // [P] C
 layout(binding = 6, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
@@ -44,7 +44,7 @@ vec3 reflect_to_eye(EyePoint x, uint k)
     if (lobe <= 0.0)
         return vec3(0.0);
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
-    if (!sees(p.hemicubes, k, d * frame, x.facing * frame))
+    if (!sees(p.views, k, d * frame, x.facing * frame))
         return vec3(0.0);
 
     const GlossyShot shot = shots[k];

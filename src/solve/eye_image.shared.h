@@ -1,6 +1,6 @@
 #ifndef LUMEL_SOLVE_EYE_IMAGE_SHARED_H
 #define LUMEL_SOLVE_EYE_IMAGE_SHARED_H
-#include "visibility/hemicube.shared.h"
+#include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kEyeGroup = 64u;
@@ -17,7 +17,7 @@ struct EyePoint {
 
 /// Push constants of eye_image.receive.comp.
 struct EyeParams {
-    HemicubeLayout hemicubes;
+    EyeViewLayout views;
     uint first;  ///< points [first, last) of this dispatch
     uint last;
     uint shots;      ///< K

@@ -71,11 +71,11 @@ std::uint32_t batch_of(const SolverOptions& options)
 
 }  // namespace
 
-GlossyIllumination::Kernels::Kernels(const gpu::Device& device)
+GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection projection)
     : select(device, "glossy.select", kSelectSpirv, 11, sizeof(GlossySelectParams),
              kGlossySelectGroup),
       receive(device, "glossy.receive", kReceiveSpirv, kReceiveSlots, sizeof(GlossyReceiveParams),
-              kGlossyReceiveGroup),
+              kGlossyReceiveGroup, std::uint32_t(projection)),
       evaluate(device, "glossy.evaluate", kEvaluateSpirv, 5, sizeof(GlossyEvaluateParams),
                kSumGroup)
 {
@@ -92,8 +92,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       device_(&device),
       world_(&world),
       lumels_(&lumels),
-      kernels_(device),
-      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
+      kernels_(device, options.projection),
+      views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
       eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
       shots_(device, kMostGlossyBatch),
       lobes_(device, kMostGlossyBatch * kMostLobes),
@@ -113,7 +113,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       power_(device, count_),
       pacer_(device)
 {
-    batch_ = std::min(batch_, hemicubes_.capacity());
+    batch_ = std::min(batch_, views_.capacity());
     for (const Lumel& lumel : lumels.lumels)
         if (!(lumel.flags & kLumelBuried))
             emitted_power_ += luminance(lumel.emission) * double(lumel.area);
@@ -138,10 +138,10 @@ void GlossyIllumination::step()
         std::end(kRestarts))
         restart();
     select();
-    hemicubes_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
+    views_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
     receive();
     if (eye_)
-        eye_->receive(pacer_, hemicubes_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
+        eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
     ++batches_[state_.iterations % 2];
     ++state_.iterations;
     state_.shots += batch_;
@@ -187,7 +187,7 @@ void GlossyIllumination::receive()
         pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
             near_rows_.light(commands, diffuse_, near_);
         });
-    GlossyReceiveParams params{.hemicubes = hemicubes_.layout(),
+    GlossyReceiveParams params{.views = views_.layout(),
                                .count = count_,
                                .shots = batch_,
                                .half_ = std::uint32_t(state_.iterations % 2),
@@ -204,7 +204,7 @@ void GlossyIllumination::receive()
                                        world_->pieces(),
                                        eyes,
                                        shots_,
-                                       {hemicubes_.image(), hemicubes_.sampler()},
+                                       {views_.image(), views_.sampler()},
                                        gloss_,
                                        emission_,
                                        near_,
@@ -300,7 +300,7 @@ std::vector<float> GlossyIllumination::brightness()
 void GlossyIllumination::look_at(std::span<const EyePoint> points,
                                  std::span<const float> brightness, const EyeSampling& sampling)
 {
-    eye_.emplace(*device_, points, brightness, sampling);
+    eye_.emplace(*device_, options_.projection, points, brightness, sampling);
     next_index_ = 0;
 }
 

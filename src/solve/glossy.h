@@ -12,7 +12,7 @@
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
-#include "visibility/hemicube.h"
+#include "visibility/eye_views.h"
 
 namespace lumel {
 
@@ -56,7 +56,7 @@ public:
 
 private:
     struct Kernels {
-        explicit Kernels(const gpu::Device& device);
+        Kernels(const gpu::Device& device, Projection projection);
         gpu::Kernel select, receive, evaluate;
     };
 
@@ -78,7 +78,7 @@ private:
     const World* world_;
     const Lumels* lumels_;
     Kernels kernels_;
-    Hemicubes hemicubes_;
+    EyeViews views_;
     gpu::Array<Eye> eyes_[2];  ///< this iteration's and the one's before, by turns
     gpu::Array<GlossyShot> shots_;
     gpu::Array<GlossyLobe> lobes_;    ///< [K][kMostLobes]

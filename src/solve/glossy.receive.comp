@@ -18,7 +18,7 @@ layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
 layout(binding = 3, scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
-layout(binding = 4) uniform sampler2D hemicubes;
+layout(binding = 4) uniform sampler2D views;
 layout(binding = 5, scalar) readonly buffer Glosses { Gloss gloss[]; };
 layout(binding = 6, scalar) readonly buffer Emission { vec3 emission[]; };
 layout(binding = 7, scalar) readonly buffer Near { vec3 near[]; };
@@ -98,7 +98,7 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     if (is_near)  // π F_ij stands for the geometry and the visibility of all points
         return lobes_toward(k, shot, eye, way) * near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
-    if (!sees(p.hemicubes, k, d * frame, x.facing * frame))
+    if (!sees(p.views, k, d * frame, x.facing * frame))
         return vec3(0.0);
     const float disc = p.near_radius == 0.0 ? shot.disc : 0.0;
     const vec3 lobes = shot.lobes > 0u ? mean_lobes(k, shot, eye, lumel, x) : vec3(0.0);

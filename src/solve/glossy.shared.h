@@ -3,7 +3,7 @@
 #include "atlas/lumel.shared.h"
 #include "solve/figures.shared.h"
 #include "solve/power_pyramid.shared.h"
-#include "visibility/hemicube.shared.h"
+#include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kGlossySelectGroup = 32u;
@@ -44,7 +44,7 @@ struct GlossySelectParams {
 
 /// Push constants of glossy.receive.comp.
 struct GlossyReceiveParams {
-    HemicubeLayout hemicubes;
+    EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint count;  ///< N

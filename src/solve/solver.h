@@ -12,6 +12,7 @@
 #include "gpu/pacer.h"
 #include "nearfield/near_field.h"
 #include "reference/reference.h"
+#include "visibility/eye_views.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -26,8 +27,9 @@ struct SolverOptions {
     Scheme scheme = Scheme::phased;
     SampleRule rule = SampleRule::area;
     std::uint32_t seed = 1;
-    int batch = 16;               ///< K, shooters per iteration
-    int hemicube = 256;           ///< side of the front face [pixels]
+    int batch = 16;  ///< K, shooters per iteration
+    Projection projection = Projection::hemicube;
+    int hemicube = 256;           ///< side of the front face [pixels], see EyeViews
     std::uint64_t max_shots = 0;  ///< 0: no limit
     double max_seconds = 0.0;     ///< of solving, 0: no limit
     double target_error = 0.02;   ///< estimated relative error to stop at, 0: never

@@ -5,7 +5,7 @@
 //           the GPU. 2005.
 //
 // Solves  B = E + ρ T B  by stochastic iteration: T is replaced by a random T* with E[T* B] = T B
-// that lets a few points shoot through hemicubes, and the iterated values are averaged:
+// that lets a few points shoot at all that they see, and the iterated values are averaged:
 //
 //     repeat
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(X_j) A_j          select
@@ -14,7 +14,7 @@
 //             H_i += X_j A_j / (π p_j) V cosθ_i cosθ_j / r²     [BJ04] Eq. (3), [BSS05] Eq. (2)
 //         now and then:  X ← from the running average           [BJ04] Eq. (2)   advance
 //
-// Cost of a step: K hemicubes of the occluders, and N × K point pairs.
+// Cost of a step: K views of the occluders, and N × K point pairs.
 //
 // `Scheme::paper` with K = 1 is the papers' iteration, but for three things: points move over
 // receivers and shooters instead of standing at their centres, the running average is kept in two
@@ -88,10 +88,10 @@ constexpr gpu::Slot kReceiveSlots[] = {
 
 }  // namespace
 
-StochasticRadiosity::Kernels::Kernels(const gpu::Device& device)
+StochasticRadiosity::Kernels::Kernels(const gpu::Device& device, Projection projection)
     : select(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
       receive(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
-              kReceiveGroup),
+              kReceiveGroup, std::uint32_t(projection)),
       balance(device, "stochastic.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
       evaluate(device, "stochastic.evaluate", kEvaluateSpirv, 10, sizeof(AverageParams), kSumGroup),
       advance(device, "stochastic.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams), kReceiveGroup),
@@ -108,8 +108,8 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       world_(&world),
-      kernels_(device),
-      hemicubes_(device, world, std::uint32_t(options.hemicube), batch_),
+      kernels_(device, options.projection),
+      views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
       eyes_(device, kMostBatch),
       shots_(device, kMostBatch),
       surface_(device, view(surfaces_of(lumels))),
@@ -131,7 +131,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       source_power_pyramid_(device, count_),
       pacer_(device)
 {
-    batch_ = std::min(batch_, hemicubes_.capacity());
+    batch_ = std::min(batch_, views_.capacity());
     for (const Lumel& lumel : lumels.lumels) {
         if (lumel.flags & kLumelBuried)
             continue;
@@ -218,10 +218,10 @@ void StochasticRadiosity::shoot()
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         select(commands, emission_shots);
     });
-    hemicubes_.look_from(pacer_, eyes_, batch_);
+    views_.look_from(pacer_, eyes_, batch_);
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    const ReceiveParams params{.hemicubes = hemicubes_.layout(),
+                    const ReceiveParams params{.views = views_.layout(),
                                                .first = first,
                                                .last = last,
                                                .count = count_,
@@ -238,7 +238,7 @@ void StochasticRadiosity::shoot()
                                        world_->pieces(),
                                        eyes_,
                                        shots_,
-                                       {hemicubes_.image(), hemicubes_.sampler()},
+                                       {views_.image(), views_.sampler()},
                                        direct_,
                                        indirect_},
                                       params, last - first);

@@ -9,11 +9,11 @@
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
-#include "visibility/hemicube.h"
+#include "visibility/eye_views.h"
 
 namespace lumel {
 
-/// Shooters drawn by power send their light through hemicubes to every lumel at once.
+/// Shooters drawn by power send their light to all lumels that they see, at once.
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
@@ -27,7 +27,7 @@ public:
 
 private:
     struct Kernels {
-        explicit Kernels(const gpu::Device& device);
+        Kernels(const gpu::Device& device, Projection projection);
         gpu::Kernel select, receive, balance, evaluate, advance, polish;
     };
 
@@ -49,7 +49,7 @@ private:
 
     const World* world_;
     Kernels kernels_;
-    Hemicubes hemicubes_;
+    EyeViews views_;
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels

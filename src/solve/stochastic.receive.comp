@@ -17,7 +17,7 @@ layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
 layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
-layout(binding = 4) uniform sampler2D hemicubes;
+layout(binding = 4) uniform sampler2D views;
 layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
 layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 
@@ -48,7 +48,7 @@ vec3 receive(Receiver r, uint k)
         return vec3(0.0);
 
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
-    if (!sees(p.hemicubes, k, d * frame, r.facing * frame))
+    if (!sees(p.views, k, d * frame, r.facing * frame))
         return vec3(0.0);
     const float r2 = dot(d, d);
     return shot.power * (toward_i * toward_j / (r2 * (r2 + shot.disc)));

@@ -2,7 +2,7 @@
 #define LUMEL_SOLVE_STOCHASTIC_SHARED_H
 #include "solve/figures.shared.h"
 #include "solve/power_pyramid.shared.h"
-#include "visibility/hemicube.shared.h"
+#include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kSelectGroup = 32u;
@@ -34,7 +34,7 @@ struct SelectParams {
 
 /// Push constants of stochastic.receive.comp.
 struct ReceiveParams {
-    HemicubeLayout hemicubes;
+    EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint count;           ///< N

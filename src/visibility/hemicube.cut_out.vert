@@ -1,10 +1,10 @@
 #version 460
-#include "visibility/hemicube.shared.h"
+#include "visibility/eye_views.shared.h"
 #include "visibility/hemicube.glsl"
 
 // hemicube.vert for surfaces with alpha: also hands on where the texture is read.
 
-layout(push_constant, scalar) uniform Params { HemicubeParams p; };
+layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 look_in;  // u, v, alpha factor

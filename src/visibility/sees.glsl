@@ -1,4 +1,6 @@
-// Does an eye see a point? Needs hemicube.shared.h and `sampler2D hemicubes` declared.
+// Does an eye see a point? Needs eye_views.shared.h and `sampler2D views` declared.
+
+#include "visibility/pixels.glsl"
 
 // Relative slack of the depth comparison: stored depths are interpolated in float, and a
 // receiver's pieces approximate the drawn surface.
@@ -14,78 +16,24 @@ const float kEdgeSlack = 0.016;
 // What pixels show counts as flat if its depth's steps agree to this part.
 const float kFlatness = 0.1;
 
-// Where a point falls in a hemicube.
-struct FacePoint {
-    vec2 at;     // in pixels, from the face's corner
-    vec2 pixel;  // the pixel that holds it
-    float z;     // along the face's axis
-    bool front, along_t, negative;
-};
-
-FacePoint project(HemicubeLayout layout_, vec3 local)
-{
-    const vec3 size = abs(local);
-    FacePoint f;
-    f.front = local.z >= max(size.x, size.y);
-    f.along_t = size.x >= size.y;
-    f.negative = (f.along_t ? local.x : local.y) < 0.0;
-    f.z = f.front ? local.z : (f.along_t ? size.x : size.y);
-    const float right = f.front ? local.x : (f.along_t ? local.y : local.x);
-    const float up = f.front ? local.y : local.z;
-
-    const float half_side = 0.5 * float(layout_.side);
-    const float per_z = half_side / f.z;
-    f.at = vec2(right * per_z + half_side, up * per_z + (f.front ? half_side : 0.0));
-    const float rows = f.front ? float(layout_.side) : half_side;
-    f.pixel = clamp(floor(f.at), vec2(0.0), vec2(float(layout_.side), rows) - 1.0);
-    return f;
-}
-
-float stored_depth(HemicubeLayout layout_, uint tile, FacePoint f, vec2 pixel)
-{
-    const float side = float(layout_.side);
-    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
-    const vec2 second = f.front || !f.negative
-                            ? vec2(0.0)
-                            : (f.along_t ? vec2(0.0, 0.5 * side) : vec2(side, 0.0));
-    const uvec2 origin = uvec2(tile % layout_.columns * 2u * layout_.side,
-                               tile / layout_.columns * (3u * layout_.side / 2u));
-    return texelFetch(hemicubes, ivec2(origin) + ivec2(corner + second + pixel), 0).r;
-}
-
-// The ray through a pixel's centre, 1 along the face's axis.
-vec3 centre_ray(HemicubeLayout layout_, FacePoint f, vec2 pixel)
-{
-    const vec2 q = (pixel + 0.5) * (2.0 / float(layout_.side)) - vec2(1.0, f.front ? 1.0 : 0.0);
-    const float axis = !f.front && f.negative ? -1.0 : 1.0;
-    return f.front ? vec3(q, 1.0) : (f.along_t ? vec3(axis, q) : vec3(q.x, axis, q.y));
-}
-
 // How far the receiver's plane runs behind what a pixel stores (in front of it: below 0), times
-// toward_point. Affine over the pixels of one flat surface.
-float in_front_of_plane(HemicubeLayout layout_, FacePoint f, vec2 pixel, float stored, vec3 facing,
+// toward_point. Affine over the pixels of one flat surface; in a hemisphere nearly, but at its rim.
+float in_front_of_plane(EyeViewLayout layout_, ViewPoint f, vec2 pixel, float stored, vec3 facing,
                         float toward_point)
 {
     return stored * toward_point + dot(facing, centre_ray(layout_, f, pixel)) * layout_.near;
 }
 
-bool is_on_face(HemicubeLayout layout_, FacePoint f, vec2 pixel)
-{
-    const float rows = f.front ? float(layout_.side) : 0.5 * float(layout_.side);
-    return all(greaterThanEqual(pixel, vec2(0.0))) && pixel.x < float(layout_.side) &&
-           pixel.y < rows;
-}
-
 // The pixel's centre shows another surface, `in_front` of the receiver's `plane`, but the next
 // pixel toward the point may not: does the point lie on the next pixel's side of the line between
 // the two?
-bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, float toward_point,
+bool is_past_edge(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, float toward_point,
                   float in_front, float plane)
 {
     const vec2 offset = f.at - f.pixel - 0.5;
     const vec2 way = abs(offset.x) > abs(offset.y) ? vec2(sign(offset.x), 0.0)
                                                    : vec2(0.0, sign(offset.y));
-    if (!is_on_face(layout_, f, f.pixel + way) || !is_on_face(layout_, f, f.pixel - 2.0 * way))
+    if (!is_in_view(layout_, f, f.pixel + way) || !is_in_view(layout_, f, f.pixel - 2.0 * way))
         return false;
     // The next pixel must show the receiver's own surface, or nothing: surfaces on the scene's hull
     // are not drawn.
@@ -114,23 +62,25 @@ bool is_past_edge(HemicubeLayout layout_, uint tile, FacePoint f, vec3 facing, f
 // normal is `facing` (any length) in the eye's frame.
 //
 // The pixel that holds the point stores near / z of the nearest surface along the pixel's
-// centre. The receiver's plane is met by that same centre ray at
+// centre, z along a hemicube face's axis or the distance. The receiver's plane is met by that same
+// centre ray at
 //
-//     z_plane = (facing · local) / (facing · q),      q = ray with axis component 1,
+//     z_plane = (facing · local) / (facing · q),      q = the ray to z = 1,
 //
 // and if that is what is stored, the pixel shows the receiver's own surface: it is seen, whatever
 // its slope. Otherwise the point's own z decides, as in any shadow map, but for points beside an
 // edge or a contact. Only equality counts for the plane: it may well run in front of an occluder
 // that hides the point itself.
-bool sees(HemicubeLayout layout_, uint tile, vec3 local, vec3 facing)
+bool sees(EyeViewLayout layout_, uint tile, vec3 local, vec3 facing)
 {
-    const FacePoint f = project(layout_, local);
+    const ViewPoint f = project(layout_, local);
     const float stored = stored_depth(layout_, tile, f, f.pixel);
     if (stored * f.z <= layout_.near * (1.0 + kDepthSlack))
         return true;
     const float toward_point = -dot(facing, local);
-    const float toward_pixel = -dot(facing, centre_ray(layout_, f, f.pixel));
-    if (toward_point < (1.0 - kMostSlope / float(layout_.side)) * f.z * toward_pixel)
+    const vec3 ray = centre_ray(layout_, f, f.pixel);
+    const float toward_pixel = -dot(facing, ray);
+    if (toward_point < (1.0 - kMostSlope * half_width(layout_, ray)) * f.z * toward_pixel)
         return false;  // steep
     const float plane = toward_pixel * layout_.near;
     const float in_front = toward_point * stored - plane;

@@ -16,10 +16,12 @@ struct Glow {
     double mean = 0.0, share_within = 0.0;
 };
 
-Glow furnace_glow(const std::string& name, double truth, double tolerance)
+Glow furnace_glow(const std::string& name, double truth, double tolerance,
+                  Projection projection = Projection::hemicube)
 {
     const Prepared furnace(support::scene_path(name), AtlasOptions{.size = 64});
-    const Solved solved = support::solve_scene(furnace, {.max_shots = 16384, .target_error = 0.0});
+    const Solved solved = support::solve_scene(
+        furnace, {.projection = projection, .max_shots = 16384, .target_error = 0.0});
     Glow glow;
     double area = 0.0, within = 0.0, count = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -44,6 +46,13 @@ TEST(Furnace, AlbedoOneHalfGlowsTwiceItsEmission)
 TEST(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
 {
     const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05);
+    EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
+    EXPECT_GE(glow.share_within, 0.99);
+}
+
+TEST(Furnace, GlowsAlikeThroughHemispheres)
+{
+    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, Projection::hemisphere);
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
@@ -111,10 +120,13 @@ TEST(Plates, MeetingAtARightAngleMatchThePointFormFactor)
               0.01);
 }
 
-TEST(SealedBox, StaysExactlyDarkInside)
+class SealedBox : public testing::TestWithParam<Projection> {};
+
+TEST_P(SealedBox, StaysExactlyDarkInside)
 {
     const Prepared world(support::scene_path("sealed-box"), AtlasOptions{.size = 128});
-    const Solved solved = support::solve_scene(world, {.max_shots = 2048, .target_error = 0.0});
+    const Solved solved = support::solve_scene(
+        world, {.projection = GetParam(), .max_shots = 2048, .target_error = 0.0});
     std::size_t inside = 0;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -130,6 +142,13 @@ TEST(SealedBox, StaysExactlyDarkInside)
     EXPECT_GT(inside, 100u);
     EXPECT_GT(brightest, 1.0f);
 }
+
+INSTANTIATE_TEST_SUITE_P(SeenBy, SealedBox,
+                         testing::Values(Projection::hemicube, Projection::hemisphere),
+                         [](const auto& test) {
+                             return std::string(test.param == Projection::hemicube ? "Hemicubes"
+                                                                                   : "Hemispheres");
+                         });
 
 // Every point inside a sphere sees every other alike, so B_j = E_j + ρ_j ⟨E⟩ / (1 - ⟨ρ⟩) for any
 // pattern of emission and albedo: swapped indices cannot hide. A faceted ball comes close.

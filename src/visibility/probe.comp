@@ -1,18 +1,13 @@
 #version 460
-#include "visibility/hemicube.shared.h"
+#include "visibility/probe.shared.h"
 
-// Asks one eye's hemicube about a list of points, for the test beside it.
+// What one eye answers to a list of questions.
 
-struct Question {
-    vec3 position;
-    vec3 facing;
-};
-
-layout(local_size_x = 64) in;
-layout(push_constant, scalar) uniform Params { HemicubeLayout layout_; uint eye; uint count; } p;
+layout(local_size_x = kProbeGroup) in;
+layout(push_constant, scalar) uniform Params { ProbeParams p; };
 layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(binding = 1, scalar) readonly buffer Questions { Question questions[]; };
-layout(binding = 2) uniform sampler2D hemicubes;
+layout(binding = 2) uniform sampler2D views;
 layout(binding = 3, scalar) writeonly buffer Answers { uint answers[]; };
 
 #include "visibility/sees.glsl"
@@ -25,5 +20,5 @@ void main()
     const Eye eye = eyes[p.eye];
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
     const vec3 d = questions[i].position - eye.position;
-    answers[i] = sees(p.layout_, p.eye, d * frame, questions[i].facing * frame) ? 1u : 0u;
+    answers[i] = sees(p.views, p.eye, d * frame, questions[i].facing * frame) ? 1u : 0u;
 }

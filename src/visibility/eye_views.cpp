@@ -1,0 +1,268 @@
+#include "visibility/eye_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kHemicubeVertexSpirv[] = {
+#include "visibility/hemicube.vert.inc"
+};
+constexpr std::uint32_t kHemicubeCutOutVertexSpirv[] = {
+#include "visibility/hemicube.cut_out.vert.inc"
+};
+constexpr std::uint32_t kHemicubeCutOutFragmentSpirv[] = {
+#include "visibility/hemicube.cut_out.frag.inc"
+};
+constexpr std::uint32_t kHemisphereVertexSpirv[] = {
+#include "visibility/hemisphere.vert.inc"
+};
+constexpr std::uint32_t kHemisphereControlSpirv[] = {
+#include "visibility/hemisphere.tesc.inc"
+};
+constexpr std::uint32_t kHemisphereEvaluationSpirv[] = {
+#include "visibility/hemisphere.tese.inc"
+};
+constexpr std::uint32_t kHemisphereFragmentSpirv[] = {
+#include "visibility/hemisphere.frag.inc"
+};
+constexpr std::uint32_t kHemisphereCutOutFragmentSpirv[] = {
+#include "visibility/hemisphere.cut_out.frag.inc"
+};
+
+/// Near distance as a part of the scene's diagonal: closer surfaces are lumels' own neighbours,
+/// whose exchange the near field holds.
+constexpr float kNear = 1e-5f;
+/// How far a chord may leave the arc it stands for [pixels]. Pieces inside a triangle are a little
+/// longer than those at its edges: with 0.3, nothing drawn is off by more than half a pixel.
+constexpr double kMostDeviation = 0.3;
+
+constexpr gpu::VertexStream kStreams[] = {{3}, {3}};
+constexpr gpu::Slot kOpaqueSlots[] = {gpu::Slot::array};
+constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
+constexpr gpu::Slot kHemisphereCutOutSlots[] = {
+    gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
+
+struct Size {
+    std::uint32_t width, height;
+};
+
+Size tile_size(Projection projection, const EyeViewLayout& layout)
+{
+    return projection == Projection::hemisphere ? Size{layout.side, layout.side}
+                                                : Size{2 * layout.side, 3 * layout.side / 2};
+}
+
+EyeViewLayout make_layout(const gpu::Device& device, const World& world, Projection projection,
+                          std::uint32_t side, std::uint32_t capacity)
+{
+    const bool hemisphere = projection == Projection::hemisphere;
+    if (hemisphere && !device.can_tessellate())
+        throw Error(ErrorKind::device, device.info().name,
+                    "has no tessellation shaders, which --projection hemisphere needs; leave it at "
+                    "hemicube");
+    // Tiles of both are twice as wide as `side`.
+    const std::uint32_t fit = side > 0 ? device.max_image_side() / (2 * side) : 0;
+    if (side < 2 || side % 2 != 0 || fit == 0)
+        throw Error(ErrorKind::input, "--hemicube " + std::to_string(side),
+                    "must be an even number of pixels that fits the device's images");
+    // About square, so that the image stays small in both directions.
+    std::uint32_t columns = 1;
+    while (columns * columns < capacity)
+        ++columns;
+    return {hemisphere ? 2 * side : side, std::min(columns, fit),
+            std::max(world.diagonal() * kNear, 1e-30f)};
+}
+
+std::uint32_t fitting(const gpu::Device& device, Projection projection, const EyeViewLayout& layout,
+                      std::uint32_t capacity)
+{
+    const std::uint32_t rows = device.max_image_side() / tile_size(projection, layout).height;
+    return std::min(capacity, layout.columns * rows);
+}
+
+std::uint32_t rows_of(const EyeViewLayout& layout, std::uint32_t count)
+{
+    return (count + layout.columns - 1) / layout.columns;
+}
+
+gpu::Area tile_area(Projection projection, const EyeViewLayout& layout, std::uint32_t eye)
+{
+    const Size tile = tile_size(projection, layout);
+    return {eye % layout.columns * tile.width, eye / layout.columns * tile.height, tile.width,
+            tile.height};
+}
+
+gpu::Area face_area(Projection projection, const EyeViewLayout& layout, std::uint32_t eye,
+                    std::uint32_t face)
+{
+    const gpu::Area tile = tile_area(projection, layout, eye);
+    if (projection == Projection::hemisphere)
+        return tile;
+    const std::uint32_t side = layout.side, half = side / 2;
+    switch (face) {
+    case 0:
+        return {tile.x, tile.y, side, side};
+    case 1:
+        return {tile.x + side, tile.y, side, half};
+    case 2:
+        return {tile.x + side, tile.y + half, side, half};
+    case 3:
+        return {tile.x, tile.y + side, side, half};
+    default:
+        return {tile.x + side, tile.y + side, side, half};
+    }
+}
+
+gpu::Raster make_opaque(const gpu::Device& device, Projection projection)
+{
+    if (projection == Projection::hemisphere)
+        return {device,
+                "hemisphere",
+                {.vertex = kHemisphereVertexSpirv,
+                 .control = kHemisphereControlSpirv,
+                 .evaluation = kHemisphereEvaluationSpirv,
+                 .fragment = kHemisphereFragmentSpirv,
+                 .slots = kOpaqueSlots,
+                 .param_bytes = sizeof(LookParams),
+                 .streams = std::span(kStreams, 1)}};
+    return {device,
+            "hemicube",
+            {.vertex = kHemicubeVertexSpirv,
+             .slots = kOpaqueSlots,
+             .param_bytes = sizeof(LookParams),
+             .streams = std::span(kStreams, 1)}};
+}
+
+gpu::Raster make_cut_out(const gpu::Device& device, Projection projection)
+{
+    if (projection == Projection::hemisphere)
+        return {device,
+                "hemisphere.cut_out",
+                {.vertex = kHemisphereVertexSpirv,
+                 .control = kHemisphereControlSpirv,
+                 .evaluation = kHemisphereEvaluationSpirv,
+                 .fragment = kHemisphereCutOutFragmentSpirv,
+                 .slots = kHemisphereCutOutSlots,
+                 .param_bytes = sizeof(LookParams),
+                 .streams = std::span(kStreams, 1)}};
+    return {device,
+            "hemicube.cut_out",
+            {.vertex = kHemicubeCutOutVertexSpirv,
+             .fragment = kHemicubeCutOutFragmentSpirv,
+             .slots = kCutOutSlots,
+             .param_bytes = sizeof(LookParams),
+             .streams = kStreams}};
+}
+
+}  // namespace
+
+std::uint64_t view_pixels(Projection projection, std::uint32_t side)
+{
+    const bool hemisphere = projection == Projection::hemisphere;
+    const Size tile = tile_size(projection, {hemisphere ? 2 * side : side, 1, 0.0f});
+    return std::uint64_t(tile.width) * tile.height;
+}
+
+float longest_chord(float radius)
+{
+    return float(2.0 * std::acos(1.0 - std::min(kMostDeviation / double(radius), 1.0)));
+}
+
+EyeViews::EyeViews(const gpu::Device& device, const World& world, Projection projection,
+                   std::uint32_t side, std::uint32_t capacity)
+    : world_(&world),
+      projection_(projection),
+      layout_(make_layout(device, world, projection, side, capacity)),
+      image_(device, gpu::Pixel::depth, layout_.columns * tile_size(projection_, layout_).width,
+             rows_of(layout_, fitting(device, projection, layout_, capacity)) *
+                 tile_size(projection_, layout_).height),
+      sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
+      opaque_(make_opaque(device, projection)),
+      cut_out_(make_cut_out(device, projection))
+{
+    capacity_ = fitting(device, projection, layout_, capacity);
+}
+
+std::uint32_t EyeViews::faces_per_eye() const
+{
+    return is_hemisphere() ? 1 : kHemicubeFaces;
+}
+
+LookParams EyeViews::look_params(std::uint32_t eye, std::uint32_t face) const
+{
+    const gpu::Area tile = tile_area(projection_, layout_, eye);
+    const float radius = 0.5f * float(layout_.side);
+    return {.eye = eye,
+            .face = face,
+            .near = layout_.near,
+            .corner = {tile.x, tile.y},
+            .radius = radius,
+            .chord = longest_chord(radius)};
+}
+
+void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
+                          std::uint32_t last)
+{
+    const gpu::Buffer& vertices = world_->vertices().buffer();
+    const gpu::Buffer& indices = world_->indices().buffer();
+    const gpu::Buffer& looks = world_->looks().buffer();
+    const auto draw_all = [&](float cutoff, const gpu::Range& range) {
+        for (std::uint32_t i = first; i < last; ++i) {
+            const std::uint32_t eye = i / faces_per_eye(), face = i % faces_per_eye();
+            commands.viewport(face_area(projection_, layout_, eye, face));
+            LookParams params = look_params(eye, face);
+            params.cutoff = cutoff;
+            params.first_index = range.first;
+            commands.draw(params, range);
+        }
+    };
+    if (world_->opaque_index_count() > 0) {
+        commands.use(opaque_, {eyes}, {{&vertices}, &indices});
+        draw_all(0.0f, {0, world_->opaque_index_count()});
+    }
+    for (const CutOutDraw& cut_out : world_->cut_outs()) {
+        const gpu::Binding alpha{*cut_out.alpha, *cut_out.sampler};
+        if (is_hemisphere())
+            commands.use(cut_out_, {eyes, alpha, vertices, looks, indices},
+                         {{&vertices}, &indices});
+        else
+            commands.use(cut_out_, {eyes, alpha}, {{&vertices, &looks}, &indices});
+        draw_all(cut_out.cutoff, {cut_out.range.first_index, cut_out.range.index_count});
+    }
+}
+
+void EyeViews::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)
+{
+    const std::uint32_t height = rows_of(layout_, count) * tile_size(projection_, layout_).height;
+    commands.begin_pass(nullptr, image_, {0, 0, image_.width(), height});
+    draw_faces(commands, eyes, 0, count * faces_per_eye());
+    commands.end_pass();
+}
+
+void EyeViews::look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, std::uint32_t count)
+{
+    const std::uint32_t faces = count * faces_per_eye();
+    pacer.work("look", faces, faces_per_eye(),
+               [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                   if (first == 0 && last == faces)
+                       look_from(commands, eyes, count);
+                   else
+                       look_from_faces(commands, eyes, first, last);
+               });
+}
+
+void EyeViews::look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
+                               std::uint32_t first, std::uint32_t last)
+{
+    for (std::uint32_t i = first; i < last; ++i) {
+        commands.begin_pass(
+            nullptr, image_,
+            face_area(projection_, layout_, i / faces_per_eye(), i % faces_per_eye()));
+        draw_faces(commands, eyes, i, i + 1);
+        commands.end_pass();
+    }
+}
+
+}  // namespace lumel

@@ -1,0 +1,96 @@
+// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes. Needs
+// eye_views.shared.h and `sampler2D views` declared. A Kernel's variant says the projection.
+
+#include "visibility/hemisphere.glsl"
+
+layout(constant_id = 0) const uint kProjection = kHemicube;
+
+// Where a point falls in a view.
+struct ViewPoint {
+    vec2 at;     // in pixels, from the corner of the face or of the disc's tile
+    vec2 pixel;  // the pixel that answers for it
+    float z;     // along the face's axis; in a hemisphere the distance
+    bool front, along_t, negative;  // which face of a hemicube
+};
+
+ViewPoint project_to_hemicube(EyeViewLayout layout_, vec3 local)
+{
+    const vec3 size = abs(local);
+    ViewPoint f;
+    f.front = local.z >= max(size.x, size.y);
+    f.along_t = size.x >= size.y;
+    f.negative = (f.along_t ? local.x : local.y) < 0.0;
+    f.z = f.front ? local.z : (f.along_t ? size.x : size.y);
+    const float right = f.front ? local.x : (f.along_t ? local.y : local.x);
+    const float up = f.front ? local.y : local.z;
+
+    const float half_side = 0.5 * float(layout_.side);
+    const float per_z = half_side / f.z;
+    f.at = vec2(right * per_z + half_side, up * per_z + (f.front ? half_side : 0.0));
+    const float rows = f.front ? float(layout_.side) : half_side;
+    f.pixel = clamp(floor(f.at), vec2(0.0), vec2(float(layout_.side), rows) - 1.0);
+    return f;
+}
+
+// The centre of a pixel that is asked lies at least so far inside the disc's rim [pixels]: what
+// stands on the eye's plane ends at the rim, and its chords half a pixel before.
+const float kRim = 0.5;
+
+ViewPoint project_to_hemisphere(EyeViewLayout layout_, vec3 local)
+{
+    const float kHalfDiagonal = 0.70711;  // of a pixel: its centre is that near to what it holds
+    const float radius = 0.5 * float(layout_.side);
+    ViewPoint f;
+    f.front = true;
+    f.along_t = f.negative = false;
+    f.z = length(local);
+    const vec2 way = local.xy * (radius / f.z);
+    f.at = way + radius;
+    f.pixel = floor(way * min(1.0, (radius - kRim - kHalfDiagonal) / length(way)) + radius);
+    return f;
+}
+
+ViewPoint project(EyeViewLayout layout_, vec3 local)
+{
+    if (kProjection == kHemisphere)
+        return project_to_hemisphere(layout_, local);
+    return project_to_hemicube(layout_, local);
+}
+
+bool is_in_view(EyeViewLayout layout_, ViewPoint f, vec2 pixel)
+{
+    const float side = float(layout_.side);
+    if (kProjection == kHemisphere)
+        return distance(pixel + 0.5, vec2(0.5 * side)) <= 0.5 * side - kRim;
+    const float rows = f.front ? side : 0.5 * side;
+    return all(greaterThanEqual(pixel, vec2(0.0))) && pixel.x < side && pixel.y < rows;
+}
+
+float stored_depth(EyeViewLayout layout_, uint tile, ViewPoint f, vec2 pixel)
+{
+    const uint side = layout_.side;
+    const uvec2 size = kProjection == kHemisphere ? uvec2(side)
+                                                         : uvec2(2u * side, 3u * side / 2u);
+    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
+    const vec2 second = f.front || !f.negative
+                            ? vec2(0.0)
+                            : (f.along_t ? vec2(0.0, 0.5 * float(side)) : vec2(side, 0.0));
+    const uvec2 origin = uvec2(tile % layout_.columns, tile / layout_.columns) * size;
+    return texelFetch(views, ivec2(origin) + ivec2(corner + second + pixel), 0).r;
+}
+
+// The ray through a pixel's centre, to where the stored z is 1.
+vec3 centre_ray(EyeViewLayout layout_, ViewPoint f, vec2 pixel)
+{
+    if (kProjection == kHemisphere)
+        return ray_through(pixel + 0.5, 0.5 * float(layout_.side));
+    const vec2 q = (pixel + 0.5) * (2.0 / float(layout_.side)) - vec2(1.0, f.front ? 1.0 : 0.0);
+    const float axis = !f.front && f.negative ? -1.0 : 1.0;
+    return f.front ? vec3(q, 1.0) : (f.along_t ? vec3(axis, q) : vec3(q.x, axis, q.y));
+}
+
+// Half a pixel's width as a part of z: on the disc pixels widen toward the horizon.
+float half_width(EyeViewLayout layout_, vec3 ray)
+{
+    return 1.0 / (float(layout_.side) * (kProjection == kHemisphere ? ray.z : 1.0));
+}

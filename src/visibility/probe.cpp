@@ -1,0 +1,44 @@
+#include "visibility/probe.h"
+
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kProbeSpirv[] = {
+#include "visibility/probe.comp.inc"
+};
+constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
+                                gpu::Slot::array};
+
+}  // namespace
+
+Eye eye_at(const glm::vec3& position, const glm::vec3& normal)
+{
+    constexpr float kTurn = 0.3f;  // so that pixels do not run along the edges of a box
+    const glm::vec3 other = std::abs(normal.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 across = glm::cross(other, normal);
+    const glm::vec3 t = glm::normalize(across + kTurn * glm::cross(normal, across));
+    return {position, t, glm::cross(normal, t), normal, 1u};
+}
+
+std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const EyeViews& views,
+                                            const gpu::Array<Eye>& eyes,
+                                            const gpu::Array<Question>& questions)
+{
+    const gpu::Kernel probe(device, "probe", kProbeSpirv, kSlots, sizeof(ProbeParams), kProbeGroup,
+                            std::uint32_t(views.projection()));
+    const gpu::Array<std::uint32_t> answers(device, questions.size());
+    gpu::Commands commands(device);
+    std::vector<std::vector<std::uint32_t>> all;
+    for (std::uint32_t eye = 0; eye < eyes.size(); ++eye) {
+        commands.dispatch(probe, {eyes, questions, {views.image(), views.sampler()}, answers},
+                          ProbeParams{views.layout(), eye, std::uint32_t(questions.size())},
+                          questions.size());
+        commands.run();
+        all.push_back(answers.download());
+    }
+    return all;
+}
+
+}  // namespace lumel

@@ -1,0 +1,20 @@
+#pragma once
+// What eyes answer, brought to the host: for tests and benchmarks.
+
+#include <vector>
+
+#include "visibility/eye_views.h"
+#include "visibility/probe.shared.h"
+
+namespace lumel {
+
+/// An eye at a surface point, its frame at any angle about the normal (length 1).
+Eye eye_at(const glm::vec3& position, const glm::vec3& normal);
+
+/// Asks every eye about every point. Blocks.
+/// eyes: on the device, those that `views` last looked from. Returns [eyes][questions], 1: seen.
+std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const EyeViews& views,
+                                            const gpu::Array<Eye>& eyes,
+                                            const gpu::Array<Question>& questions);
+
+}  // namespace lumel
