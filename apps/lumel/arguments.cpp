@@ -55,6 +55,8 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
+const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
+                                          {"hemisphere", Projection::hemisphere}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
@@ -77,6 +79,22 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
                 return {};
             return fmt::format("'{}' is none of {}", word, CLI::detail::join(words, ", "));
         });
+}
+
+void add_view_options(CLI::App& app, SolverOptions& solver)
+{
+    app.add_option("--batch", solver.batch, "Shooters per iteration")
+        ->type_name("K")
+        ->capture_default_str()
+        ->check(whole(1, kLargestBatch));
+    add_choice(app, "--projection", solver.projection, kProjections,
+               "What shooters see is drawn on five faces (hemicube, the default) or on one disc");
+    app.add_option(
+           "--hemicube", solver.hemicube,
+           "Side of a hemicube's front face in pixels; a hemisphere's disc is twice as wide")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(16, kLargestHemicube));
 }
 
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
@@ -133,14 +151,7 @@ void add_solver_options(CLI::App& app, SolverOptions& solver)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
-    app.add_option("--batch", solver.batch, "Shooters per iteration")
-        ->type_name("K")
-        ->capture_default_str()
-        ->check(whole(1, kLargestBatch));
-    app.add_option("--hemicube", solver.hemicube, "Side of a hemicube's front face in pixels")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(16, kLargestHemicube));
+    add_view_options(app, solver);
 }
 
 /// When to stop. Without any of the three the bake ends at the default error.
@@ -272,16 +283,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info)
         *app.add_subcommand("info", "Say what is in a scene and what a bake would take");
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_atlas_options(command, info.options.atlas);
-    command.add_option("--batch", info.options.solver.batch, "Shooters per iteration")
-        ->type_name("K")
-        ->capture_default_str()
-        ->check(whole(1, kLargestBatch));
-    command
-        .add_option("--hemicube", info.options.solver.hemicube,
-                    "Side of a hemicube's front face in pixels")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(16, kLargestHemicube));
+    add_view_options(command, info.options.solver);
     command.add_flag("--json", info.json, "Print JSON");
     return command;
 }

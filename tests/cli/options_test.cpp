@@ -37,6 +37,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"bake", scene, "out", "--solver", "magic"}, {"--solver", "magic"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
+        {{"bake", scene, "out", "--projection", "sphere"},
+         {"--projection", "sphere", "hemisphere"}},
         {{"reference", scene, "out", "--spp", "0"}, {"--spp"}},
         {{"compare", "one.exr"}, {"B"}},
         {{"info"}, {"scene"}},
