@@ -13,7 +13,7 @@ int main(int argc, char** argv)
     using namespace lumel;
     using namespace lumel::bench;
     Settings settings;
-    std::string scheme = "phased", sampling = "area";
+    std::string scheme = "phased", sampling = "area", projection = "hemicube";
     CLI::App app("Error against time for each method, on the same atlas");
     app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
     app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
@@ -44,6 +44,11 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
         ->capture_default_str();
+    app.add_option("--projection", projection, "hemicube or hemisphere")
+        ->check(CLI::IsMember({"hemicube", "hemisphere"}));
+    app.add_option("--projections", settings.cuts,
+                   "compares both projections instead, edges of triangles cut into so many")
+        ->delimiter(',');
     app.add_option("--near", settings.near_radius,
                    "near field radius [lumel sizes]; 0: as the solver likes it")
         ->capture_default_str();
@@ -53,8 +58,15 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
     settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
+    settings.solver.projection =
+        projection == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
     try {
-        settings.growth.empty() ? race(settings) : grow(settings);
+        if (!settings.cuts.empty())
+            compare_projections(settings);
+        else if (!settings.growth.empty())
+            grow(settings);
+        else
+            race(settings);
         return 0;
     } catch (const std::exception& error) {
         fmt::print(stderr, "lumel-bench: {}\n", error.what());

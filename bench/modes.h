@@ -11,4 +11,7 @@ void race(const Settings& settings);
 /// Time per shooter and lumel for atlases of growing sides.
 void grow(const Settings& settings);
 
+/// Both projections of what eyes see: errors against rays and device time, by triangle count.
+void compare_projections(const Settings& settings);
+
 }  // namespace lumel::bench

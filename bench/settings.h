@@ -27,6 +27,7 @@ struct Settings {
     std::vector<std::uint64_t> shots{256, 512, 1024, 2048, 4096, 8192};
     std::vector<int> spp{16, 64, 256};
     std::vector<int> growth;  ///< atlas sides to time instead of racing
+    std::vector<int> cuts;    ///< comparing projections instead: pieces of each triangle edge
     SolverOptions solver;
     std::string device;
     float near_radius = 0.0f;  ///< 0: as the solver likes it
