@@ -51,7 +51,7 @@ vec3 reflect_to_eye(EyePoint x, uint k)
     const float bounded = lobe * toward_i * toward_j / (r2 * (r2 + shot.disc));
     vec3 reflected = vec3(0.0);
     if (p.rays == 0.0 || min(x.shininess, shot.shininess) < kNarrowLobe)
-        reflected = bounded * lobes_toward(k, shot, eye, way);
+        reflected = bounded * lobes_toward(k, shot, eye, way, shot.shininess);
     if (p.rays == 0.0)
         return reflected + shot.diffuse * bounded;
     const float shooters = p.shooters * density[shot.lumel] * r2 * sqrt(r2) / toward_j;

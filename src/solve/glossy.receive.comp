@@ -53,27 +53,22 @@ float near_factor(uint i, uint j)
     return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
 }
 
-// The lobes as the whole lumel sees them: narrow ones are averaged over a grid of points on a
-// square as large as the lumel, shifted with the receiving point.
-const int kLobeGrid = 4;
-vec3 mean_lobes(uint k, GlossyShot shot, Eye eye, Lumel lumel, LumelPoint x)
+// The lobes as a whole lumel sees those of a whole lumel. Squares of side s at distance r spread the
+// directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that the mean
+// over both is about a lobe of
+//
+//     1 / n' = 1 / n + (s_i² + s_j²) / 12 r²,
+//
+// scaled by the albedos of both exponents: in even light, what leaves is the same.
+vec3 mean_lobes(uint k, GlossyShot shot, Eye eye, Lumel lumel, vec3 way, float r2)
 {
-    const vec3 d = x.position - eye.position;
-    if (shot.shininess * lumel.size * lumel.size < dot(d, d))
-        return lobes_toward(k, shot, eye, normalize(d));
-    const vec3 side = abs(x.normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
-    const vec3 u = normalize(cross(side, x.normal)), v = cross(x.normal, u);
-    const vec3 from = x.position - lumel.position;
-    const float cell = lumel.size / float(kLobeGrid);
-    const vec2 shift = fract(vec2(dot(from, u), dot(from, v)) / cell) * cell - 0.5 * lumel.size;
-    vec3 sum = vec3(0.0);
-    for (int a = 0; a < kLobeGrid; ++a)
-        for (int b = 0; b < kLobeGrid; ++b) {
-            const vec2 at = shift + cell * vec2(a, b);
-            const vec3 way = lumel.position + at.x * u + at.y * v - eye.position;
-            sum += lobes_toward(k, shot, eye, normalize(way));
-        }
-    return sum / float(kLobeGrid * kLobeGrid);
+    if (shot.lobes == 0u)
+        return vec3(0.0);
+    const float spread = (lumel.size * lumel.size + shot.size * shot.size) / (12.0 * r2);
+    const float wide = max(shot.shininess / (1.0 + shot.shininess * spread), 1.0);
+    const float cos_out = dot(way, eye.normal);
+    const float scale = phong_albedo(cos_out, shot.shininess) / phong_albedo(cos_out, wide);
+    return scale * lobes_toward(k, shot, eye, way, wide);
 }
 
 // I_k at a point of lumel i; `cos_in` is its cosine there.
@@ -96,13 +91,13 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     const vec3 way = d * inversesqrt(r2);
     cos_in = -dot(way, x.normal);
     if (is_near)  // π F_ij stands for the geometry and the visibility of all points
-        return lobes_toward(k, shot, eye, way) * near_factor(i, shot.lumel) / shot.disc;
+        return mean_lobes(k, shot, eye, lumel, way, r2) * near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
     if (!sees(p.views, k, d * frame, x.facing * frame))
         return vec3(0.0);
     const float disc = p.near_radius == 0.0 ? shot.disc : 0.0;
-    const vec3 lobes = shot.lobes > 0u ? mean_lobes(k, shot, eye, lumel, x) : vec3(0.0);
-    return (shot.diffuse + lobes) * (toward_i * toward_j / (r2 * (r2 + disc)));
+    return (shot.diffuse + mean_lobes(k, shot, eye, lumel, way, r2)) *
+           (toward_i * toward_j / (r2 * (r2 + disc)));
 }
 
 void main()
