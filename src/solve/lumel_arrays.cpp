@@ -1,5 +1,7 @@
 #include "solve/lumel_arrays.h"
 
+#include <algorithm>
+
 namespace lumel {
 
 std::vector<glm::vec4> surfaces_of(const Lumels& lumels)
@@ -16,6 +18,16 @@ std::vector<glm::vec3> emission_of(const Lumels& lumels)
     for (const Lumel& lumel : lumels.lumels)
         emission.push_back((lumel.flags & kLumelBuried) ? glm::vec3(0.0f) : lumel.emission);
     return emission;
+}
+
+float reflecting_area(const Lumels& lumels)
+{
+    float sum = 0.0f;
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried) &&
+            std::max({lumel.albedo.r, lumel.albedo.g, lumel.albedo.b}) > 0.0f)
+            sum += lumel.area;
+    return sum;
 }
 
 }  // namespace lumel

@@ -15,6 +15,9 @@ std::vector<glm::vec4> surfaces_of(const Lumels& lumels);
 /// E [N] [lm/m²]
 std::vector<glm::vec3> emission_of(const Lumels& lumels);
 
+/// Σ A of lumels that reflect [m²]
+float reflecting_area(const Lumels& lumels);
+
 /// Rec. 709.
 inline double luminance(const glm::vec3& c)
 {

@@ -132,13 +132,10 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
-    for (const Lumel& lumel : lumels.lumels) {
-        if (lumel.flags & kLumelBuried)
-            continue;
-        if (std::max({lumel.albedo.r, lumel.albedo.g, lumel.albedo.b}) > 0.0f)
-            reflecting_area_ += lumel.area;
-        emitted_power_ += luminance(lumel.emission) * double(lumel.area);
-    }
+    reflecting_area_ = reflecting_area(lumels);
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried))
+            emitted_power_ += luminance(lumel.emission) * double(lumel.area);
     phase_length_ = paper_ ? 1 : std::max(2u, kFirstPhaseShots / batch_);
 
     pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {

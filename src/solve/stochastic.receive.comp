@@ -24,34 +24,16 @@ layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sum
 #include "world/lumel.glsl"
 #include "solve/receiver.glsl"
 #include "visibility/sees.glsl"
-
-struct Receiver {
-    vec3 x, normal, facing;
-    vec3 centre;
-    float size;
-    uint lumel;
-};
+#include "solve/shot.glsl"
 
 vec3 receive(Receiver r, uint k)
 {
-    const Eye eye = eyes[k];
-    const vec3 d = r.x - eye.position;
-    const float toward_j = dot(d, eye.normal);
-    const float toward_i = -dot(d, r.normal);
-    if (toward_j <= 0.0 || toward_i <= 0.0)
+    vec3 d;
+    if (!arrives(r, k, p.views, p.near_radius, d))
         return vec3(0.0);
-
-    const Shot shot = shots[k];
-    const vec3 between = r.centre - shot.centre;
-    const float reach = p.near_radius * max(r.size, shot.size);
-    if (dot(between, between) < reach * reach || shot.lumel == r.lumel)
-        return vec3(0.0);
-
-    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
-    if (!sees(p.views, k, d * frame, r.facing * frame))
-        return vec3(0.0);
+    const float toward_j = dot(d, eyes[k].normal), toward_i = -dot(d, r.normal);
     const float r2 = dot(d, d);
-    return shot.power * (toward_i * toward_j / (r2 * (r2 + shot.disc)));
+    return shots[k].power * (toward_i * toward_j / (r2 * (r2 + shots[k].disc)));
 }
 
 void main()
