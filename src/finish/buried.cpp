@@ -21,7 +21,7 @@ bool is_black(const Image& map, std::size_t texel)
 
 }  // namespace
 
-void fill_buried(Image& map, const Lumels& lumels)
+void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers)
 {
     const std::size_t count = std::size_t(map.width) * std::size_t(map.height);
     std::vector<std::uint32_t> charts(count, kNoChart);
@@ -37,6 +37,8 @@ void fill_buried(Image& map, const Lumels& lumels)
             states[texel] = TexelState::wanted;
         else if (open[texel])
             states[texel] = TexelState::known;
+    for (Image& layer : layers)
+        grow(layer, states, charts);
     grow(map, std::move(states), charts);
 }
 

@@ -3,6 +3,7 @@
 // match_seams; finish_map does all four.
 
 #include <span>
+#include <vector>
 
 #include "atlas/atlas.h"
 #include "core/image.h"
@@ -12,6 +13,24 @@ namespace lumel {
 /// The whole room in one call: a map of `values` without black gutters, buried texels or seams.
 Image finish_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                  std::span<const glm::vec3> values);
+
+/// Finished maps of one solution.
+struct FinishedMaps {
+    Image light;
+    std::vector<Image> layers;
+};
+
+/// The same for `light` and for other quantities that belong to it, such as coefficients of its
+/// directions: which side of a surface shows, what counts as black and where seams are matched is
+/// decided by `light` for all, and layers may hold values below 0. light [N], layers [L][N].
+FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                         std::span<const glm::vec3> light,
+                         std::span<const std::vector<glm::vec3>> layers);
+
+/// The lumel that each texel shows, kNoLumel where none: the mean of `light` decides between the
+/// sides of a double-sided surface, as in to_map. light [N]. Result [height][width].
+std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light);
+inline constexpr std::uint32_t kNoLumel = ~0u;
 
 /// Writes one value per lumel into the atlas: RGB = value, A = coverage (0 where no surface is,
 /// at least 1/255 where one is, so that no covered texel loses its mark in 8 or 16 bits).
@@ -23,7 +42,8 @@ Image to_map(const Lumels& lumels, std::span<const glm::vec3> values);
 /// Gives buried lumels the light of their nearest open neighbours in the same chart, so that
 /// filtering never darkens or leaks; a chart that is buried as a whole stays as it is. Where only
 /// one side of a double-sided surface is buried, its texel counts as buried if it is black.
-void fill_buried(Image& map, const Lumels& lumels);
+/// `layers`: further maps that are filled where `map` is.
+void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers = {});
 
 /// Fills everything uncovered from its nearest covered texels, so that bilinear and mipmapped
 /// sampling never sees black. Alpha and covered texels stay as they are.
@@ -33,6 +53,8 @@ void dilate(Image& map);
 /// instance and between neighbours, wherever the surface goes on smoothly. Creases keep their
 /// contrast, and so do borders where the light itself jumps (a wall may stand there).
 /// `map`: dilated; its gutters are changed most, the outermost covered texels a little.
-void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels);
+/// `layers`: further maps, matched along the same seams; only `map` is kept from falling below 0.
+void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                 std::span<Image> layers = {});
 
 }  // namespace lumel

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "finish/finish.h"
@@ -192,15 +193,9 @@ Colors solve(const System& system, const Colors& x0)
     return d;
 }
 
-}  // namespace
-
-void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels)
+// Moves the unknowns of a map to where its seams agree, but not below `least`.
+void apply(const System& system, Image& map, double least)
 {
-    System system;
-    for (const Seam& seam : find_seams(scene, atlas))
-        add_rows(map, seam, system.rows);
-    number_unknowns(lumels, system);
-
     Colors x0;
     for (const std::uint32_t texel : system.texels) {
         const float* rgb = map.values.data() + std::size_t(texel) * 4;
@@ -210,7 +205,21 @@ void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumel
     for (std::size_t i = 0; i < d.size(); ++i)
         for (int c = 0; c < 3; ++c)
             map.values[std::size_t(system.texels[i]) * 4 + std::size_t(c)] =
-                float(std::max(x0[i][c] + d[i][c], 0.0));
+                float(std::max(x0[i][c] + d[i][c], least));
+}
+
+}  // namespace
+
+void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                 std::span<Image> layers)
+{
+    System system;
+    for (const Seam& seam : find_seams(scene, atlas))
+        add_rows(map, seam, system.rows);
+    number_unknowns(lumels, system);
+    apply(system, map, 0.0);
+    for (Image& layer : layers)
+        apply(system, layer, std::numeric_limits<double>::lowest());
 }
 
 }  // namespace lumel

@@ -60,18 +60,29 @@ std::vector<ChartSides> chart_sides(const Lumels& lumels, std::span<const glm::v
 
 }  // namespace
 
-Image to_map(const Lumels& lumels, std::span<const glm::vec3> values)
+std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light)
 {
-    const std::vector<ChartSides> sides = chart_sides(lumels, values);
-    Image map(lumels.width, lumels.height, 4);
+    const std::vector<ChartSides> sides = chart_sides(lumels, light);
+    std::vector<std::uint32_t> shown(lumels.coverage.size(), kNoLumel);
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
-        if (is_back(lumel) != sides[lumel.chart].shows_back())
+        if (is_back(lumel) == sides[lumel.chart].shows_back())
+            shown[lumel.texel] = std::uint32_t(i);
+    }
+    return shown;
+}
+
+Image to_map(const Lumels& lumels, std::span<const glm::vec3> values)
+{
+    const std::vector<std::uint32_t> shown = shown_lumels(lumels, values);
+    Image map(lumels.width, lumels.height, 4);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (shown[i] == kNoLumel)
             continue;
-        float* texel = map.values.data() + std::size_t(lumel.texel) * 4;
+        float* texel = map.values.data() + i * 4;
         for (int c = 0; c < 3; ++c)
-            texel[c] = values[i][c];
-        texel[3] = std::clamp(lumels.coverage[lumel.texel], kLeastAlpha, 1.0f);
+            texel[c] = values[shown[i]][c];
+        texel[3] = std::clamp(lumels.coverage[i], kLeastAlpha, 1.0f);
     }
     return map;
 }
