@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -59,19 +60,9 @@ Imf::Slice slice_of(Imf::PixelType type, T* values, int channels, int width, int
     return Imf::Slice(type, base, std::size_t(texel), std::size_t(row), 1, 1, fill);
 }
 
-template <class T>
-void write_pixels(MemoryStream& stream, const Imf::Header& header, Imf::PixelType type,
-                  const T* values, int channels, int width, int height)
+std::string channel_name(const std::string& layer, int c)
 {
-    Imf::FrameBuffer frame;
-    for (int c = 0; c < channels; ++c)
-        frame.insert(kChannels[c],
-                     slice_of(type, const_cast<T*>(values), channels, width, c, 0, 0));
-    const int threads = int(std::thread::hardware_concurrency());
-    Imf::setGlobalThreadCount(threads);  // the bytes do not depend on it
-    Imf::OutputFile file(stream, header, threads);
-    file.setFrameBuffer(frame);
-    file.writePixels(height);
+    return layer.empty() ? kChannels[c] : layer + "." + kChannels[c];
 }
 
 std::vector<half> to_half(const std::vector<float>& values)
@@ -83,27 +74,67 @@ std::vector<half> to_half(const std::vector<float>& values)
     return halves;
 }
 
+// Values of a file's images, converted, and the slices that point to them.
+class Planes {
+public:
+    Planes(Imf::Header& header, Precision precision) : header_(header), precision_(precision) {}
+
+    // `image` must stay where it is.
+    void add(const std::string& layer, const Image& image, int channels)
+    {
+        if (precision_ == Precision::float16) {
+            halves_.push_back(to_half(image.values));
+            insert(layer, image, channels, Imf::HALF, halves_.back().data());
+        } else {
+            insert(layer, image, channels, Imf::FLOAT, const_cast<float*>(image.values.data()));
+        }
+    }
+
+    void write(MemoryStream& stream) const
+    {
+        const int threads = int(std::thread::hardware_concurrency());
+        Imf::setGlobalThreadCount(threads);  // the bytes do not depend on it
+        Imf::OutputFile file(stream, header_, threads);
+        file.setFrameBuffer(frame_);
+        file.writePixels(header_.dataWindow().max.y + 1);
+    }
+
+private:
+    template <class T>
+    void insert(const std::string& layer, const Image& image, int channels, Imf::PixelType type,
+                T* values)
+    {
+        for (int c = 0; c < channels; ++c) {
+            const std::string name = channel_name(layer, c);
+            header_.channels().insert(name, Imf::Channel(type));
+            frame_.insert(name, slice_of(type, values, image.channels, image.width, c, 0, 0));
+        }
+    }
+
+    Imf::Header& header_;
+    Precision precision_;
+    Imf::FrameBuffer frame_;
+    std::vector<std::vector<half>> halves_;
+};
+
 }  // namespace
 
 void write_exr(const std::string& path, const Image& image, Precision precision,
-               const std::map<std::string, std::string>& metadata)
+               const std::map<std::string, std::string>& metadata, std::span<const Layer> layers)
 {
     MemoryStream stream;
     try {
-        const Imf::PixelType type = precision == Precision::float16 ? Imf::HALF : Imf::FLOAT;
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
-        for (int c = 0; c < image.channels; ++c)
-            header.channels().insert(kChannels[c], Imf::Channel(type));
         for (const auto& [name, value] : metadata)
             header.insert(name, Imf::StringAttribute(value));
-
-        if (precision == Precision::float16)
-            write_pixels(stream, header, type, to_half(image.values).data(), image.channels,
-                         image.width, image.height);
-        else
-            write_pixels(stream, header, type, image.values.data(), image.channels, image.width,
-                         image.height);
+        Planes planes(header, precision);
+        planes.add("", image, image.channels);
+        for (const Layer& layer : layers) {
+            assert(layer.image.width == image.width && layer.image.height == image.height);
+            planes.add(layer.name, layer.image, 3);
+        }
+        planes.write(stream);
     } catch (const std::exception& error) {
         throw Error(ErrorKind::output, path,
                     std::string("cannot be encoded as EXR: ") + error.what());
@@ -111,7 +142,7 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
     write_bytes(path, stream.bytes);
 }
 
-Image read_exr(const std::string& path)
+Image read_exr(const std::string& path, const std::string& layer)
 {
     try {
         Imf::InputFile file(path.c_str());
@@ -121,16 +152,17 @@ Image read_exr(const std::string& path)
         if (width <= 0 || height <= 0 || width > kMaxTexels || width * height > kMaxTexels)
             throw Error(ErrorKind::input, path, "claims an impossible size");
         for (int c = 0; c < 3; ++c)
-            if (!file.header().channels().findChannel(kChannels[c]))
+            if (!file.header().channels().findChannel(channel_name(layer, c)))
                 throw Error(ErrorKind::input, path,
-                            std::string("has no channel ") + kChannels[c] +
+                            "has no channel " + channel_name(layer, c) +
                                 "; an RGB or RGBA image is needed");
 
         Image image(int(width), int(height), 4);
         Imf::FrameBuffer frame;
         for (int c = 0; c < 4; ++c)
-            frame.insert(kChannels[c], slice_of(Imf::FLOAT, image.values.data(), 4, image.width, c,
-                                                window.min.x, window.min.y, c == 3 ? 1.0 : 0.0));
+            frame.insert(channel_name(layer, c),
+                         slice_of(Imf::FLOAT, image.values.data(), 4, image.width, c, window.min.x,
+                                  window.min.y, c == 3 ? 1.0 : 0.0));
         file.setFrameBuffer(frame);
         file.readPixels(window.min.y, window.max.y);
         return image;

@@ -2,6 +2,7 @@
 // EXR and PNG files.
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,14 +12,22 @@ namespace lumel {
 
 enum class Precision { float32, float16 };
 
-/// ZIP-compressed scanline EXR, channels R G B (A), with string attributes for `metadata`
-/// (units, encoding, …). float16 clamps to ±65504. The same input gives the same bytes: no date
-/// is written. Throws Error{output}.
-void write_exr(const std::string& path, const Image& image, Precision precision,
-               const std::map<std::string, std::string>& metadata);
+/// An image beside the main one in an EXR: its channels are name.R, name.G and name.B.
+struct Layer {
+    std::string name;  ///< may have dots, which viewers show as folders
+    Image image;       ///< as large as the main one; a fourth channel is not written
+};
 
-/// Reads R, G, B and, if there, A (else 1) as 4 channels. Throws Error{input}.
-Image read_exr(const std::string& path);
+/// ZIP-compressed scanline EXR, channels R G B (A) and those of the layers, with string attributes
+/// for `metadata` (units, encoding, …). float16 clamps to ±65504. The same input gives the same
+/// bytes: no date is written. Throws Error{output}.
+void write_exr(const std::string& path, const Image& image, Precision precision,
+               const std::map<std::string, std::string>& metadata,
+               std::span<const Layer> layers = {});
+
+/// Reads R, G, B and, if there, A (else 1) of a layer as 4 channels; layer "": of the main image,
+/// whatever layers there are. Throws Error{input}.
+Image read_exr(const std::string& path, const std::string& layer = "");
 
 /// What the numbers of a PNG mean, as said in its header.
 enum class PngEncoding { srgb, linear };

@@ -61,6 +61,49 @@ TEST(ExrFile, TheSameImageGivesTheSameBytes)
     EXPECT_EQ(test::bytes_of(folder / "a.exr"), test::bytes_of(folder / "b.exr"));
 }
 
+TEST(ExrFile, LayersComeBackByNameBesideTheMainImage)
+{
+    const test::TemporaryFolder folder;
+    const Image image = gradient(23, 11, 4);
+    std::vector<Layer> layers = {{"sh.0", gradient(23, 11, 3)}, {"sh.1", gradient(23, 11, 4)}};
+    for (float& value : layers[1].image.values)
+        value = -value;
+    write_exr(folder / "a.exr", image, Precision::float32, {}, layers);
+    EXPECT_EQ(read_exr(folder / "a.exr").values, image.values);
+    for (const Layer& layer : layers) {
+        const Image read = read_exr(folder / "a.exr", layer.name);
+        for (int y = 0; y < 11; ++y)
+            for (int x = 0; x < 23; ++x) {
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_EQ(read.at(x, y)[c], layer.image.at(x, y)[c]);
+                ASSERT_EQ(read.at(x, y)[3], 1.0f);
+            }
+    }
+}
+
+TEST(ExrFile, LayersAreClampedToHalfAsTheMainImageIs)
+{
+    const test::TemporaryFolder folder;
+    Image bright = gradient(4, 4, 3);
+    bright.values[0] = -1e9f;
+    write_exr(folder / "a.exr", gradient(4, 4, 4), Precision::float16, {},
+              std::vector<Layer>{{"sh.0", bright}});
+    EXPECT_EQ(read_exr(folder / "a.exr", "sh.0").values[0], -65504.0f);
+}
+
+TEST(ExrFile, ALayerThatIsNotThereIsAnInputErrorThatNamesIt)
+{
+    const test::TemporaryFolder folder;
+    write_exr(folder / "a.exr", gradient(4, 4, 4), Precision::float32, {});
+    try {
+        read_exr(folder / "a.exr", "sh.7");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_NE(std::string(error.what()).find("sh.7"), std::string::npos);
+    }
+}
+
 TEST(ExrFile, WhatIsNotAnExrIsAnInputErrorThatNamesTheFile)
 {
     const test::TemporaryFolder folder;
