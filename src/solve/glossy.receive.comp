@@ -53,9 +53,12 @@ float near_factor(uint i, uint j)
     return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
 }
 
-// The lobes as a whole lumel sees those of a whole lumel. Squares of side s at distance r spread the
-// directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that the mean
-// over both is about a lobe of
+// Between near lumels a narrower lobe would be hit or missed by chance.
+const float kMostNearShininess = 100.0;
+
+// The lobes as a whole lumel sees those of a whole lumel. Squares of side s at distance r spread
+// the directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that the
+// mean over both is about a lobe of
 //
 //     1 / n' = 1 / n + (s_i² + s_j²) / 12 r²,
 //
@@ -91,7 +94,8 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     const vec3 way = d * inversesqrt(r2);
     cos_in = -dot(way, x.normal);
     if (is_near)  // π F_ij stands for the geometry and the visibility of all points
-        return mean_lobes(k, shot, eye, lumel, way, r2) * near_factor(i, shot.lumel) / shot.disc;
+        return lobes_toward(k, shot, eye, way, min(shot.shininess, kMostNearShininess)) *
+               near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
     if (!sees(p.views, k, d * frame, x.facing * frame))
         return vec3(0.0);
