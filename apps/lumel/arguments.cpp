@@ -57,6 +57,7 @@ const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
 const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
                                           {"hemisphere", Projection::hemisphere}};
+const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
@@ -190,6 +191,8 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
         .add_option("--device", bake.options.device, "Index or part of a name from lumel devices")
         ->type_name("NAME");
     command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
+    add_choice(command, "--directional", bake.options.directional, kDirectional,
+               "Also write where the light comes from, as spherical harmonics of order 1 or 2");
     command.add_option("--preview-width", bake.options.preview_width, "Of preview.png; 0: none")
         ->type_name("N")
         ->capture_default_str()

@@ -8,6 +8,20 @@
 #include "solve/solver.h"
 
 namespace lumel {
+namespace {
+
+DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
+{
+    return {.kind = options.directional,
+            .rule = options.solver.rule,
+            .seed = options.solver.seed,
+            .batch = std::uint32_t(options.solver.batch),
+            .projection = options.solver.projection,
+            .hemicube = std::uint32_t(options.solver.hemicube),
+            .shots = directional_shots(solver_shots)};
+}
+
+}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
@@ -25,13 +39,23 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     SolveRun run = solve_in_stage(*solver, options.solver, stages);
     const std::vector<glm::vec3> irradiance = solver->irradiance();
 
+    DirectionalLight directional;
+    if (options.directional != Directional::none) {
+        stages.begin("directional light");
+        directional = gather_directional(
+            device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
+            irradiance, directional_options(options, solver->state().shots),
+            [&](double fraction) { return run.finished && stages.tell(fraction); });
+    }
+
     stages.begin("finishing");
     Results results{.shots = solver->state().shots,
                     .iterations = solver->state().iterations,
                     .error = solver->state().error,
                     .interrupted = !run.finished,
                     .near_pairs = setting.near.column.size(),
-                    .curve = std::move(run.curve)};
+                    .curve = std::move(run.curve),
+                    .directional = std::move(directional)};
     return write_bake(output, options, setting.world, device, *solver, irradiance, results, stages);
 }
 

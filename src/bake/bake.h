@@ -7,6 +7,7 @@
 
 #include "atlas/atlas.h"
 #include "reference/reference.h"
+#include "solve/directional.h"
 #include "solve/solver.h"
 
 namespace lumel {
@@ -14,9 +15,10 @@ namespace lumel {
 struct BakeOptions {
     AtlasOptions atlas;
     SolverOptions solver;
-    std::string device;        ///< index or part of a name as `lumel devices` lists; empty: best
-    bool half = false;         ///< lightmap.exr in half precision
-    int preview_width = 1280;  ///< [pixels], 0: no preview
+    std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
+    bool half = false;   ///< lightmap.exr in half precision
+    Directional directional = Directional::none;  ///< layers of lightmap.exr
+    int preview_width = 1280;                     ///< [pixels], 0: no preview
 };
 
 /// State of a running bake, for a progress display.

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "bake/directional_layers.h"
 #include "bake/report.h"
 #include "finish/finish.h"
 #include "output/folder.h"
@@ -26,15 +27,17 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
     return radiance;
 }
 
-void write_maps(const OutputFolder& folder, const Image& map, bool half, const Prepared& world)
+void write_maps(const OutputFolder& folder, const Image& map, bool half, const Prepared& world,
+                std::span<const Layer> directional)
 {
+    std::map<std::string, std::string> metadata = {
+        {"quantity", "irradiance"},        {"unit", "lx"},
+        {"colorSpace", "linear Rec. 709"}, {"alpha", "coverage"},
+        {"sceneHash", world.scene.hash},   {"software", "lumel " LUMEL_VERSION}};
+    if (!directional.empty())
+        metadata.merge(directional_metadata());
     write_exr(folder.path("lightmap.exr"), map, half ? Precision::float16 : Precision::float32,
-              {{"quantity", "irradiance"},
-               {"unit", "lx"},
-               {"colorSpace", "linear Rec. 709"},
-               {"alpha", "coverage"},
-               {"sceneHash", world.scene.hash},
-               {"software", "lumel " LUMEL_VERSION}});
+              metadata, directional);
     write_png(folder.path("lightmap.png"), tone_map(map));
 }
 
@@ -45,10 +48,12 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+    const DirectionalMaps maps =
+        finish_directional(world, irradiance, results.directional.coefficients);
+    const Image& map = maps.light;
     const Image radiance =
         finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
-    write_maps(folder, map, options.half, world);
+    write_maps(folder, map, options.half, world, maps.layers);
     write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
     write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
     if (options.preview_width > 0) {
@@ -74,7 +79,7 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
     write_maps(folder, finish_map(world.scene, world.atlas, world.lumels, irradiance), options.half,
-               world);
+               world, {});
     stages.end();
     const std::string report = to_json(reference_report(reference, world, stopped, stages));
     write_text(folder.path("report.json"), report);

@@ -21,6 +21,7 @@ struct Results {
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;
+    DirectionalLight directional;  ///< empty if not asked for
 };
 
 /// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].

@@ -14,6 +14,12 @@ const char* text_of(SampleRule rule)
     return rule == SampleRule::area ? "area" : "centre";
 }
 
+const char* text_of(Directional directional)
+{
+    return directional == Directional::none ? "none"
+                                            : (directional == Directional::sh1 ? "sh1" : "sh2");
+}
+
 Report common(const Prepared& world, const Stages& stages)
 {
     Report report;
@@ -53,7 +59,8 @@ std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& 
             {"error", fmt::format("{}", 100.0 * solver.target_error)},
             {"gutter", std::to_string(options.atlas.gutter)},
             {"max-size", std::to_string(options.atlas.max_size)},
-            {"half", options.half ? "true" : "false"}};
+            {"half", options.half ? "true" : "false"},
+            {"directional", text_of(options.directional)}};
 }
 
 }  // namespace
@@ -64,6 +71,7 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     Report report = common(world, stages);
     report.settings = settings_of(options);
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
+    report.directional_shots = results.directional.shots;
     report.seed = options.solver.seed;
     report.device = device.info().name;
     report.driver = device.info().driver;
@@ -76,6 +84,8 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     report.convergence = results.curve;
     for (const auto& [stage, ms] : solver.times())
         report.gpu_milliseconds.emplace_back(stage, std::vector<double>{ms});
+    for (const auto& [stage, ms] : results.directional.times)
+        report.gpu_milliseconds.emplace_back("directional: " + stage, std::vector<double>{ms});
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
     report.peak_gpu_bytes = std::int64_t(device.peak_bytes());

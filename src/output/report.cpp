@@ -12,19 +12,26 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What the numbers in the other files mean.
-Json units()
+Json units(bool directional)
 {
-    return {{"length", "m"},
-            {"irradiance", "lx"},
-            {"radiance", "cd/m2"},
-            {"color_space", "linear Rec. 709"},
-            {"lightmap.exr", "irradiance H [lx] in RGB, not divided by pi; alpha is the covered "
-                             "fraction of each texel, 0: not covered"},
-            {"lightmap.png", "tone-mapped for looking, sRGB"},
-            {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
-                          "texel linear, intensity in lx"},
-            {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
-            {"texture_coordinates", "TEXCOORD_1, (0, 0) at the top left corner"}};
+    Json json = {
+        {"length", "m"},
+        {"irradiance", "lx"},
+        {"radiance", "cd/m2"},
+        {"color_space", "linear Rec. 709"},
+        {"lightmap.exr", "irradiance H [lx] in RGB, not divided by pi; alpha is the covered "
+                         "fraction of each texel, 0: not covered"},
+        {"lightmap.png", "tone-mapped for looking, sRGB"},
+        {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
+                      "texel linear, intensity in lx"},
+        {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
+        {"texture_coordinates", "TEXCOORD_1, (0, 0) at the top left corner"}};
+    if (directional)
+        json["lightmap.exr, layers sh.i"] =
+            "coefficient i = l*l + l + m of incoming radiance [cd/m2], orthonormal real spherical "
+            "harmonics, world axes of the glTF; H(n) = sum of A_l sh.i Y_lm(n), A = pi, 2 pi / 3, "
+            "pi / 4";
+    return json;
 }
 
 // Null for what JSON has no number for.
@@ -72,6 +79,8 @@ Json solution(const Report& report)
                    {"shots", report.shots},
                    {"iterations", report.iterations},
                    {"interrupted", report.interrupted}};
+    if (report.directional_shots > 0)
+        result["directional_shots"] = report.directional_shots;
     if (report.estimated_error >= 0.0)
         result["estimated_error"] = number(report.estimated_error);
     result["convergence"] = curve;
@@ -127,7 +136,7 @@ std::string to_json(const Report& report)
     json["solution"] = solution(report);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
-    json["units"] = units();
+    json["units"] = units(report.directional_shots > 0);
     json["files"] = report.files;
     json["warnings"] = report.warnings;
     json["notes"] = report.notes;

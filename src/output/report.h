@@ -47,7 +47,8 @@ struct Report {
     std::string method;  ///< id of the solver
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
-    double estimated_error = -1.0;  ///< relative, < 0: not known
+    std::uint64_t directional_shots = 0;  ///< 0: no directional layers
+    double estimated_error = -1.0;        ///< relative, < 0: not known
     bool interrupted = false;
     std::vector<ConvergencePoint> convergence;
 

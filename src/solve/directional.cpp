@@ -1,7 +1,7 @@
 // Directional light: spherical harmonics of the radiance that arrives at every lumel.
 //
 // Beyond the papers. The finished irradiance H of any method makes every lumel a source of
-// radiosity B = E + ρH. Shooters are drawn from B and send it through hemicubes once more, as in
+// radiosity B = E + ρH. Shooters are drawn from B and send it once more, as in
 // stochastic.cpp, but receivers keep where it comes from (directional.receive.comp). Close pairs
 // are left out of the shots and taken from the near field (directional.near.comp). Directions go
 // into coefficients by the fit of directional_fit.cpp, about each lumel's normal; at last the
@@ -19,7 +19,7 @@
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/stochastic.shared.h"
-#include "visibility/hemicube.h"
+#include "visibility/eye_views.h"
 
 namespace lumel {
 namespace {
@@ -70,10 +70,11 @@ public:
           world_(&world),
           select_(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
           receive_(device, "directional.receive", kReceiveSpirv, kReceiveSlots,
-                   sizeof(DirectionalReceiveParams), kDirectionalGroup),
+                   sizeof(DirectionalReceiveParams), kDirectionalGroup,
+                   std::uint32_t(options.projection)),
           near_(device, "directional.near", kNearSpirv, 10, sizeof(DirectionalNearParams),
                 kDirectionalGroup),
-          hemicubes_(device, world, options.hemicube, batch_),
+          views_(device, world, options.projection, options.hemicube, batch_),
           eyes_(device, kMostBatch),
           shots_(device, kMostBatch),
           surface_(device, view(surfaces_of(lumels))),
@@ -85,7 +86,7 @@ public:
           pyramid_(device, count_),
           pacer_(device)
     {
-        batch_ = std::min(batch_, hemicubes_.capacity());
+        batch_ = std::min(batch_, views_.capacity());
         pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
             for (const auto& band : bands_)
                 commands.fill(band.buffer());
@@ -97,7 +98,7 @@ public:
     void shoot()
     {
         select();
-        hemicubes_.look_from(pacer_, eyes_, batch_);
+        views_.look_from(pacer_, eyes_, batch_);
         receive();
         sent_ += batch_;
         ++iteration_;
@@ -149,7 +150,7 @@ private:
 
     void receive()
     {
-        DirectionalReceiveParams params{.hemicubes = hemicubes_.layout(),
+        DirectionalReceiveParams params{.views = views_.layout(),
                                         .count = count_,
                                         .shots = batch_,
                                         .iteration = iteration_,
@@ -166,7 +167,7 @@ private:
                                            world_->pieces(),
                                            eyes_,
                                            shots_,
-                                           {hemicubes_.image(), hemicubes_.sampler()},
+                                           {views_.image(), views_.sampler()},
                                            fit_,
                                            bands_[0],
                                            bands_[1],
@@ -182,7 +183,7 @@ private:
     float near_radius_;
     const World* world_;
     gpu::Kernel select_, receive_, near_;
-    Hemicubes hemicubes_;
+    EyeViews views_;
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;
     gpu::Array<glm::vec4> surface_;

@@ -19,8 +19,9 @@ struct DirectionalOptions {
     Directional kind = Directional::sh1;
     SampleRule rule = SampleRule::area;
     std::uint32_t seed = 1;
-    std::uint32_t batch = 16;      ///< shooters at a time
-    std::uint32_t hemicube = 256;  ///< side of the front face [pixels]
+    std::uint32_t batch = 16;  ///< shooters at a time
+    Projection projection = Projection::hemicube;
+    std::uint32_t hemicube = 256;  ///< side of the front face [pixels], see EyeViews
     std::uint64_t shots = 4096;
 };
 

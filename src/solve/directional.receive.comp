@@ -14,7 +14,7 @@ layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
 layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
-layout(binding = 4) uniform sampler2D hemicubes;
+layout(binding = 4) uniform sampler2D views;
 layout(binding = 5, scalar) readonly buffer Fit { FitRow fit[]; };
 layout(binding = 6, scalar) buffer Band0 { vec3 band0[]; };
 layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
@@ -40,7 +40,7 @@ void main()
     load_sums(i, p.count, p.order);
     for (uint k = 0u; k < p.shots; ++k) {
         vec3 d;
-        if (!arrives(r, k, p.hemicubes, p.near_radius, d))
+        if (!arrives(r, k, p.views, p.near_radius, d))
             continue;
         const float r2 = dot(d, d);
         const float per_r = inversesqrt(r2);

@@ -1,6 +1,6 @@
 #ifndef LUMEL_SOLVE_DIRECTIONAL_SHARED_H
 #define LUMEL_SOLVE_DIRECTIONAL_SHARED_H
-#include "visibility/hemicube.shared.h"
+#include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kDirectionalGroup = 64u;
@@ -28,7 +28,7 @@ struct FitRow {
 
 /// Push constants of directional.receive.comp.
 struct DirectionalReceiveParams {
-    HemicubeLayout hemicubes;
+    EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint count;  ///< N

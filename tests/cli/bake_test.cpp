@@ -77,6 +77,21 @@ TEST(Bake, OneSeedGivesOneMapByteForByte)
     EXPECT_EQ(bytes_of(place.path("a/lightmap.exr")), bytes_of(place.path("b/lightmap.exr")));
 }
 
+TEST(Bake, DirectionalLayersAreInTheReportAndInTheLightmapOnlyWhenAskedFor)
+{
+    const Workplace place;
+    const auto plain = small_bake(place.path("a"), {"--shots", "64"});
+    const auto asked = small_bake(place.path("b"), {"--shots", "64", "--directional", "sh1"});
+    ASSERT_EQ(run_lumel(plain).code, 0);
+    ASSERT_EQ(run_lumel(asked).code, 0);
+    EXPECT_EQ(bytes_of(place.path("a/lightmap.exr")).find("sh.0.R"), std::string::npos);
+    EXPECT_NE(bytes_of(place.path("b/lightmap.exr")).find("sh.3.B"), std::string::npos);
+    const auto report = nlohmann::json::parse(bytes_of(place.path("b/report.json")));
+    EXPECT_EQ(report["settings"]["directional"], "sh1");
+    EXPECT_GT(report["solution"]["directional_shots"], 0);
+    EXPECT_TRUE(report["units"].contains("lightmap.exr, layers sh.i"));
+}
+
 TEST(Bake, CtrlCWritesTheBestSolutionAndExits130)
 {
     const Workplace place;

@@ -1,0 +1,28 @@
+#pragma once
+// Directional light as layers of lightmap.exr. docs/directional.md says what they mean.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bake/prepare.h"
+#include "finish/finish.h"
+#include "output/image_files.h"
+
+namespace lumel {
+
+/// A finished lightmap and the layers sh.0, sh.1, … beside it.
+struct DirectionalMaps {
+    Image light;
+    std::vector<Layer> layers;
+};
+
+/// irradiance [N] [lx], coefficients [4 or 9][N] [cd/m²]. At every covered texel the layers give
+/// the irradiance of the map back, for the shading normal of the lumel there.
+DirectionalMaps finish_directional(const Prepared& world, const std::vector<glm::vec3>& irradiance,
+                                   const std::vector<std::vector<glm::vec3>>& coefficients);
+
+/// What the file says of the layers.
+std::map<std::string, std::string> directional_metadata();
+
+}  // namespace lumel
