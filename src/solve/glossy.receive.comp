@@ -57,8 +57,8 @@ float near_factor(uint i, uint j)
 const float kMostNearShininess = 100.0;
 
 // The lobes as a whole lumel sees those of a whole lumel. Squares of side s at distance r spread
-// the directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that the
-// mean over both is about a lobe of
+// the directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that
+// the mean over both is about a lobe of
 //
 //     1 / n' = 1 / n + (s_i² + s_j²) / 12 r²,
 //
