@@ -31,6 +31,9 @@ public:
     /// finite.
     std::optional<Terms> take(gpu::Pacer& pacer, std::uint64_t iteration);
 
+    /// Forgets figures that are on their way. The pacer must have finished.
+    void drop() { waiting_ = false; }
+
     /// The figures last added up. Waits for the device.
     Terms now() const { return sums_.download()[0]; }
 

@@ -54,6 +54,8 @@ constexpr std::uint32_t kEvaluateSpirv[] = {
 constexpr std::uint64_t kRestarts[] = {8, 32};
 /// Iterations after the last restart before the error is stated.
 constexpr std::uint64_t kFirstStated = 2;
+/// Share of a frame's shooters spread by area: light may reach what was dark before.
+constexpr float kFrameByArea = 0.1f;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeLumels = 4096;
 
@@ -142,10 +144,10 @@ void GlossyIllumination::step()
     receive();
     if (eye_)
         eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
-    ++batches_[state_.iterations % 2];
+    ++batches_[iteration_++ % 2];
     ++state_.iterations;
     state_.shots += batch_;
-    next_index_ += batch_;
+    next_shot_ += batch_;
     if (std::min(batches_[0], batches_[1]) >= 1.0f)
         figures_.ask(pacer_, state_.iterations,
                      [&](gpu::Commands& commands) { evaluate(commands); });
@@ -168,7 +170,7 @@ void GlossyIllumination::select()
                                     .count = count_,
                                     .shots = batch_,
                                     .before = state_.iterations > 0 ? batch_ : 0u,
-                                    .index = next_index_,
+                                    .index = next_shot_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -190,8 +192,8 @@ void GlossyIllumination::receive()
     GlossyReceiveParams params{.views = views_.layout(),
                                .count = count_,
                                .shots = batch_,
-                               .half_ = std::uint32_t(state_.iterations % 2),
-                               .iteration = std::uint32_t(state_.iterations),
+                               .half_ = iteration_ % 2,
+                               .iteration = iteration_,
                                .seed = options_.seed,
                                .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                .near_radius = near_radius_};
@@ -220,9 +222,8 @@ void GlossyIllumination::receive()
                                        lobes_},
                                       params, last - first);
                 });
-    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
-    });
+    if (!held_)
+        draw_in_proportion_to(exitance_, 0.0f);
 }
 
 void GlossyIllumination::evaluate(gpu::Commands& commands)
@@ -255,42 +256,88 @@ std::vector<glm::vec3> GlossyIllumination::irradiance()
     return irradiance_.download();
 }
 
-void GlossyIllumination::set_emission(std::span<const glm::vec3> emission)
+void GlossyIllumination::rewind()
+{
+    const std::size_t before = (state_.iterations + 1) % 2;
+    const bool is_first = !held_;
+    if (is_first)
+        held_.emplace(Held{{*device_, count_},
+                           {*device_, count_},
+                           {*device_, count_},
+                           {*device_, count_},
+                           {*device_, std::size_t(batch_) * count_},
+                           {*device_, kMostGlossyBatch},
+                           {*device_, view(mean_exitance())}});
+    pacer_.work("rewind", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        const auto carry = [&](const gpu::Buffer& now, const gpu::Buffer& held) {
+            commands.copy(is_first ? now : held, is_first ? held : now, held.bytes());
+        };
+        carry(emission_.buffer(), held_->emission.buffer());
+        carry(exitance_.buffer(), held_->exitance.buffer());
+        carry(diffuse_.buffer(), held_->diffuse.buffer());
+        carry(near_.buffer(), held_->near.buffer());
+        carry(last_.buffer(), held_->last.buffer());
+        carry(eyes_[before].buffer(), held_->eyes.buffer());
+    });
+    pacer_.finish();
+    figures_.drop();
+    iteration_ = next_shot_ = 0;
+}
+
+void GlossyIllumination::forget_frames()
 {
     pacer_.finish();
+    held_.reset();
+}
+
+void GlossyIllumination::set_emission(std::span<const glm::vec3> emission)
+{
+    rewind();
     const std::vector<glm::vec3> before = emission_.download();
     emission_.upload(emission);
     emitted_power_ = 0.0;
     for (std::size_t i = 0; i < count_; ++i)
         emitted_power_ += luminance(emission[i]) * double(lumels_->lumels[i].area);
-    // What was sent but for the emission will be sent again.
-    for (gpu::Array<glm::vec3>* sent : {&exitance_, &diffuse_}) {
-        std::vector<glm::vec3> values = sent->download();
+    const auto add_change = [&](const gpu::Array<glm::vec3>& from, gpu::Array<glm::vec3>& to) {
+        std::vector<glm::vec3> values = from.download();
         for (std::size_t i = 0; i < count_; ++i)
-            values[i] += emission[i] - before[i];
-        sent->upload(values);
-    }
+            values[i] = glm::max(values[i] + emission[i] - before[i], glm::vec3(0.0f));
+        to.upload(values);
+    };
+    add_change(exitance_, exitance_);
+    add_change(diffuse_, diffuse_);
     restart();
+    draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
+}
+
+void GlossyIllumination::draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area)
+{
     pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+        power_.build(commands, exitance, surface_, by_area, reflecting_area(*lumels_));
     });
-    next_index_ = 0;
+}
+
+std::vector<glm::vec3> GlossyIllumination::mean_exitance()
+{
+    // The lobes' albedo counts as 1: what is drawn by need not be exact.
+    std::vector<glm::vec3> exitance = irradiance();
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Gloss& gloss = lumels_->gloss[i];
+        exitance[i] = lumels_->lumels[i].emission + (gloss.diffuse + gloss.specular) * exitance[i];
+    }
+    return exitance;
 }
 
 std::vector<float> GlossyIllumination::brightness()
 {
-    // The lobes' albedo counts as 1: a density need not be exact.
-    const std::vector<glm::vec3> arriving = irradiance();
+    const std::vector<glm::vec3> exitance = mean_exitance();
     std::vector<float> brightness(count_, 0.0f);
     double power = 0.0;
     for (std::uint32_t j = 0; j < count_; ++j) {
-        const Lumel& lumel = lumels_->lumels[j];
-        const Gloss& gloss = lumels_->gloss[j];
-        if (lumel.flags & kLumelBuried)
+        if (lumels_->lumels[j].flags & kLumelBuried)
             continue;
-        brightness[j] =
-            float(luminance(lumel.emission + (gloss.diffuse + gloss.specular) * arriving[j]));
-        power += double(brightness[j]) * double(lumel.area);
+        brightness[j] = float(luminance(exitance[j]));
+        power += double(brightness[j]) * double(lumels_->lumels[j].area);
     }
     for (float& value : brightness)
         value = power > 0.0 ? float(double(value) / power) : 0.0f;
@@ -300,8 +347,9 @@ std::vector<float> GlossyIllumination::brightness()
 void GlossyIllumination::look_at(std::span<const EyePoint> points,
                                  std::span<const float> brightness, const EyeSampling& sampling)
 {
+    const std::vector<glm::vec3> emission = emission_.download();
     eye_.emplace(*device_, options_.projection, points, brightness, sampling);
-    next_index_ = 0;
+    set_emission(emission);
 }
 
 std::vector<glm::vec3> GlossyIllumination::eye_radiance()

@@ -37,17 +37,21 @@ public:
     /// Of the solution so far. Waits for the device.
     EnergyBalance energy();
 
-    /// E [N] [lm/m²] from now on. The solution goes on from where it is and with the numbers it
-    /// began with, so that a small change of light changes the noise but little; its average
-    /// starts again. Waits for the device.
+    /// A frame of other light: E [N] [lm/m²] from now on. Every frame goes on from the iteration
+    /// that the first one went on from, with the same random numbers and the same shooters; its
+    /// average starts again. Where light moved far from where it was in the first frame, that is
+    /// noisy: forget_frames() then. Waits for the device.
     void set_emission(std::span<const glm::vec3> emission);
 
     /// [N] 𝓛(B_j) / Φ [1/m²]: about the density with which shooters are drawn from now on. Waits
     /// for the device.
     std::vector<float> brightness();
-    /// From now on, every step also adds to the image of an eye that sees these points. The
-    /// solution goes on from where it is; the same numbers are drawn for every eye, so that two
-    /// close ones see nearly the same noise. Waits for the device.
+    /// Lets the next frame be the first one. Waits for the device.
+    void forget_frames();
+
+    /// A frame for another eye: every step also adds to the image of one that sees these points.
+    /// It goes on as any frame does, so that all eyes meet the same shooters and close ones see
+    /// the same noise. Waits for the device.
     void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
                  const EyeSampling& sampling);
     /// [P] reflected by the lobes toward the eye [cd/m²]; empty before look_at. Waits for the
@@ -60,7 +64,19 @@ private:
         gpu::Kernel select, receive, evaluate;
     };
 
+    /// Where frames begin: what an iteration takes from the one before, and mean B, in proportion
+    /// to which frames draw their shooters. Drawn by the last iteration's B, two frames would soon
+    /// have nothing in common.
+    struct Held {
+        gpu::Array<glm::vec3> emission, exitance, diffuse, near, last;
+        gpu::Array<Eye> eyes;
+        gpu::Array<glm::vec3> mean_exitance;
+    };
+
     void begin();
+    void rewind();
+    std::vector<glm::vec3> mean_exitance();
+    void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     void select();
     void receive();
     void restart();
@@ -94,13 +110,14 @@ private:
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;
     std::optional<EyeImage> eye_;
+    std::optional<Held> held_;  ///< from the first frame on
     NearRows near_rows_;
     PowerPyramid power_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
-    std::uint32_t next_index_ = 0;    ///< of the next shooter in the random sequence
-    std::array<float, 2> batches_{};  ///< iterations in sums, per half
+    std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences
+    std::array<float, 2> batches_{};               ///< iterations in sums, per half
 };
 
 }  // namespace lumel
