@@ -159,6 +159,7 @@ void Commands::dispatch_bytes(const Kernel& kernel, std::span<const Binding> bin
                     "cannot work on " + std::to_string(threads) +
                         " elements at once; use a smaller --size or a simpler scene");
     vkCmdDispatch(buffer_, std::uint32_t(groups), 1, 1);
+    ++device_->recorded().dispatches;
     barrier();
 }
 
@@ -252,6 +253,7 @@ void Commands::begin_pass(const Target* color, const Target& depth, const Area& 
         .pColorAttachments = &color_attachment,
         .pDepthAttachment = &depth_attachment};
     vkCmdBeginRendering(buffer_, &info);
+    ++device_->recorded().passes;
     viewport(area);
 }
 
@@ -282,6 +284,7 @@ void Commands::draw_bytes(const void* params, std::uint32_t bytes, const Range& 
 {
     push_params(*layout_in_use_, params, bytes);
     vkCmdDrawIndexed(buffer_, range.count, 1, range.first, 0, 0);
+    ++device_->recorded().draws;
 }
 
 void Commands::end_pass()

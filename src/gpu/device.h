@@ -24,6 +24,11 @@ struct DeviceInfo {
 /// All devices, in the loader's order. Throws Error{device} if there is no Vulkan loader.
 std::vector<DeviceInfo> list_devices();
 
+/// How much work was recorded.
+struct Recorded {
+    std::uint64_t dispatches = 0, passes = 0, draws = 0;
+};
+
 /// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
 /// made from it holds a reference and must not outlive it.
 class Device {
@@ -47,6 +52,9 @@ public:
     std::uint32_t max_groups() const { return max_groups_; }  ///< of one dispatch
     bool can_tessellate() const { return can_tessellate_; }   ///< has tessellation shaders
     std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
+
+    /// By all Commands of this device so far; they count here themselves.
+    Recorded& recorded() const { return recorded_; }
 
     /// Time between two timestamps, which may wrap round [ms].
     double milliseconds(std::uint64_t from, std::uint64_t to) const
@@ -80,6 +88,7 @@ private:
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
     mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;
+    mutable Recorded recorded_;
 };
 
 }  // namespace lumel::gpu
