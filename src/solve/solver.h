@@ -26,6 +26,7 @@ struct SolverOptions {
     std::string method = "stochastic";  ///< id in kMethods
     Scheme scheme = Scheme::phased;
     SampleRule rule = SampleRule::area;
+    bool disc = true;  ///< of "stochastic" with Scheme::paper: shooters are discs, [BSS05] Eq. (8)
     std::uint32_t seed = 1;
     int batch = 16;  ///< K, shooters per iteration
     Projection projection = Projection::hemicube;

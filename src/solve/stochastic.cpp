@@ -199,7 +199,7 @@ void StochasticRadiosity::select(gpu::Commands& commands, std::uint32_t emission
                               .source_index = source_index_[h],
                               .seed = options_.seed * 2 + h,
                               .random = paper_ ? 1u : 0u,
-                              .disc = paper_ ? 1u : 0u,
+                              .disc = paper_ && options_.disc ? 1u : 0u,
                               .centre = options_.rule == SampleRule::centre ? 1u : 0u};
     commands.dispatch(kernels_.select,
                       {world_->lumels(), world_->pieces(), emission_, source_,
@@ -248,11 +248,13 @@ void StochasticRadiosity::shoot()
 void StochasticRadiosity::evaluate(gpu::Commands& commands)
 {
     const AverageParams params{averages(), count_, float(kDimShare * mean_irradiance_)};
-    commands.dispatch(kernels_.balance,
-                      {surface_, direct_, indirect_, near_emission_, near_source_, source_,
-                       earlier_, figures_.parts()},
-                      params, count_);
-    figures_.add_up(commands, totals_);
+    if (!paper_) {
+        commands.dispatch(kernels_.balance,
+                          {surface_, direct_, indirect_, near_emission_, near_source_, source_,
+                           earlier_, figures_.parts()},
+                          params, count_);
+        figures_.add_up(commands, totals_);
+    }
     commands.dispatch(kernels_.evaluate,
                       {surface_, direct_, indirect_, near_emission_, near_source_, earlier_,
                        totals_, far_, irradiance_, figures_.parts()},
@@ -271,6 +273,8 @@ void StochasticRadiosity::advance()
                           count_);
         if (!paper_)
             near_rows_.light(commands, source_, near_source_);
+    });
+    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         source_power_pyramid_.build(commands, source_, surface_, paper_ ? 0.0f : kDefensiveShare,
                                     reflecting_area_);
     });
