@@ -9,9 +9,9 @@
 
 #include <fmt/core.h>
 
+#include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
-#include "output/image_files.h"
 #include "reference/metrics.h"
 
 namespace lumel::bench {
@@ -122,24 +122,6 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     if (!device.validation_messages().empty())
         throw Error(ErrorKind::device, "validation", device.validation_messages());
     return rows;
-}
-
-std::optional<Image> reference_map(const Settings& settings, const Prepared& world)
-{
-    if (!settings.reference.empty())
-        return read_exr(settings.reference);
-    if (settings.reference_spp <= 0)
-        return {};
-    fmt::print("reference: path tracing {} samples per lumel …\n", settings.reference_spp);
-    std::fflush(stdout);
-    const Image map = finish_map(world.scene, world.atlas, world.lumels,
-                                 reference_irradiance(world.scene, world.rays, world.lumels,
-                                                      {.samples_per_lumel = settings.reference_spp,
-                                                       .seed = 99,
-                                                       .rule = settings.solver.rule}));
-    if (!settings.save_reference.empty())
-        write_exr(settings.save_reference, map, Precision::float32, {});
-    return map;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 set(LUMEL_PROGRAMS lumel)
 if(TARGET lumel_bench)
-    list(APPEND LUMEL_PROGRAMS lumel_bench)
+    list(APPEND LUMEL_PROGRAMS lumel_bench lumel_papers)
 endif()
 
 # DT_RPATH, not DT_RUNPATH: it also holds for what the bundled libraries themselves need.

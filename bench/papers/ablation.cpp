@@ -1,0 +1,221 @@
+// [BSS05] section 5 and figure 1: "partial analytic integration and multiple importance sampling",
+// each measured with and without.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/core.h>
+
+#include "bench/papers/figures.h"
+#include "bench/papers/iteration_cost.h"
+#include "bench/papers/spread.h"
+#include "bench/stopwatch.h"
+#include "finish/finish.h"
+#include "picture/lobe_rays.h"
+#include "picture/seen.h"
+#include "preview/view.h"
+#include "solve/glossy.h"
+#include "solve/lumel_arrays.h"
+
+namespace lumel::bench {
+namespace {
+
+/// Places looked at within a pixel.
+constexpr std::uint32_t kSets = 4;
+
+/// A way to find what lobes reflect to the eye, and what it came to.
+struct Way {
+    const char* name;
+    std::uint64_t shots;
+    std::uint32_t rays;
+    Spread spread;
+    double cpu = 0.0;  ///< of all runs [s]
+};
+
+/// A glossy scene and what its camera sees.
+struct Sight {
+    Sight(const AblationSettings& settings, const gpu::Device& device);
+
+    SolverOptions options;
+    Prepared world;
+    NearField near;
+    World resident;
+    Surfaces surfaces;
+    Seen seen;
+    std::vector<char> counts;  ///< [pixels] 1: shows gloss and no lamp
+};
+
+Settings glossy(Settings settings)
+{
+    settings.solver.method = "glossy";
+    return settings;
+}
+
+Seen seen_by_camera(const AblationSettings& settings, const Prepared& world,
+                    const Surfaces& surfaces)
+{
+    const View view = choose_view(world.scene, world.rays);
+    const int height = std::max(1, int(std::lround(float(settings.width) / view.aspect)));
+    return look(view, settings.width, height, kSets, world.rays, surfaces);
+}
+
+Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
+    : options(glossy(settings.shared).solver),
+      world(read_gltf(settings.shared.scene, MaterialModel::glossy),
+            AtlasOptions{.size = settings.shared.size}),
+      near(build_near_field(world.scene, world.rays, world.lumels, near_field_options(options))),
+      resident(device, world.scene, world.lumels),
+      surfaces(world.scene),
+      seen(seen_by_camera(settings, world, surfaces)),
+      counts(std::size_t(seen.width) * std::size_t(seen.height), 0)
+{
+    for (const std::uint32_t point : seen.index)
+        counts[point % counts.size()] = 1;
+    for (std::size_t i = 0; i < seen.points.size(); ++i)
+        if (luminance(seen.points[i].luminance) > 0.0)
+            counts[i % counts.size()] = 0;
+}
+
+/// What the lobes add to each pixel that counts [cd/m²].
+std::vector<double> pixels_of(const Sight& sight, const std::vector<glm::vec3>& reflected)
+{
+    std::vector<double> all(sight.counts.size(), 0.0), kept;
+    for (std::size_t g = 0; g < reflected.size(); ++g)
+        all[sight.seen.index[g] % all.size()] += luminance(reflected[g]) / kSets;
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (sight.counts[i])
+            kept.push_back(all[i]);
+    return kept;
+}
+
+/// One picture, made as lumel render does.
+void take(Way& way, const Sight& sight, GlossyIllumination& solver, const LitScene& lit,
+          std::uint32_t seed)
+{
+    Stopwatch watch;
+    watch.start();
+    const EyeSampling sampling{sight.seen.first, way.shots, way.rays};
+    const std::vector<float> brightness = solver.brightness();
+    std::vector<glm::vec3> radiance(sight.seen.glossy.size());
+    if (way.shots > 0) {
+        solver.look_at(sight.seen.glossy, brightness, sampling);
+        const std::uint64_t end = solver.state().shots + way.shots;
+        while (solver.state().shots < end)
+            solver.step();
+        radiance = solver.eye_radiance();
+    }
+    const LobeRayOptions lobes{
+        .rays = way.rays, .shooters = way.shots > 0 ? sampling.shooters() : 0.0f, .seed = seed};
+    const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, sight.world.rays,
+                                                            sight.surfaces, lit, brightness, lobes);
+    for (std::size_t g = 0; g < radiance.size(); ++g)
+        radiance[g] += along[g];
+    watch.stop();
+    way.cpu += watch.cpu;
+    way.spread.add(pixels_of(sight, radiance));
+}
+
+void print_ways(const std::vector<Way>& ways, const Sight& sight, int seeds)
+{
+    fmt::print("Multiple importance sampling: {} × {} pixels, {} seeds\n\n"
+               "| way | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
+               "|---|---|---|---|---|---|---|\n",
+               sight.seen.width, sight.seen.height, seeds);
+    for (const Way& way : ways) {
+        const double cpu = way.cpu / seeds;
+        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", way.name, way.shots,
+                   way.rays, way.spread.mean(), way.spread.variance(), cpu,
+                   way.spread.variance() * cpu);
+    }
+    std::fflush(stdout);
+}
+
+/// Shooters, rays, and both. Only what the lobes reflect is counted: the rest is the same in all.
+void ablate_weighing(const AblationSettings& settings, const gpu::Device& device)
+{
+    const Sight sight(settings, device);
+    const auto shots = std::uint64_t(settings.eye_shots);
+    const auto rays = std::uint32_t(settings.rays);
+    std::vector<Way> ways = {{.name = "shooters alone", .shots = shots, .rays = 0},
+                             {.name = "rays alone", .shots = 0, .rays = rays},
+                             {.name = "both, weighed", .shots = shots, .rays = rays}};
+    for (int i = 0; i < settings.seeds; ++i) {
+        SolverOptions options = sight.options;
+        options.seed += std::uint32_t(i);
+        options.max_shots = std::uint64_t(settings.solving_shots);
+        options.target_error = 0.0;
+        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options);
+        solve(solver, options);
+        const Image map = finish_map(sight.world.scene, sight.world.atlas, sight.world.lumels,
+                                     solver.irradiance());
+        const LitScene lit(sight.world.scene, sight.world.atlas, sight.world.lumels, map);
+        if (i == 0) {  // the driver compiles shaders when they first run
+            Way warm = ways.back();
+            take(warm, sight, solver, lit, options.seed);
+        }
+        for (Way& way : ways)
+            take(way, sight, solver, lit, options.seed);
+    }
+    print_ways(ways, sight, settings.seeds);
+}
+
+/// Light at every lumel after some iterations of the papers' scheme, between seeds.
+Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device& device,
+                            const Prepared& world, const World& resident,
+                            const SolverOptions& options)
+{
+    Spread spread;
+    for (int i = 0; i < settings.seeds; ++i) {
+        SolverOptions seeded = options;
+        seeded.seed += std::uint32_t(i);
+        const auto solver =
+            make_solver(device, resident, world.lumels, no_near_field(world.lumels), seeded);
+        for (int k = 0; k < settings.iterations; ++k)
+            solver->step();
+        std::vector<double> values;
+        for (const glm::vec3& irradiance : solver->irradiance())
+            values.push_back(luminance(irradiance));
+        spread.add(values);
+    }
+    return spread;
+}
+
+/// Eq. (8): with r² + A/π below, and with r² alone.
+void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
+{
+    Settings diffuse = settings.shared;
+    diffuse.solver.method = "stochastic";
+    const Prepared world = prepare(diffuse, diffuse.size);
+    const World resident(device, world.scene, world.lumels);
+    fmt::print("\nPartial analytic integration: {} lumels, {} iterations, {} seeds\n\n"
+               "| points | below | mean lx | variance / mean² | largest deviation / mean |\n"
+               "|---|---|---|---|---|\n",
+               world.lumels.lumels.size(), settings.iterations, settings.seeds);
+    for (const SampleRule rule : {SampleRule::centre, SampleRule::area})
+        for (const bool disc : {false, true}) {
+            SolverOptions options = papers_iteration(diffuse.solver);
+            options.rule = rule;
+            options.disc = disc;
+            const Spread spread = spread_of_irradiance(settings, device, world, resident, options);
+            fmt::print("| {} | {} | {:.4g} | {:.4g} | {:.4g} |\n",
+                       rule == SampleRule::centre ? "centres" : "spread over lumels",
+                       disc ? "r² + A/π" : "r²", spread.mean(), spread.variance(),
+                       spread.largest());
+            std::fflush(stdout);
+        }
+}
+
+}  // namespace
+
+void ablate(const AblationSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    fmt::print("{}, {} ({})\n\n", settings.shared.scene, device.info().name, device.info().driver);
+    ablate_weighing(settings, device);
+    ablate_disc(settings, device);
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench

@@ -1,0 +1,156 @@
+// [BJ04] figures 5 and 6, the scene and its map after 1, 4 and 50 iterations; [BSS05] section 6:
+// "we can expect converged images after 40 – 80 iterations".
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include <fmt/core.h>
+
+#include "bake/render.h"
+#include "bench/papers/figures.h"
+#include "bench/papers/iteration_cost.h"
+#include "bench/reference.h"
+#include "bench/stopwatch.h"
+#include "finish/finish.h"
+#include "output/image_files.h"
+#include "preview/preview.h"
+#include "reference/metrics.h"
+
+namespace lumel::bench {
+namespace {
+
+/// Places looked at within a pixel, each by some of the shooters.
+constexpr int kMostSets = 4;
+/// Along the lobe at each place; the papers have none.
+constexpr std::uint32_t kRays = 16;
+
+struct Step {
+    int iterations = 0;
+    Image map, picture;
+};
+
+std::string word_for(const SolverOptions& options)
+{
+    return options.scheme == Scheme::paper ? "paper" : "phased";
+}
+
+bool is_glossy(const SolverOptions& options)
+{
+    return method_of(options.method).materials == MaterialModel::glossy;
+}
+
+/// The glossy scene from its camera, by so many iterations before the eye looks and as many after.
+Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options, int iterations)
+{
+    options.max_shots = std::uint64_t(iterations) * std::uint64_t(options.batch);
+    options.target_error = 0.0;
+    RenderOptions render_options{.width = settings.width,
+                                 .sets = std::uint32_t(std::min(iterations, kMostSets)),
+                                 .shots = options.max_shots,
+                                 .rays = options.scheme == Scheme::paper ? 0u : kRays};
+    render_options.bake.atlas.size = settings.shared.size;
+    render_options.bake.solver = options;
+    render_options.bake.device = settings.shared.device;
+    return render(read_gltf(settings.shared.scene, MaterialModel::glossy), render_options).image;
+}
+
+Image picture_of(const ConvergenceSettings& settings, const SolverOptions& options,
+                 const gpu::Device& device, const Prepared& world, const Step& step)
+{
+    if (is_glossy(options))
+        return glossy_picture(settings, options, step.iterations);
+    return render_preview(device, world.scene, world.atlas, step.map,
+                          choose_view(world.scene, world.rays), settings.width);
+}
+
+/// All exposed like the last.
+void write_steps(const ConvergenceSettings& settings, const SolverOptions& options,
+                 const std::vector<Step>& steps)
+{
+    std::filesystem::create_directories(settings.folder);
+    const float map_exposure = choose_exposure(steps.back().map);
+    const float picture_exposure = choose_exposure(steps.back().picture);
+    for (const Step& step : steps) {
+        const auto path = [&](const char* what) {
+            return fmt::format("{}/{}-{}-{}-{:03}.png", settings.folder,
+                               std::filesystem::path(settings.shared.scene).stem().string(),
+                               word_for(options), what, step.iterations);
+        };
+        write_png(path("map"), tone_map(step.map, map_exposure));
+        write_png(path("picture"), tone_map(step.picture, picture_exposure));
+    }
+}
+
+void print_row(const SolverOptions& options, const SolverState& state, double cpu,
+               const std::optional<MapError>& error)
+{
+    const std::string measured =
+        error ? fmt::format("{:.2f} | {:+.2f}", 100.0 * error->relative_rmse, 100.0 * error->bias)
+              : "– | –";
+    fmt::print("| {} | {} | {} | {} | {} | {:.3f} |\n", word_for(options), options.batch,
+               state.iterations, state.shots, measured, cpu);
+    std::fflush(stdout);
+}
+
+NearField near_field_for(const SolverOptions& options, const Prepared& world)
+{
+    return options.scheme == Scheme::paper ? no_near_field(world.lumels)
+                                           : build_near_field(world.scene, world.rays, world.lumels,
+                                                              near_field_options(options));
+}
+
+void follow(const ConvergenceSettings& settings, const SolverOptions& options,
+            const gpu::Device& device, const Prepared& world, const std::optional<Image>& reference)
+{
+    const NearField near = near_field_for(options, world);
+    const World resident(device, world.scene, world.lumels);
+    {  // the driver compiles shaders when they first run
+        const auto warm = make_solver(device, resident, world.lumels, near, options);
+        warm->step();
+        warm->irradiance();
+    }
+    const auto solver = make_solver(device, resident, world.lumels, near, options);
+    std::vector<Step> steps;
+    Stopwatch watch;
+    for (const int iterations : settings.iterations) {
+        watch.start();
+        while (solver->state().iterations < std::uint64_t(iterations))
+            solver->step();
+        const std::vector<glm::vec3> irradiance = solver->irradiance();
+        watch.stop();
+        Step step{.iterations = iterations,
+                  .map = finish_map(world.scene, world.atlas, world.lumels, irradiance)};
+        std::optional<MapError> error;
+        if (reference)
+            error = compare_maps(step.map, *reference);
+        print_row(options, solver->state(), watch.cpu, error);
+        if (settings.folder.empty())
+            continue;
+        step.picture = picture_of(settings, options, device, world, step);
+        steps.push_back(std::move(step));
+    }
+    if (!steps.empty())
+        write_steps(settings, options, steps);
+}
+
+}  // namespace
+
+void follow_convergence(const ConvergenceSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    const Prepared world = prepare(settings.shared, settings.shared.size);
+    const std::optional<Image> reference = reference_map(settings.shared, world);
+    fmt::print("{}, {}, {} lumels at {}², {} ({})\n\n"
+               "| scheme | K | iterations | shooters | RMSE % | bias % | cpu s |\n"
+               "|---|---|---|---|---|---|---|\n",
+               settings.shared.scene, settings.shared.solver.method, world.lumels.lumels.size(),
+               world.atlas.width, device.info().name, device.info().driver);
+    follow(settings, papers_iteration(settings.shared.solver), device, world, reference);
+    follow(settings, settings.shared.solver, device, world, reference);
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench

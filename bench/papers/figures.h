@@ -1,0 +1,54 @@
+#pragma once
+// The papers' figures. All throw Error and print Markdown tables to stdout.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/settings.h"
+
+namespace lumel::bench {
+
+struct IterationSettings {
+    Settings shared;
+    std::vector<int> sizes{64, 128, 256, 512, 1024};   ///< sides of the atlas [texels]
+    std::vector<int> vertices{10, 100, 1000, 10'000};  ///< that are drawn, about
+    int iterations = 12;                               ///< timed at a stretch
+};
+
+/// [BJ04] figures 7 and 8: time of an iteration against vertices, for each size of the map.
+void time_iterations(const IterationSettings& settings);
+
+struct SelectionSettings {
+    Settings shared;
+    std::vector<int> sizes{64, 128, 256, 512, 1024};  ///< sides of the atlas [texels]
+    int draws = 12;                                   ///< timed at a stretch, as are iterations
+};
+
+/// [BJ04] section 3.1: drawing by read-back and linear search against drawing on the device.
+void time_selection(const SelectionSettings& settings);
+
+struct ConvergenceSettings {
+    Settings shared;
+    std::vector<int> iterations{1, 4, 40, 50, 80, 100};
+    std::string folder;  ///< for maps and pictures; empty: none are made
+    int width = 256;     ///< of a picture [pixels]
+};
+
+/// [BJ04] figures 5 and 6: error, and what it looks like, after so many iterations.
+void follow_convergence(const ConvergenceSettings& settings);
+
+struct AblationSettings {
+    Settings shared;
+    int seeds = 8;
+    int width = 160;           ///< of the picture [pixels]
+    int solving_shots = 2048;  ///< before an eye looks
+    int eye_shots = 512;       ///< for the eye
+    int rays = 16;             ///< along the lobe at each place
+    int iterations = 80;       ///< of the papers' scheme, for the disc
+};
+
+/// [BSS05] section 5: variance with and without its remedies.
+void ablate(const AblationSettings& settings);
+
+}  // namespace lumel::bench

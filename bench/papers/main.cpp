@@ -1,0 +1,134 @@
+// lumel-papers: the figures of the papers that Lumel follows, made again.
+//
+//   [BJ04]  A. Barsi, G. Jakab. Stream Processing in Global Illumination. CESCG 2004.
+//   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on
+//           the GPU. 2005.
+
+#include <cstdio>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "bench/papers/figures.h"
+
+namespace lumel::bench {
+namespace {
+
+CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& title,
+                     Settings& shared)
+{
+    CLI::App* figure = app.add_subcommand(name, title);
+    figure->add_option("scene", shared.scene, "glTF scene")->capture_default_str();
+    figure->add_option("--device", shared.device, "as lumel devices lists");
+    figure->add_option("--hemicube", shared.solver.hemicube, "front face [pixels]")
+        ->capture_default_str();
+    figure
+        ->add_option_function<std::string>(
+            "--projection",
+            [&shared](const std::string& word) {
+                shared.solver.projection =
+                    word == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
+            },
+            "hemicube or hemisphere")
+        ->check(CLI::IsMember({"hemicube", "hemisphere"}));
+    figure->add_option("--seed", shared.solver.seed, "the first")->capture_default_str();
+    return figure;
+}
+
+CLI::Option* add_number(CLI::App* figure, const std::string& name, int& value,
+                        const std::string& help, int least = 1)
+{
+    return figure->add_option(name, value, help)
+        ->check(CLI::Range(least, 1'000'000))
+        ->capture_default_str();
+}
+
+CLI::Option* add_list(CLI::App* figure, const std::string& name, std::vector<int>& values,
+                      const std::string& help)
+{
+    return figure->add_option(name, values, help)
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
+void add_iterations(CLI::App& app, IterationSettings& settings)
+{
+    CLI::App* figure = add_figure(app, "iterations", "Time of an iteration", settings.shared);
+    add_list(figure, "--sizes", settings.sizes, "sides of the map [texels]");
+    add_list(figure, "--vertices", settings.vertices, "how many are drawn, about");
+    add_number(figure, "--iterations", settings.iterations, "timed at a stretch");
+    figure->callback([&settings] { time_iterations(settings); });
+}
+
+void add_selection(CLI::App& app, SelectionSettings& settings)
+{
+    CLI::App* figure = add_figure(app, "selection", "Time of drawing a shooter", settings.shared);
+    add_list(figure, "--sizes", settings.sizes, "sides of the map [texels]");
+    add_number(figure, "--draws", settings.draws, "timed at a stretch");
+    figure->callback([&settings] { time_selection(settings); });
+}
+
+void add_convergence(CLI::App& app, ConvergenceSettings& settings)
+{
+    CLI::App* figure = add_figure(app, "convergence", "Error after iterations", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_list(figure, "--iterations", settings.iterations, "ascending; where the error is taken");
+    figure->add_option("--solver", settings.shared.solver.method, "as lumel methods lists")
+        ->capture_default_str();
+    figure->add_option("--batch", settings.shared.solver.batch, "shooters per phased iteration")
+        ->capture_default_str();
+    figure->add_option("--reference", settings.shared.reference,
+                       "EXR to compare with, made for this atlas");
+    add_number(figure, "--reference-spp", settings.shared.reference_spp,
+               "samples of the reference made here; 0: none", 0);
+    figure->add_option("--save-reference", settings.shared.save_reference,
+                       "EXR to keep that reference in");
+    figure->add_option("-o,--out", settings.folder, "folder for maps and pictures");
+    add_number(figure, "--width", settings.width, "of a picture [pixels]");
+    figure->callback([&settings] { follow_convergence(settings); });
+}
+
+void add_ablation(CLI::App& app, AblationSettings& settings)
+{
+    settings.shared.scene = "scenes/glossy-cornell-box.gltf";
+    CLI::App* figure = add_figure(app, "ablation", "Variance with and without", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_number(figure, "--seeds", settings.seeds, "runs to take the variance of", 2);
+    add_number(figure, "--width", settings.width, "of the picture [pixels]");
+    add_number(figure, "--solving-shots", settings.solving_shots, "shooters before an eye looks");
+    add_number(figure, "--shots", settings.eye_shots, "shooters for the eye");
+    add_number(figure, "--rays", settings.rays, "along the lobe at each place");
+    add_number(figure, "--iterations", settings.iterations, "of the papers' scheme, for the disc");
+    figure->callback([&settings] { ablate(settings); });
+}
+
+int run(int argc, char** argv)
+{
+    IterationSettings iterations;
+    SelectionSettings selection;
+    ConvergenceSettings convergence;
+    AblationSettings ablation;
+    CLI::App app("The papers' figures, made again");
+    app.require_subcommand(1);
+    add_iterations(app, iterations);
+    add_selection(app, selection);
+    add_convergence(app, convergence);
+    add_ablation(app, ablation);
+    CLI11_PARSE(app, argc, argv);
+    return 0;
+}
+
+}  // namespace
+}  // namespace lumel::bench
+
+int main(int argc, char** argv)
+{
+    try {
+        return lumel::bench::run(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "lumel-papers: {}\n", error.what());
+        return 2;
+    }
+}

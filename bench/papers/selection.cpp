@@ -1,0 +1,172 @@
+// [BJ04] section 3.1: "This selection algorithm took almost 10 times longer than all other elements
+// of rendering", said of reading the radiosity back and searching it on the processor; and what
+// replaced it, a search in sums on the device.
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <random>
+
+#include <fmt/core.h>
+
+#include "bench/papers/figures.h"
+#include "bench/papers/iteration_cost.h"
+#include "bench/stopwatch.h"
+#include "solve/lumel_arrays.h"
+#include "solve/power_pyramid.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr std::uint32_t kDrawSpirv[] = {
+#include "../bench/papers/selection.draw.comp.inc"
+};
+
+constexpr int kStretches = 3;  ///< of draws; the fastest counts
+
+/// Push constants of selection.draw.comp.
+struct DrawParams {
+    PyramidLayout layout_;
+    float u;
+    std::uint32_t draw;
+};
+
+struct Power {
+    std::vector<glm::vec3> radiosity;  ///< [N] B
+    std::vector<glm::vec4> surface;    ///< [N] ρ, A
+};
+
+struct DrawCost {
+    double cpu_ms = std::numeric_limits<double>::max();
+    double wall_ms = std::numeric_limits<double>::max();
+    std::vector<std::uint32_t> lumels;  ///< drawn
+};
+
+Power power_after(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+{
+    Power power{emission_of(lumels), surfaces_of(lumels)};
+    for (std::size_t j = 0; j < irradiance.size(); ++j)
+        power.radiosity[j] += glm::vec3(power.surface[j]) * irradiance[j];
+    return power;
+}
+
+/// The lumel in which the running sum of power passes u of all of it.
+std::uint32_t search(const glm::vec3* radiosity, const std::vector<glm::vec4>& surface, double u)
+{
+    double total = 0.0;
+    for (std::size_t j = 0; j < surface.size(); ++j)
+        total += luminance(radiosity[j]) * double(surface[j].w);
+    double sum = 0.0;
+    for (std::size_t j = 0; j < surface.size(); ++j) {
+        sum += luminance(radiosity[j]) * double(surface[j].w);
+        if (sum > u * total)
+            return std::uint32_t(j);
+    }
+    return std::uint32_t(surface.size() - 1);
+}
+
+template <class Draw>
+DrawCost time_draws(const std::vector<float>& numbers, const Draw& draw)
+{
+    DrawCost cost;
+    for (int i = 0; i < kStretches; ++i) {
+        Stopwatch watch;
+        watch.start();
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            draw(k);
+        watch.stop();
+        cost.cpu_ms = std::min(cost.cpu_ms, 1e3 * watch.cpu / double(numbers.size()));
+        cost.wall_ms = std::min(cost.wall_ms, 1e3 * watch.wall / double(numbers.size()));
+    }
+    return cost;
+}
+
+DrawCost by_read_back(const gpu::Device& device, const Power& power,
+                      const std::vector<float>& numbers)
+{
+    const gpu::Array<glm::vec3> source(device, view(power.radiosity));
+    const gpu::Array<glm::vec3> host(device, source.size(), gpu::Buffer::Place::host);
+    gpu::Commands commands(device);
+    std::vector<std::uint32_t> lumels(numbers.size());
+    DrawCost cost = time_draws(numbers, [&](std::size_t k) {
+        commands.copy(source.buffer(), host.buffer(), source.size() * sizeof(glm::vec3));
+        commands.run();
+        lumels[k] = search(host.mapped(), power.surface, double(numbers[k]));
+    });
+    cost.lumels = std::move(lumels);
+    return cost;
+}
+
+DrawCost on_device(const gpu::Device& device, const Power& power, const std::vector<float>& numbers)
+{
+    const gpu::Array<glm::vec3> source(device, view(power.radiosity));
+    const gpu::Array<glm::vec4> surface(device, view(power.surface));
+    const gpu::Array<std::uint32_t> lumels(device, numbers.size());
+    const gpu::Kernel draw(device, "selection.draw", kDrawSpirv, 2, sizeof(DrawParams), 1);
+    PowerPyramid pyramid(device, source.size());
+    gpu::Commands commands(device);
+    DrawCost cost = time_draws(numbers, [&](std::size_t k) {
+        pyramid.build(commands, source, surface, 0.0f, 0.0f);
+        commands.dispatch(draw, {pyramid.array(), lumels},
+                          DrawParams{pyramid.layout(), numbers[k], std::uint32_t(k)}, 1);
+        commands.run();
+    });
+    cost.lumels = lumels.download();
+    return cost;
+}
+
+/// Numbers for which both found the same lumel, or its neighbour: their sums are rounded
+/// differently.
+std::size_t agreeing(const DrawCost& a, const DrawCost& b)
+{
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < a.lumels.size(); ++k)
+        count += std::max(a.lumels[k], b.lumels[k]) - std::min(a.lumels[k], b.lumels[k]) <= 1;
+    return count;
+}
+
+std::vector<float> draw_numbers(int count, std::uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform;
+    std::vector<float> numbers(static_cast<std::size_t>(count));
+    for (float& number : numbers)
+        number = uniform(random);
+    return numbers;
+}
+
+}  // namespace
+
+void time_selection(const SelectionSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    const SolverOptions options = papers_iteration(settings.shared.solver);
+    fmt::print("{}, {} ({})\n\n"
+               "| map | lumels | read-back, cpu ms | wall ms | device, cpu ms | wall ms "
+               "| read-back / device | rest of an iteration, ms | read-back / rest "
+               "| device / rest | same lumel |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+               settings.shared.scene, device.info().name, device.info().driver);
+    const std::vector<float> numbers = draw_numbers(settings.draws, options.seed);
+    for (const int size : settings.sizes) {
+        const Prepared world = prepare(settings.shared, size);
+        const World resident(device, world.scene, world.lumels);
+        const auto solver =
+            make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+        const IterationCost iteration = cost_of_iteration(device, *solver, settings.draws);
+        const Power power = power_after(world.lumels, solver->irradiance());
+        const DrawCost host = by_read_back(device, power, numbers);
+        const DrawCost gpu = on_device(device, power, numbers);
+        const double rest =
+            iteration.wall_ms - gpu.wall_ms - sum_of(iteration.stages, {"figures", "polish"});
+        fmt::print("| {}² | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.2f} | {:.2f} "
+                   "| {:.2f} | {} of {} |\n",
+                   size, world.lumels.lumels.size(), host.cpu_ms, host.wall_ms, gpu.cpu_ms,
+                   gpu.wall_ms, host.wall_ms / gpu.wall_ms, rest, host.wall_ms / rest,
+                   gpu.wall_ms / rest, agreeing(host, gpu), numbers.size());
+        std::fflush(stdout);
+    }
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench

@@ -1,0 +1,30 @@
+#include "bench/reference.h"
+
+#include <cstdio>
+
+#include <fmt/core.h>
+
+#include "finish/finish.h"
+#include "output/image_files.h"
+
+namespace lumel::bench {
+
+std::optional<Image> reference_map(const Settings& settings, const Prepared& world)
+{
+    if (!settings.reference.empty())
+        return read_exr(settings.reference);
+    if (settings.reference_spp <= 0)
+        return {};
+    fmt::print("reference: path tracing {} samples per lumel …\n", settings.reference_spp);
+    std::fflush(stdout);
+    const Image map = finish_map(world.scene, world.atlas, world.lumels,
+                                 reference_irradiance(world.scene, world.rays, world.lumels,
+                                                      {.samples_per_lumel = settings.reference_spp,
+                                                       .seed = 99,
+                                                       .rule = settings.solver.rule}));
+    if (!settings.save_reference.empty())
+        write_exr(settings.save_reference, map, Precision::float32, {});
+    return map;
+}
+
+}  // namespace lumel::bench

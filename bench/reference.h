@@ -1,0 +1,14 @@
+#pragma once
+// What a solution is compared with.
+
+#include <optional>
+
+#include "bench/settings.h"
+#include "core/image.h"
+
+namespace lumel::bench {
+
+/// The irradiance map that the settings name, or path traced as they say. Empty: none.
+std::optional<Image> reference_map(const Settings& settings, const Prepared& world);
+
+}  // namespace lumel::bench
