@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "bake/setting.h"
+#include "core/log.h"
 #include "finish/finish.h"
 #include "output/image_files.h"
 #include "picture/lobe_rays.h"
@@ -24,10 +27,29 @@ bool is_exr(const std::string& path)
     return path.ends_with(".exr");
 }
 
-void check_name(const std::string& path)
+/// What can fail before the long work should.
+void check(const std::string& path, const RenderOptions& options)
 {
     if (!is_exr(path) && !path.ends_with(".png"))
         throw Error(ErrorKind::input, path, "should end in .png or .exr");
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw Error(ErrorKind::output, path, "cannot be written: its folder does not exist");
+    if (options.shots == 0 && options.rays == 0)
+        throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
+                    "would leave out all gloss; one of them must be above 0");
+}
+
+void check_size(const gpu::Device& device, const RenderOptions& options)
+{
+    const std::uint64_t pixels = std::uint64_t(options.width) * std::uint64_t(options.height);
+    const std::uint64_t most =
+        std::min(EyeImage::most_points(device),
+                 std::uint64_t(std::numeric_limits<std::uint32_t>::max()) / options.sets);
+    if (pixels > most)
+        throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
+                    "makes a picture of " + std::to_string(pixels) + " pixels, more than the " +
+                        std::to_string(most) + " that fit this device with that many --places");
 }
 
 /// The view asked for, as wide as the picture.
@@ -49,30 +71,63 @@ View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
 }
 
 /// What the lobes add at the points seen [G] [cd/m²].
-std::vector<glm::vec3> reflected(GlossyIllumination& solver, const Seen& seen,
-                                 const Setting& setting, const Surfaces& surfaces,
-                                 const LitScene& lit, const RenderOptions& options, Stages& stages)
+struct Reflected {
+    std::vector<glm::vec3> radiance;
+    bool stopped = false;
+};
+
+/// By shooters. Every set of points meets some, even if the caller wants to stop.
+Reflected shoot_for(GlossyIllumination& solver, const Seen& seen, std::span<const float> brightness,
+                    const EyeSampling& sampling, Stages& stages)
 {
+    Reflected reflected{std::vector<glm::vec3>(seen.glossy.size(), glm::vec3(0.0f)), false};
+    if (sampling.shots == 0)
+        return reflected;
     stages.begin("shooting for the eye");
-    const EyeSampling sampling{seen.first, options.shots, options.rays};
-    const std::vector<float> brightness = solver.brightness();
     solver.look_at(seen.glossy, brightness, sampling);
-    const std::uint64_t start = solver.state().shots, end = start + options.shots;
-    while (solver.state().shots < end &&
-           stages.tell(double(solver.state().shots - start) / double(options.shots),
-                       solver.state().shots, solver.state().error))
+    const std::uint64_t start = solver.state().shots;
+    const std::uint64_t least = sampling.sets() * solver.batch();
+    for (std::uint64_t shot = 0; shot < sampling.shots && !(reflected.stopped && shot >= least);
+         shot = solver.state().shots - start) {
+        reflected.stopped |= !stages.tell(double(shot) / double(sampling.shots), shot);
         solver.step();
-    std::vector<glm::vec3> radiance = solver.eye_radiance();
+    }
+    reflected.radiance = solver.eye_radiance();
+    return reflected;
+}
+
+/// By shooters and by rays.
+Reflected reflect(GlossyIllumination& solver, const Seen& seen, const Setting& setting,
+                  const Surfaces& surfaces, const LitScene& lit, const RenderOptions& options,
+                  Stages& stages)
+{
+    // Whole iterations for every set of points.
+    const std::uint64_t round = options.sets * std::uint64_t(solver.batch());
+    const std::uint64_t shots =
+        seen.glossy.empty() ? 0 : (options.shots + round - 1) / round * round;
+    const EyeSampling sampling{seen.first, shots, options.rays};
+    const std::vector<float> brightness = solver.brightness();
+    Reflected reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
     const LobeRayOptions lobes{.rays = options.rays,
-                               .shooters = options.shots > 0 ? sampling.shooters() : 0.0f,
+                               .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = options.bake.solver.seed};
     const std::vector<glm::vec3> along =
         gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, brightness, lobes);
-    for (std::size_t g = 0; g < radiance.size(); ++g)
-        radiance[g] += along[g];
-    return radiance;
+    for (std::size_t g = 0; g < along.size(); ++g)
+        reflected.radiance[g] += along[g];
+    return reflected;
+}
+
+/// A picture whose colours are not multiplied by alpha, as PNG has them.
+Image unmultiplied(Image image)
+{
+    for (std::size_t i = 0; i < image.values.size(); i += 4)
+        if (const float alpha = image.values[i + 3]; alpha > 0.0f)
+            for (std::size_t c = 0; c < 3; ++c)
+                image.values[i + c] /= alpha;
+    return image;
 }
 
 void write_picture(const std::string& path, const Image& image)
@@ -84,7 +139,7 @@ void write_picture(const std::string& path, const Image& image)
                    {"colorSpace", "linear Rec. 709"},
                    {"software", "lumel " LUMEL_VERSION}});
     else
-        write_png(path, tone_map(image));
+        write_png(path, tone_map(unmultiplied(image)));
 }
 
 std::string report_of(const RenderSummary& summary, const Stages& stages,
@@ -119,6 +174,8 @@ Rendered finished(Image image, RenderSummary summary, const Stages& stages,
 
 Rendered path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 {
+    for (const std::string& warning : scene.warnings)
+        log_warning(warning);
     const RayScene rays(scene);
     const View view = view_for(scene, rays, options);
     stages.begin("path tracing");
@@ -141,24 +198,26 @@ Rendered shoot(Scene scene, RenderOptions options, Stages& stages)
     const Setting setting(std::move(scene), device, options.bake, stages);
     const Prepared& world = setting.world;
     const View view = view_for(world.scene, world.rays, options);
+    check_size(device, options);
     GlossyIllumination solver(device, setting.resident, world.lumels, setting.near,
                               options.bake.solver);
     const SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
+    const SolverState solved = solver.state();
 
     stages.begin("looking");
     const Image map = finish_map(world.scene, world.atlas, world.lumels, solver.irradiance());
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, map);
     const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces);
-    Image image =
-        compose(seen, lit, reflected(solver, seen, setting, surfaces, lit, options, stages));
+    const Reflected lobes = reflect(solver, seen, setting, surfaces, lit, options, stages);
+    Image image = compose(seen, lit, lobes.radiance);
     stages.end();
     if (const std::string messages = device.validation_messages(); !messages.empty())
         throw Error(ErrorKind::device, "Vulkan validation", messages);
     return finished(std::move(image),
                     {.shots = solver.state().shots,
-                     .error = solver.state().error,
-                     .interrupted = !run.finished},
+                     .error = solved.error,
+                     .interrupted = !run.finished || lobes.stopped},
                     stages, solver.times());
 }
 
@@ -180,7 +239,7 @@ Rendered render(Scene scene, const RenderOptions& options, const ProgressFunctio
 RenderSummary render(const std::string& scene_path, const std::string& picture_path,
                      const RenderOptions& options, const ProgressFunction& progress)
 {
-    check_name(picture_path);
+    check(picture_path, options);
     Stages stages(progress);
     stages.begin("reading");
     const Rendered rendered = render(read_gltf(scene_path, MaterialModel::glossy), options, stages);

@@ -13,8 +13,8 @@
 namespace lumel {
 
 struct LobeRayOptions {
-    std::uint32_t rays = 4;  ///< n_B, for each point
-    float shooters = 0.0f;   ///< n_A that a point met on the device; 0: rays do it alone
+    std::uint32_t rays = 16;  ///< n_B, for each point
+    float shooters = 0.0f;    ///< n_A that a point met on the device; 0: rays do it alone
     std::uint32_t seed = 1;
 };
 

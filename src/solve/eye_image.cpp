@@ -20,12 +20,20 @@ EyeImage::EyeImage(const gpu::Device& device, Projection projection,
                    std::span<const EyePoint> points, std::span<const float> brightness,
                    const EyeSampling& sampling)
     : sampling_(sampling),
-      points_(device, points),
       brightness_(device, brightness),
-      sums_(device, std::span<const glm::vec3>(std::vector<glm::vec3>(points.size()))),
       receive_(device, "eye_image.receive", kReceiveSpirv, kReceiveSlots, sizeof(EyeParams),
                kEyeGroup, std::uint32_t(projection))
 {
+    for (std::size_t set = 0; set < sampling_.sets(); ++set) {
+        const std::size_t begin = sampling_.first[set], count = sampling_.first[set + 1] - begin;
+        points_.emplace_back(device, points.subspan(begin, count));
+        sums_.emplace_back(device, std::span<const glm::vec3>(std::vector<glm::vec3>(count)));
+    }
+}
+
+std::uint64_t EyeImage::most_points(const gpu::Device& device)
+{
+    return device.max_array_bytes() / sizeof(EyePoint);
 }
 
 void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Array<Eye>& eyes,
@@ -33,33 +41,37 @@ void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Arra
                        std::uint32_t count)
 {
     const std::uint64_t set = iterations_++ % sampling_.sets();
-    const std::uint32_t begin = sampling_.first[set], end = sampling_.first[set + 1];
-    if (begin == end)
+    const auto points = std::uint32_t(points_[set].size());
+    if (points == 0)
         return;
     EyeParams params{.views = views.layout(),
                      .shots = count,
                      .shooters = sampling_.shooters(),
                      .rays = float(sampling_.rays)};
-    pacer.work(
-        "eye", end - begin, kProbePoints,
-        [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-            params.first = begin + first;
-            params.last = begin + last;
-            commands.dispatch(
-                receive_,
-                {points_, eyes, shots, {views.image(), views.sampler()}, brightness_, sums_, lobes},
-                params, last - first);
-        });
+    pacer.work("eye", points, kProbePoints,
+               [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                   params.first = first;
+                   params.last = last;
+                   commands.dispatch(receive_,
+                                     {points_[set],
+                                      eyes,
+                                      shots,
+                                      {views.image(), views.sampler()},
+                                      brightness_,
+                                      sums_[set],
+                                      lobes},
+                                     params, last - first);
+               });
 }
 
 std::vector<glm::vec3> EyeImage::radiance() const
 {
-    std::vector<glm::vec3> radiance = sums_.download();
+    std::vector<glm::vec3> radiance;
     const std::uint64_t sets = sampling_.sets();
     for (std::uint64_t set = 0; set < sets; ++set) {
         const std::uint64_t met = iterations_ / sets + (set < iterations_ % sets ? 1 : 0);
-        for (std::uint32_t e = sampling_.first[set]; e < sampling_.first[set + 1]; ++e)
-            radiance[e] = met > 0 ? radiance[e] / float(met) : glm::vec3(0.0f);
+        for (const glm::vec3& sum : sums_[set].download())
+            radiance.push_back(met > 0 ? sum / float(met) : glm::vec3(0.0f));
     }
     return radiance;
 }

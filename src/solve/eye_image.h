@@ -27,6 +27,9 @@ struct EyeSampling {
 /// The accumulation texture C of the paper, one value per point.
 class EyeImage {
 public:
+    /// Points of one set that fit an array of the device.
+    static std::uint64_t most_points(const gpu::Device& device);
+
     /// brightness [N]: 𝓛(B_j) / Φ [1/m²], the density with which shooters are about to be drawn.
     EyeImage(const gpu::Device& device, Projection projection, std::span<const EyePoint> points,
              std::span<const float> brightness, const EyeSampling& sampling);
@@ -41,9 +44,9 @@ public:
 
 private:
     EyeSampling sampling_;
-    gpu::Array<EyePoint> points_;
+    std::vector<gpu::Array<EyePoint>> points_;  ///< of each set
     gpu::Array<float> brightness_;
-    gpu::Array<glm::vec3> sums_;
+    std::vector<gpu::Array<glm::vec3>> sums_;  ///< of each set
     gpu::Kernel receive_;
     std::uint64_t iterations_ = 0;
 };

@@ -57,7 +57,7 @@ vec3 reflect_to_eye(EyePoint x, uint k)
     const float shooters = p.shooters * density[shot.lumel] * r2 * sqrt(r2) / toward_j;
     const float cos_out = dot(x.normal, x.toward_eye);
     const float rays = p.rays * lobe * max(toward_i * inversesqrt(r2), cos_out);
-    const float weight = shooters / (shooters + rays);
+    const float weight = shooters > 0.0 ? shooters / (shooters + rays) : 0.0;
     return reflected + shot.diffuse * (weight * lobe * toward_i * toward_j / (r2 * r2));
 }
 

@@ -13,6 +13,7 @@
 //         for all lumels i:                                                           receive
 //             I_i ← L_j(ω) V cosθ_i cosθ_j / r² · A_j / p_j         Eq. (2), (4)
 //             H_i ← running average of I_i
+//             C ← running average of what they reflect to the eye       Eq. (6), eye_image
 //
 // where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
 //
@@ -28,6 +29,7 @@
 //   diffusely; lobes between them go through the same form factors. In the paper all pairs have
 //   the disc term of Eq. (8) instead.
 // - The average forgets the first iterations, in which light had not yet spread.
+// - Frames of a moved eye or a changed light draw by mean power, all from one beginning.
 
 #include "solve/glossy.h"
 
@@ -290,14 +292,20 @@ void GlossyIllumination::forget_frames()
     held_.reset();
 }
 
-void GlossyIllumination::set_emission(std::span<const glm::vec3> emission)
+void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
 {
+    if (given.size() != count_)
+        throw Error(ErrorKind::input, "emission", "must be given for every lumel");
+    std::vector<glm::vec3> emission(given.begin(), given.end());
+    emitted_power_ = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (lumels_->lumels[i].flags & kLumelBuried)
+            emission[i] = glm::vec3(0.0f);
+        emitted_power_ += luminance(emission[i]) * double(lumels_->lumels[i].area);
+    }
     rewind();
     const std::vector<glm::vec3> before = emission_.download();
     emission_.upload(emission);
-    emitted_power_ = 0.0;
-    for (std::size_t i = 0; i < count_; ++i)
-        emitted_power_ += luminance(emission[i]) * double(lumels_->lumels[i].area);
     const auto add_change = [&](const gpu::Array<glm::vec3>& from, gpu::Array<glm::vec3>& to) {
         std::vector<glm::vec3> values = from.download();
         for (std::size_t i = 0; i < count_; ++i)
@@ -347,6 +355,7 @@ std::vector<float> GlossyIllumination::brightness()
 void GlossyIllumination::look_at(std::span<const EyePoint> points,
                                  std::span<const float> brightness, const EyeSampling& sampling)
 {
+    pacer_.finish();
     const std::vector<glm::vec3> emission = emission_.download();
     eye_.emplace(*device_, options_.projection, points, brightness, sampling);
     set_emission(emission);

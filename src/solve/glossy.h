@@ -54,6 +54,7 @@ public:
     /// the same noise. Waits for the device.
     void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
                  const EyeSampling& sampling);
+    std::uint32_t batch() const { return batch_; }  ///< K
     /// [P] reflected by the lobes toward the eye [cd/m²]; empty before look_at. Waits for the
     /// device.
     std::vector<glm::vec3> eye_radiance();

@@ -37,6 +37,14 @@ TEST(Render, RefusesWhatItCannotDo)
     expect_one_sentence(run_lumel(small_render(place.path("a.jpg"), {})), 2, {"a.jpg", ".png"});
     expect_one_sentence(run_lumel(small_render(place.path("a.png"), {"--camera", "3"})), 2,
                         {"--camera 3", "0"});
+    expect_one_sentence(run_lumel(small_render(place.path("no/a.png"), {})), 4, {"no/a.png"});
+    const std::string scene = own_scene("glossy-cornell-box.gltf");
+    expect_one_sentence(run_lumel({"render", scene, place.path("a.png"), "--size", "32", "--width",
+                                   "16384", "--height", "16384"}),
+                        2, {"--width 16384", "pixels"});
+    expect_one_sentence(
+        run_lumel({"render", scene, place.path("a.png"), "--eye-shots", "0", "--lobe-rays", "0"}),
+        2, {"--eye-shots 0", "gloss"});
     EXPECT_TRUE(place.listing().empty());
 }
 
