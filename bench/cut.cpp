@@ -10,7 +10,7 @@ std::vector<T> spread(const std::vector<T>& values, const std::vector<std::uint3
 {
     std::vector<T> out;
     for (std::size_t k = 0; !values.empty() && k + 2 < indices.size(); k += 3) {
-        const T a = values[indices[k]], b = values[indices[k + 1]], c = values[indices[k + 2]];
+        const T &a = values[indices[k]], &b = values[indices[k + 1]], &c = values[indices[k + 2]];
         for (int row = 0; row <= pieces; ++row)
             for (int i = 0; i <= row; ++i)
                 out.push_back((a * float(pieces - row) + b * float(row - i) + c * float(i)) /

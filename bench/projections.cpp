@@ -154,7 +154,7 @@ View look(const gpu::Device& device, const World& world, Projection projection, 
         compare(pairs, ask(device, views, eyes,
                            gpu::Array<Question>(device, std::span<const Question>(questions))));
     view.drawn = projection == Projection::hemicube
-                     ? double(kHemicubeFaces) * double(world.indices().size() / 3)
+                     ? double(kHemicubeFaces) * double(world.indices().size()) / 3.0
                      : drawn_in_hemispheres(world, pairs.eyes, views.layout().side);
     return view;
 }

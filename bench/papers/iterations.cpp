@@ -47,7 +47,7 @@ Scene drawn_with(const Scene& scene, int vertices)
 {
     const bool whole = std::size_t(vertices) >= drawn_vertices(scene);
     const Scene kept = whole ? scene : without_blocks(scene);
-    const double triangles = double(find_occluders(kept).indices.size() / 3);
+    const double triangles = double(find_occluders(kept).indices.size()) / 3.0;
     int best = 1;
     for (int pieces = 1; pieces <= kMostPieces; ++pieces)
         if (std::abs(triangles * grid_points(pieces) - vertices) <

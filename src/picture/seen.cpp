@@ -46,7 +46,8 @@ Seen look(const View& view, int width, int height, std::uint32_t sets, const Ray
         seen.first.push_back(std::uint32_t(seen.glossy.size()));
         parallel_for(std::size_t(height), kRowsPerTask, [&](std::size_t top, std::size_t bottom) {
             for (std::size_t i = top * std::size_t(width); i < bottom * std::size_t(width); ++i) {
-                const glm::vec2 pixel(float(i % std::size_t(width)), float(i / std::size_t(width)));
+                const std::size_t row = i / std::size_t(width);
+                const glm::vec2 pixel(float(i % std::size_t(width)), float(row));
                 const Ray ray = ray_through(view, (pixel + place(set, sets)) /
                                                       glm::vec2(float(width), float(height)));
                 SeenPoint& point = seen.points[set * pixels + i];
