@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/shininess.shared.h"
+#include "scene/sky.h"
 
 namespace lumel {
 
@@ -79,7 +80,22 @@ struct PunctualLight {
     float range = 0.0f;            ///< [m], 0: unlimited
     float inner_cone = 0.0f;       ///< [rad]
     float outer_cone = 0.785398f;  ///< [rad]
-    glm::mat4 transform{1.0f};     ///< shines along -z
+    /// Of the ball that shines, uniformly bright but for cone and profile [m]; 0: a point. Point and
+    /// spot only.
+    float radius = 0.0f;
+    /// Half the angle that the disc of a directional light takes in the sky [rad]; 0: parallel.
+    float angle = 0.0f;
+    int profile = -1;           ///< index into Scene::profiles, -1: none. Point and spot only.
+    glm::mat4 transform{1.0f};  ///< shines along -z
+};
+
+/// How a luminaire spreads its light: luminous intensity [cd] over directions, bilinear between
+/// the values. Polar angle 0 is the light's -z, azimuth 0 its +x, growing towards +y.
+struct Photometry {
+    static constexpr int kPolarSteps = 360;   ///< over 0…π
+    static constexpr int kAzimuthSteps = 72;  ///< over 0…2π
+    std::string name;
+    std::vector<float> candela;  ///< [kAzimuthSteps][kPolarSteps + 1]
 };
 
 struct Camera {
@@ -102,6 +118,8 @@ struct Scene {
     std::vector<Mesh> meshes;         ///< the file's; those not shown have no primitives
     std::vector<Instance> instances;  ///< of the file's default scene, in node order
     std::vector<PunctualLight> lights;
+    std::vector<Photometry> profiles;  ///< of lights
+    Sky sky;
     std::vector<Camera> cameras;
     std::vector<std::string> warnings;  ///< sentences for the user
     std::size_t dropped_triangles = 0;  ///< of zero area
@@ -111,6 +129,16 @@ struct Scene {
 /// Reads glTF 2.0 (.gltf with its files, or .glb).
 /// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
 Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
+
+/// Luminous intensity [cd] of a point or spot light, colour and all, towards a unit direction in
+/// the world: its intensity, cone (KHR_lights_punctual) and profile. A profile's candela stand in
+/// for the intensity, which then is a factor.
+glm::vec3 intensity_towards(const Scene& scene, const PunctualLight& light,
+                            const glm::vec3& direction);
+
+/// What is left of 1 / r² at distance r [m] where a light has a range: KHR_lights_punctual's window
+/// max(min(1 - (r / range)⁴, 1), 0); 1 without one.
+float range_window(const PunctualLight& light, float distance);
 
 /// What a material looks like at one point. `texcoord` [2]: TEXCOORD_0 and TEXCOORD_1.
 struct MaterialSample {
