@@ -131,7 +131,7 @@ void race(const Settings& settings)
     const Prepared world = prepare(settings, settings.size);
     fmt::print("{}: {} lumels at {}², {} triangles drawn\n", settings.scene,
                world.lumels.lumels.size(), world.atlas.width,
-               find_occluders(world.scene).indices.size() / 3);
+               find_occluders(world.scene).inner_indices().size() / 3);
     const std::optional<Image> reference = reference_map(settings, world);
     const std::vector<Row> ours = race_solver(settings, world, reference);
     const std::vector<Row> theirs = race_path_tracer(settings, world, reference);

@@ -30,7 +30,7 @@ Scene without_blocks(Scene scene)
 /// Corners of the triangles that are drawn, each once.
 std::size_t drawn_vertices(const Scene& scene)
 {
-    std::vector<std::uint32_t> indices = find_occluders(scene).indices;
+    std::vector<std::uint32_t> indices = find_occluders(scene).inner_indices();
     std::sort(indices.begin(), indices.end());
     return std::size_t(std::unique(indices.begin(), indices.end()) - indices.begin());
 }
@@ -47,7 +47,7 @@ Scene drawn_with(const Scene& scene, int vertices)
 {
     const bool whole = std::size_t(vertices) >= drawn_vertices(scene);
     const Scene kept = whole ? scene : without_blocks(scene);
-    const double triangles = double(find_occluders(kept).indices.size()) / 3.0;
+    const double triangles = double(find_occluders(kept).inner_indices().size()) / 3.0;
     int best = 1;
     for (int pieces = 1; pieces <= kMostPieces; ++pieces)
         if (std::abs(triangles * grid_points(pieces) - vertices) <
@@ -69,7 +69,7 @@ void print_row(int size, std::size_t lumels, const Scene& scene, const Iteration
     const double other = sum_of(cost.stages, {"other", "figures", "polish"});
     fmt::print("| {}² | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} "
                "| {:.2f} | {:.2f} | {} | {} ({}) |\n",
-               size, lumels, drawn_vertices(scene), find_occluders(scene).indices.size() / 3,
+               size, lumels, drawn_vertices(scene), find_occluders(scene).inner_indices().size() / 3,
                cost.cpu_ms, cost.wall_ms, ms("select"), ms("power"), ms("look"), ms("receive"),
                ms("advance"), other, cost.recorded.dispatches, cost.recorded.passes,
                cost.recorded.draws);

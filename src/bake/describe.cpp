@@ -81,7 +81,7 @@ ordered_json facts(const Prepared& world, const SolverOptions& solver)
     json["lumels"] = world.lumels.lumels.size();
     json["back_lumels"] = back;
     json["buried_lumels"] = buried;
-    json["occluding_triangles"] = occluders.indices.size() / 3;
+    json["occluding_triangles"] = occluders.inner_indices().size() / 3;
     json["graphics_memory_bytes"] = graphics_memory(world, occluders, solver);
     json["warnings"] = scene.warnings;
     json["notes"] = world.atlas.notes;

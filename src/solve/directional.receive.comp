@@ -21,7 +21,7 @@ layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
 layout(binding = 8, scalar) buffer Band2 { vec3 band2[]; };
 
 #include "world/lumel.glsl"
-#include "solve/receiver.glsl"
+#include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
 #include "solve/shot.glsl"
 #include "solve/directional.glsl"

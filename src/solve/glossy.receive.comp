@@ -36,7 +36,7 @@ layout(binding = 17, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"
 #include "solve/glossy.lobes.glsl"
-#include "solve/receiver.glsl"
+#include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
 
 // F_ij of a near pair, 0 if the table has none: the columns of a row ascend.

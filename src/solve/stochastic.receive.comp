@@ -22,7 +22,7 @@ layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sum
 layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 
 #include "world/lumel.glsl"
-#include "solve/receiver.glsl"
+#include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
 #include "solve/shot.glsl"
 

@@ -218,18 +218,20 @@ void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
             commands.draw(params, range);
         }
     };
-    if (world_->opaque_index_count() > 0) {
+    if (world_->opaque().inner_count > 0) {
         commands.use(opaque_, {eyes}, {{&vertices}, &indices});
-        draw_all(0.0f, {0, world_->opaque_index_count()});
+        draw_all(0.0f, {world_->opaque().first_index, world_->opaque().inner_count});
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
+        if (cut_out.range.inner_count == 0)
+            continue;
         const gpu::Binding alpha{*cut_out.alpha, *cut_out.sampler};
         if (is_hemisphere())
             commands.use(cut_out_, {eyes, alpha, vertices, looks, indices},
                          {{&vertices}, &indices});
         else
             commands.use(cut_out_, {eyes, alpha}, {{&vertices, &looks}, &indices});
-        draw_all(cut_out.cutoff, {cut_out.range.first_index, cut_out.range.index_count});
+        draw_all(cut_out.cutoff, {cut_out.range.first_index, cut_out.range.inner_count});
     }
 }
 

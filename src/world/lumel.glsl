@@ -5,6 +5,7 @@ struct LumelPoint {
     vec3 position;
     vec3 normal;  // shading normal, unit
     vec3 facing;  // geometric normal, any length
+    uint piece;   // that it lies on
 };
 
 // Maps (s, t) in the unit square to a point of the lumel, uniform by area.
@@ -24,5 +25,5 @@ LumelPoint point_on(Lumel lumel, float s, float t)
         v = 1.0 - v;
     }
     return LumelPoint(piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal,
-                      cross(piece.edge_u, piece.edge_v));
+                      cross(piece.edge_u, piece.edge_v), index);
 }

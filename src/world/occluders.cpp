@@ -60,26 +60,39 @@ bool has_one_side(const WorldTriangle& t, const std::vector<glm::vec3>& points, 
     return true;
 }
 
-/// For each triangle, corners three by three: does it lie on the convex hull of them all?
-/// Where that would take too long to tell, none is said to.
-std::vector<char> find_hull(const std::vector<glm::vec3>& corners, float tolerance)
+float diagonal_of(const std::vector<glm::vec3>& points)
+{
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& p : points) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::length(high - low);
+}
+
+/// For each triangle, corners three by three: does it lie on the convex hull of them all and of
+/// the other points? Where that would take too long to tell, none is said to.
+std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
+                            const std::vector<glm::vec3>& others)
 {
     constexpr double kMostTests = 4e9;
     std::vector<char> outer(corners.size() / 3, 0);
     if (corners.empty())
         return outer;
-    const auto keep = [&](const std::vector<glm::vec3>& points) {
+    std::vector<glm::vec3> points = corners;
+    points.insert(points.end(), others.begin(), others.end());
+    const float tolerance = kPlaneTolerance * diagonal_of(points);
+    const auto keep = [&](const std::vector<glm::vec3>& tested) {
         parallel_for(outer.size(), 256, [&](std::size_t first, std::size_t last) {
             for (std::size_t t = first; t < last; ++t)
                 outer[t] = outer[t] &&
                            has_one_side({corners[3 * t], corners[3 * t + 1], corners[3 * t + 2]},
-                                        points, tolerance);
+                                        tested, tolerance);
         });
     };
     std::fill(outer.begin(), outer.end(), char(1));
-    keep(extremes(corners));  // settles nearly all that are not
+    keep(extremes(points));  // settles nearly all that are not
 
-    std::vector<glm::vec3> points = corners;
     const auto before = [](const glm::vec3& a, const glm::vec3& b) {
         return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
     };
@@ -110,49 +123,78 @@ std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::u
     return base;
 }
 
+/// Corners of boxes around the lamps, which the hull is to hold as well.
+std::vector<glm::vec3> lamp_corners(const Scene& scene)
+{
+    std::vector<glm::vec3> corners;
+    for (const PunctualLight& light : scene.lights)
+        if (light.kind != PunctualLight::Kind::directional)
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+                corners.push_back(glm::vec3(light.transform[3]) + light.radius * side);
+            }
+    return corners;
+}
+
+struct IndexLists {
+    std::vector<std::uint32_t> inner, hull;
+};
+
+OccluderRange append_indices(Occluders& out, const IndexLists& lists)
+{
+    const OccluderRange range{std::uint32_t(out.indices.size()), std::uint32_t(lists.inner.size()),
+                              std::uint32_t(lists.inner.size() + lists.hull.size())};
+    out.indices.insert(out.indices.end(), lists.inner.begin(), lists.inner.end());
+    out.indices.insert(out.indices.end(), lists.hull.begin(), lists.hull.end());
+    return range;
+}
+
 }  // namespace
 
-Occluders find_occluders(const Scene& scene, bool leave_out_hull)
+std::vector<std::uint32_t> Occluders::inner_indices() const
+{
+    std::vector<std::uint32_t> inner;
+    const auto append = [&](const OccluderRange& range) {
+        const auto first = indices.begin() + range.first_index;
+        inner.insert(inner.end(), first, first + range.inner_count);
+    };
+    append(opaque);
+    for (const CutOut& cut_out : cut_outs)
+        append(cut_out.range);
+    return inner;
+}
+
+Occluders find_occluders(const Scene& scene, bool with_hull)
 {
     std::vector<glm::vec3> points;
     for (const Instance& instance : scene.instances)
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             for (const std::uint32_t index : primitive.indices)
                 points.push_back(to_world(instance.transform, primitive.positions[index]));
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (const glm::vec3& p : points) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    const float tolerance = points.empty() ? 0.0f : kPlaneTolerance * glm::length(high - low);
-    const std::vector<char> outer =
-        leave_out_hull ? find_hull(points, tolerance) : std::vector<char>(points.size() / 3, 0);
+    const std::vector<char> outer = with_hull ? find_hull(points, lamp_corners(scene))
+                                              : std::vector<char>(points.size() / 3, 0);
 
     Occluders out;
-    std::vector<std::vector<std::uint32_t>> per_material(scene.materials.size());
+    IndexLists opaque;
+    std::vector<IndexLists> per_material(scene.materials.size());
     std::size_t triangle = 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             const std::uint32_t base = append_vertices(out, primitive, i, material);
-            auto& indices = may_be_transparent(material, primitive)
-                                ? per_material[primitive.material]
-                                : out.indices;
+            IndexLists& lists = may_be_transparent(material, primitive)
+                                    ? per_material[primitive.material]
+                                    : opaque;
             for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
-                if (outer[triangle])
-                    continue;
+                std::vector<std::uint32_t>& indices = outer[triangle] ? lists.hull : lists.inner;
                 for (std::size_t c = 0; c < 3; ++c)
                     indices.push_back(base + primitive.indices[k + c]);
             }
         }
-    out.opaque_index_count = std::uint32_t(out.indices.size());
-    for (std::size_t m = 0; m < per_material.size(); ++m) {
-        if (per_material[m].empty())
-            continue;
-        out.cut_outs.push_back(
-            {int(m), std::uint32_t(out.indices.size()), std::uint32_t(per_material[m].size())});
-        out.indices.insert(out.indices.end(), per_material[m].begin(), per_material[m].end());
-    }
+    out.opaque = append_indices(out, opaque);
+    for (std::size_t m = 0; m < per_material.size(); ++m)
+        if (!per_material[m].inner.empty() || !per_material[m].hull.empty())
+            out.cut_outs.push_back({int(m), append_indices(out, per_material[m])});
     return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that can stand between two points of the scene, ready to be drawn.
+// The triangles that can stand in light's way, ready to be drawn.
 
 #include <cstdint>
 #include <vector>
@@ -8,11 +8,18 @@
 
 namespace lumel {
 
-/// Indices of one material's triangles that let light through in places.
+/// A range of indices. Its first triangles can stand between two points of the scene; the rest lie
+/// on the scene's hull and hide only what is outside.
+struct OccluderRange {
+    std::uint32_t first_index = 0;
+    std::uint32_t inner_count = 0;
+    std::uint32_t index_count = 0;  ///< of all, inner_count among them
+};
+
+/// One material's triangles that let light through in places.
 struct CutOut {
     int material = 0;
-    std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0;
+    OccluderRange range;
 };
 
 /// An indexed triangle list: opaque triangles first, then one range for each cut-out material.
@@ -21,13 +28,16 @@ struct Occluders {
     std::vector<std::uint32_t> instances;  ///< [V] whose frame
     std::vector<glm::vec3> look;           ///< [V] (u, v, alpha factor) for cut-outs
     std::vector<std::uint32_t> indices;    ///< [3T]
-    std::uint32_t opaque_index_count = 0;
+    OccluderRange opaque;
     std::vector<CutOut> cut_outs;
+
+    /// [3T] of all triangles that can stand between two points of the scene.
+    std::vector<std::uint32_t> inner_indices() const;
 };
 
-/// Collects all triangles but those that have the whole scene on one side of their plane: the
-/// outer walls of a room hide no point of the scene from another. `leave_out_hull`: false where
-/// instances will move, which keeps every triangle.
-Occluders find_occluders(const Scene& scene, bool leave_out_hull = true);
+/// Collects all triangles. Those that have the whole scene and its lamps on one side of their plane
+/// are its hull: the outer walls of a room hide no point of it from another. `with_hull`: false
+/// where instances will move, which makes every triangle an inner one.
+Occluders find_occluders(const Scene& scene, bool with_hull = true);
 
 }  // namespace lumel

@@ -35,12 +35,12 @@ gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const 
     return target;
 }
 
-CutOutDraw make_draw(const gpu::Device& device, const Scene& scene, const CutOut& range)
+CutOutDraw make_draw(const gpu::Device& device, const Scene& scene, const CutOut& cut_out)
 {
-    const Material& material = scene.materials[range.material];
+    const Material& material = scene.materials[cut_out.material];
     const TextureUse& use = material.base_color_texture;
     CutOutDraw draw;
-    draw.range = range;
+    draw.range = cut_out.range;
     draw.alpha = std::make_unique<gpu::Target>(upload_texture(device, scene, use));
     draw.sampler = std::make_unique<gpu::Sampler>(device, gpu::Filter::linear,
                                                   address_of(use.wrap_s), address_of(use.wrap_t));
@@ -56,7 +56,11 @@ std::vector<Placement> placements_of(const Scene& scene)
     return placements;
 }
 
-float diagonal_of(const Scene& scene)
+struct Box {
+    glm::vec3 low{0.0f}, high{0.0f};
+};
+
+Box box_of(const Scene& scene)
 {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const Instance& instance : scene.instances)
@@ -66,7 +70,7 @@ float diagonal_of(const Scene& scene)
                 low = glm::min(low, world);
                 high = glm::max(high, world);
             }
-    return low.x > high.x ? 0.0f : glm::length(high - low);
+    return low.x > high.x ? Box{} : Box{low, high};
 }
 
 }  // namespace
@@ -90,15 +94,17 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
       vertex_instances_(device, std::span<const std::uint32_t>(occluders.instances)),
       looks_(device, std::span<const glm::vec3>(occluders.look)),
       indices_(device, std::span<const std::uint32_t>(occluders.indices)),
-      opaque_index_count_(occluders.opaque_index_count),
+      opaque_(occluders.opaque),
       place_lumels_(device, "world.place_lumels", kPlaceLumelsSpirv, 5, sizeof(PlaceParams),
                     kPlaceGroup),
       place_vertices_(device, "world.place_vertices", kPlaceVerticesSpirv, 4, sizeof(PlaceParams),
-                      kPlaceGroup),
-      diagonal_(diagonal_of(scene))
+                      kPlaceGroup)
 {
-    for (const CutOut& range : occluders.cut_outs)
-        cut_outs_.push_back(make_draw(device, scene, range));
+    const Box box = box_of(scene);
+    low_ = box.low;
+    high_ = box.high;
+    for (const CutOut& cut_out : occluders.cut_outs)
+        cut_outs_.push_back(make_draw(device, scene, cut_out));
     std::vector<glm::mat4> transforms;
     for (const Instance& instance : scene.instances)
         transforms.push_back(instance.transform);

@@ -14,7 +14,7 @@ namespace lumel {
 
 /// One cut-out material's part of the occluders, with its alpha on the GPU.
 struct CutOutDraw {
-    CutOut range;
+    OccluderRange range;
     std::unique_ptr<gpu::Target> alpha;
     std::unique_ptr<gpu::Sampler> sampler;
     float cutoff = 0.5f;  ///< MASK: opaque where alpha ≥ cutoff; BLEND: < 0, opaque by chance
@@ -30,9 +30,11 @@ public:
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
-    std::uint32_t opaque_index_count() const { return opaque_index_count_; }
+    const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
-    float diagonal() const { return diagonal_; }  ///< of the bounding box [m]
+    glm::vec3 low() const { return low_; }    ///< corners of the bounding box [m]
+    glm::vec3 high() const { return high_; }
+    float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
 
 private:
     /// Puts instances where `transforms` [instance count] say; the former ones are kept as
@@ -48,10 +50,10 @@ private:
     gpu::Array<std::uint32_t> vertex_instances_;
     gpu::Array<glm::vec3> looks_;
     gpu::Array<std::uint32_t> indices_;
-    std::uint32_t opaque_index_count_ = 0;
+    OccluderRange opaque_;
     std::vector<CutOutDraw> cut_outs_;
     gpu::Kernel place_lumels_, place_vertices_;
-    float diagonal_ = 0.0f;
+    glm::vec3 low_{0.0f}, high_{0.0f};
 
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Occluders& occluders);

@@ -212,11 +212,11 @@ TEST(Occluders, WallsOfAConvexRoomHideNothing)
     for (const support::Quad& wall : support::box_walls(glm::vec3(0.0f), glm::vec3(1.0f), true))
         quads.push_back(wall);
     const support::HandMade empty = support::make_quads(quads);
-    EXPECT_EQ(find_occluders(empty.scene).indices.size(), 0u);
-    EXPECT_EQ(find_occluders(empty.scene, false).indices.size(), 36u);
+    EXPECT_EQ(find_occluders(empty.scene).inner_indices().size(), 0u);
+    EXPECT_EQ(find_occluders(empty.scene, false).inner_indices().size(), 36u);
     // The room with blocks keeps the blocks' 24 triangles but for the bottoms, which lie in the
     // floor's plane.
-    EXPECT_EQ(find_occluders(room_with_blocks().scene).indices.size() / 3, 20u);
+    EXPECT_EQ(find_occluders(room_with_blocks().scene).inner_indices().size() / 3, 20u);
 }
 
 }  // namespace

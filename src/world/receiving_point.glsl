@@ -1,4 +1,4 @@
-// Where light is received.
+// Where light is received. Needs core/hash.glsl and world/lumel.glsl.
 
 // One point of the lumel for this batch: additive recurrence (R2 sequence) with a start of its
 // own for every lumel.

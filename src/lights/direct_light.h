@@ -1,0 +1,40 @@
+#pragma once
+// What everything that is no lumel sends straight to the lumels: sky, sun and lamps.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "gpu/pacer.h"
+#include "scene/scene.h"
+#include "visibility/eye_views.h"
+
+namespace lumel {
+
+struct DirectLightOptions {
+    std::uint32_t sky_directions = 1024;  ///< looked along for the sky
+    std::uint32_t sun_directions = 64;    ///< for each directional light
+    std::uint32_t disc_directions = 256;  ///< for each that has a disc
+    std::uint32_t seed = 1;
+    bool centre = false;  ///< receive at lumels' centroids
+    Projection projection = Projection::hemicube;
+    std::uint32_t hemicube = 256;  ///< side of lamps' hemicubes [pixels], see EyeViews
+    std::uint32_t batch = 16;      ///< hemicubes at a time
+};
+
+struct DirectLight {
+    std::vector<glm::vec3> irradiance;  ///< [N] [lx]
+    gpu::StageTimes times;              ///< on the device [ms]
+    bool finished = true;               ///< false: stopped by the caller
+};
+
+/// True if the scene has a source that is no surface.
+bool has_lights(const Scene& scene);
+
+/// Direct light of the scene's sky and lights. `go_on` is given the fraction done and returns false
+/// to stop.
+DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
+                         const Lumels& lumels, const DirectLightOptions& options,
+                         const std::function<bool(double)>& go_on = {});
+
+}  // namespace lumel

@@ -1,0 +1,42 @@
+#ifndef LUMEL_LIGHTS_LAMPS_SHARED_H
+#define LUMEL_LIGHTS_LAMPS_SHARED_H
+#include "visibility/eye_views.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kLampGroup = 64u;  ///< threads per workgroup of lamps.receive.comp
+
+LUMEL_CONST uint kNoProfile = 0xffffffffu;
+
+/// A point or spot light.
+struct Lamp {
+    vec3 x, y, z;      ///< its unit axes in the world; it shines along -z
+    vec3 intensity;    ///< [cd]; a factor where there is a profile
+    float range;       ///< [m], 0: unlimited
+    float cone_scale;  ///< KHR_lights_punctual's lightAngleScale and lightAngleOffset;
+    float cone_offset; ///< 0 and 1: no cone
+    uint profile;      ///< index into the profiles, or kNoProfile
+};
+
+/// An eye at a lamp.
+struct LampShot {
+    uint lamp;
+    float share;  ///< of the lamp's light
+    uint ball;    ///< 1: a point on the surface of a ball of even luminance
+};
+
+/// Push constants of lamps.receive.comp.
+struct LampReceiveParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint first_shot;  ///< of this batch: eye k is shot first_shot + k
+    uint shots;       ///< K
+    uint iteration;   ///< numbers the batches
+    uint seed;
+    uint centre;          ///< 1: receive at the centroid
+    uint polar_steps;     ///< of profiles, see Photometry
+    uint azimuth_steps;
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,176 @@
+// Light from infinitely far away.
+//
+//   [VG95] E. Veach, L. Guibas. Optimally Combining Sampling Techniques. 1995.
+//
+// A direction is asked for by all lumels at once: one depth image of the scene tells which of them
+// it reaches. The sky is an integral over directions,
+//
+//     H = ∫ L(ω) V(ω) cosθ dω  ≈  Σ_k  L(ω_k) / (p(ω_k) n) · V cosθ,
+//
+// with the same n directions ω_k for all lumels, drawn with density p.
+
+#include "lights/parallel_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/r2_sequence.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kReceiveSpirv[] = {
+#include "lights/parallel_light.receive.comp.inc"
+};
+
+constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
+                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array};
+
+constexpr float kPi = std::numbers::pi_v<float>;
+/// Keys of the points drawn, see r2_point.
+constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4, kOffsetKey = 5;
+/// Keys of one seed.
+constexpr std::uint32_t kKeys = 8;
+
+/// Pixels of a view across a typical lumel: fewer, and the rays of pixels miss lumels that are
+/// seen from the side; more cost time.
+constexpr float kPixelsPerLumel = 2.5f;
+constexpr std::uint32_t kLeastSide = 128, kMostSide = 2048;
+/// Pixels of all views of a batch, which bounds its memory to 32 MiB.
+constexpr std::uint64_t kMostPixels = 8u << 20;
+/// Units tried first when a kind of work is timed (see gpu::Pacer).
+constexpr std::uint32_t kProbeLumels = 4096;
+
+/// A unit direction in even distribution over the cone of half angle `angle` about +z.
+glm::vec3 in_cone(const glm::vec2& at, float angle)
+{
+    const float half_sine = std::sin(0.5f * angle);
+    const float down = at.x * 2.0f * half_sine * half_sine;  // 1 - z
+    const float r = std::sqrt(std::max(down * (2.0f - down), 0.0f)), phi = 2.0f * kPi * at.y;
+    return {r * std::cos(phi), r * std::sin(phi), 1.0f - down};
+}
+
+ParallelView view_of(const ParallelSource& source, std::uint32_t index, const World& world,
+                     const ParallelLightOptions& options)
+{
+    const std::uint32_t keys = options.seed * kKeys;
+    const ParallelPose pose{.toward = source.toward,
+                            .turn = 2.0f * kPi * r2_point(index, keys + kTurnKey).x,
+                            .offset = r2_point(index, keys + kOffsetKey),
+                            .random = index + options.seed * 0x9e3779b9u};
+    return fit_view(world.low(), world.high(), options.side, pose);
+}
+
+}  // namespace
+
+std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed)
+{
+    std::vector<ParallelSource> sources;
+    if (sky.empty())
+        return sources;
+    const SkySampler sampler(sky);
+    if (sampler.empty())
+        return sources;
+    constexpr float kEven = 0.25f / kPi;  // density of even directions [1/sr]
+    const std::uint32_t half = std::max(count / 2, 1u);
+    const auto add = [&](const glm::vec3& toward, const glm::vec3& radiance, float density) {
+        // Balance heuristic: both ways together draw with this density.
+        sources.push_back({toward, radiance / ((density + kEven) * float(half))});
+    };
+    for (std::uint32_t i = 0; i < half; ++i) {
+        const SkySample bright = sampler.sample(r2_point(i, seed * kKeys + kBrightKey));
+        add(bright.direction, bright.radiance, bright.density);
+        const glm::vec3 even = in_cone(r2_point(i, seed * kKeys + kEvenKey), kPi);
+        const glm::vec3 toward(even.x, even.z, even.y);
+        add(toward, sky_radiance(sky, toward), sampler.density(toward));
+    }
+    std::erase_if(sources, [](const auto& s) { return s.illuminance == glm::vec3(0.0f); });
+    return sources;
+}
+
+std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
+                                        std::uint32_t seed)
+{
+    const glm::mat3 frame(light.transform);
+    const glm::vec3 toward = glm::normalize(frame[2]);  // it shines along -z
+    const glm::vec3 other = std::abs(toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
+                                                      : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 s = glm::normalize(glm::cross(other, toward)), t = glm::cross(toward, s);
+    // Even radiance over the disc makes this illuminance on a surface that faces its middle:
+    // the mean cosine over a cone is sin²α / 2(1 - cosα).
+    const float cosine = std::cos(light.angle);
+    const float mean_cosine = light.angle > 0.0f ? 0.5f * (1.0f + cosine) : 1.0f;
+    const glm::vec3 each = light.color * (light.intensity / (float(count) * mean_cosine));
+    std::vector<ParallelSource> sources;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 d = in_cone(r2_point(i, seed * kKeys + kDiscKey), light.angle);
+        sources.push_back({glm::normalize(d.x * s + d.y * t + d.z * toward), each});
+    }
+    return sources;
+}
+
+std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels)
+{
+    std::vector<float> sizes;
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried))
+            sizes.push_back(std::sqrt(lumel.area));
+    if (sizes.empty())
+        return kLeastSide;
+    const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+    std::nth_element(sizes.begin(), median, sizes.end());
+    const float pixels = kPixelsPerLumel * world.diagonal() / std::max(*median, 1e-30f);
+    const std::uint32_t most = std::min(kMostSide, device.max_image_side());
+    return std::clamp(std::uint32_t(std::min(pixels, float(most))), kLeastSide, most);
+}
+
+bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
+                        const std::vector<ParallelSource>& sources,
+                        const ParallelLightOptions& options,
+                        const gpu::Array<glm::vec3>& irradiance,
+                        const std::function<bool(double)>& go_on)
+{
+    if (sources.empty())
+        return true;
+    std::vector<ParallelView> views;
+    for (const ParallelSource& source : sources)
+        views.push_back(view_of(source, std::uint32_t(views.size()), world, options));
+    const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
+    const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
+    const std::uint64_t fit = kMostPixels / (std::uint64_t(options.side) * options.side);
+    ParallelViews images(device, world, options.side,
+                         std::uint32_t(std::clamp<std::uint64_t>(fit, 1, 64)));
+    const gpu::Kernel receive(device, "parallel_light.receive", kReceiveSpirv, kReceiveSlots,
+                              sizeof(ParallelReceiveParams), kParallelGroup);
+
+    const auto total = std::uint32_t(sources.size()), lumels = std::uint32_t(irradiance.size());
+    bool going = true;
+    for (std::uint32_t begin = 0; begin < total && going; begin += images.capacity()) {
+        const std::uint32_t count = std::min(images.capacity(), total - begin);
+        images.look_along(pacer, view_array, begin, count);
+        pacer.work("parallel light", lumels, kProbeLumels,
+                   [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                       const ParallelReceiveParams params{.layout_ = images.layout(),
+                                                          .first = first,
+                                                          .last = last,
+                                                          .first_view = begin,
+                                                          .views = count,
+                                                          .seed = options.seed,
+                                                          .centre = options.centre ? 1u : 0u};
+                       commands.dispatch(receive,
+                                         {world.lumels(),
+                                          world.pieces(),
+                                          view_array,
+                                          source_array,
+                                          {images.image(), images.sampler()},
+                                          irradiance},
+                                         params, last - first);
+                   });
+        going = go_on(double(begin + count) / double(total));
+    }
+    pacer.finish();
+    return going;
+}
+
+}  // namespace lumel

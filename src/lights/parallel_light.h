@@ -1,0 +1,40 @@
+#pragma once
+// Light from infinitely far away: sky and sun, through parallel views.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "lights/parallel_light.shared.h"
+#include "scene/scene.h"
+#include "visibility/parallel_views.h"
+
+namespace lumel {
+
+/// `count` directions that stand for the whole sky: half of them drawn by its brightness, half
+/// evenly, weighed by the balance heuristic [VG95]. None for a dark sky.
+std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed);
+
+/// `count` directions, evenly spread over the light's disc; all the same where it has none. Only
+/// their pixels and receiving points differ then.
+std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
+                                        std::uint32_t seed);
+
+/// The side of parallel views that shows typical lumels a few pixels wide.
+std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels);
+
+struct ParallelLightOptions {
+    std::uint32_t side = 512;  ///< of each view [pixels]
+    std::uint32_t seed = 1;
+    bool centre = false;  ///< receive at lumels' centroids
+};
+
+/// Adds to irradiance [N] [lx] what the sources send straight to the lumels. `go_on` is given the
+/// fraction done and returns false to stop. Returns false if it was stopped.
+bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
+                        const std::vector<ParallelSource>& sources,
+                        const ParallelLightOptions& options,
+                        const gpu::Array<glm::vec3>& irradiance,
+                        const std::function<bool(double)>& go_on);
+
+}  // namespace lumel

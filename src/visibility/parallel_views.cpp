@@ -1,0 +1,155 @@
+#include "visibility/parallel_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kVertexSpirv[] = {
+#include "visibility/parallel.vert.inc"
+};
+constexpr std::uint32_t kCutOutVertexSpirv[] = {
+#include "visibility/parallel.cut_out.vert.inc"
+};
+constexpr std::uint32_t kCutOutFragmentSpirv[] = {
+#include "visibility/parallel.cut_out.frag.inc"
+};
+
+constexpr gpu::VertexStream kStreams[] = {{3}, {3}};
+constexpr gpu::Slot kOpaqueSlots[] = {gpu::Slot::array};
+constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
+
+/// Pixels around the scene: one for the offset, one so that its edge is never a tile's.
+constexpr float kBorder = 1.5f;
+/// Part of the range of depths that is left free at both ends.
+constexpr float kDepthBorder = 0.01f;
+
+ParallelLayout make_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity)
+{
+    const std::uint32_t fit = std::max(device.max_image_side() / side, 1u);
+    std::uint32_t columns = 1;
+    while (columns * columns < capacity)
+        ++columns;
+    return {side, std::min(columns, fit)};
+}
+
+std::uint32_t fitting(const gpu::Device& device, const ParallelLayout& layout,
+                      std::uint32_t capacity)
+{
+    return std::min(capacity,
+                    layout.columns * std::max(device.max_image_side() / layout.side, 1u));
+}
+
+std::uint32_t rows_of(const ParallelLayout& layout, std::uint32_t count)
+{
+    return (count + layout.columns - 1) / layout.columns;
+}
+
+gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t view)
+{
+    return {view % layout.columns * layout.side, view / layout.columns * layout.side, layout.side,
+            layout.side};
+}
+
+/// How far a box reaches along an axis.
+struct Reach {
+    float low = std::numeric_limits<float>::max(), high = -low;
+    float size() const { return high - low; }
+    float middle() const { return 0.5f * (low + high); }
+};
+
+Reach reach_along(const glm::vec3& axis, const glm::vec3& low, const glm::vec3& high)
+{
+    Reach reach;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
+                           corner & 4 ? high.z : low.z);
+        reach.low = std::min(reach.low, glm::dot(axis, at));
+        reach.high = std::max(reach.high, glm::dot(axis, at));
+    }
+    return reach;
+}
+
+}  // namespace
+
+ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
+                      const ParallelPose& pose)
+{
+    const glm::vec3 other = std::abs(pose.toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
+                                                           : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 s = glm::normalize(glm::cross(other, pose.toward));
+    const glm::vec3 t = glm::cross(pose.toward, s);
+    const glm::vec3 right = std::cos(pose.turn) * s + std::sin(pose.turn) * t;
+    const glm::vec3 up = std::cos(pose.turn) * t - std::sin(pose.turn) * s;
+
+    const Reach x = reach_along(right, low, high), y = reach_along(up, low, high);
+    const Reach z = reach_along(pose.toward, low, high);
+    const float tiny = std::numeric_limits<float>::min();
+    const float scale = (float(side) - 2.0f * kBorder) / std::max({x.size(), y.size(), tiny});
+    const float depth_scale = (1.0f - 2.0f * kDepthBorder) / std::max(z.size(), tiny);
+    const glm::vec2 centre = 0.5f * glm::vec2(float(side)) + pose.offset - 0.5f;
+    return {.right = scale * right,
+            .up = scale * up,
+            .toward = depth_scale * pose.toward,
+            .shift = centre - scale * glm::vec2(x.middle(), y.middle()),
+            .depth_shift = kDepthBorder - depth_scale * z.low,
+            .random = pose.random};
+}
+
+ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std::uint32_t side,
+                             std::uint32_t capacity)
+    : world_(&world),
+      layout_(make_layout(device, side, capacity)),
+      capacity_(fitting(device, layout_, capacity)),
+      image_(device, gpu::Pixel::depth, layout_.columns * side,
+             rows_of(layout_, capacity_) * side),
+      sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
+      opaque_(device, "parallel",
+              {.vertex = kVertexSpirv,
+               .slots = kOpaqueSlots,
+               .param_bytes = sizeof(ParallelLookParams),
+               .streams = std::span(kStreams, 1)}),
+      cut_out_(device, "parallel.cut_out",
+               {.vertex = kCutOutVertexSpirv,
+                .fragment = kCutOutFragmentSpirv,
+                .slots = kCutOutSlots,
+                .param_bytes = sizeof(ParallelLookParams),
+                .streams = kStreams})
+{
+}
+
+void ParallelViews::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
+                         std::uint32_t view, std::uint32_t tile)
+{
+    const gpu::Buffer& vertices = world_->vertices().buffer();
+    const gpu::Buffer& indices = world_->indices().buffer();
+    const auto draw_range = [&](const OccluderRange& range, float cutoff) {
+        commands.draw(ParallelLookParams{layout_, view, cutoff},
+                      {range.first_index, range.index_count});
+    };
+    commands.begin_pass(nullptr, image_, tile_area(layout_, tile));
+    if (world_->opaque().index_count > 0) {
+        commands.use(opaque_, {views}, {{&vertices}, &indices});
+        draw_range(world_->opaque(), 0.0f);
+    }
+    for (const CutOutDraw& cut_out : world_->cut_outs()) {
+        commands.use(cut_out_, {views, {*cut_out.alpha, *cut_out.sampler}},
+                     {{&vertices, &world_->looks().buffer()}, &indices});
+        draw_range(cut_out.range, cut_out.cutoff);
+    }
+    commands.end_pass();
+}
+
+void ParallelViews::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views,
+                               std::uint32_t first, std::uint32_t count)
+{
+    pacer.work("look along", count, 1,
+               [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
+                   for (std::uint32_t tile = begin; tile < end; ++tile)
+                       draw(commands, views, first + tile, tile);
+               });
+}
+
+}  // namespace lumel
