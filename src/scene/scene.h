@@ -80,8 +80,8 @@ struct PunctualLight {
     float range = 0.0f;            ///< [m], 0: unlimited
     float inner_cone = 0.0f;       ///< [rad]
     float outer_cone = 0.785398f;  ///< [rad]
-    /// Of the ball that shines, uniformly bright but for cone and profile [m]; 0: a point. Point and
-    /// spot only.
+    /// Of the ball that shines, uniformly bright but for cone and profile [m]; 0: a point. Point
+    /// and spot only.
     float radius = 0.0f;
     /// Half the angle that the disc of a directional light takes in the sky [rad]; 0: parallel.
     float angle = 0.0f;

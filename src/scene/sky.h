@@ -43,7 +43,7 @@ public:
 
 private:
     const Sky* sky_;
-    std::vector<double> row_sums_;    ///< [height] running sum over rows of luminance × angle, to 1
+    std::vector<double> row_sums_;  ///< [height] running sum over rows of luminance × angle, to 1
     std::vector<double> texel_sums_;  ///< [height][width] running sum within the row, to 1
 };
 
