@@ -8,17 +8,18 @@
 namespace lumel {
 namespace {
 
-std::vector<ParallelSource> parallel_sources(const Scene& scene, const DirectLightOptions& options)
+/// The directions of each source of parallel light.
+std::vector<std::vector<ParallelSource>> parallel_sources(const Scene& scene,
+                                                          const DirectLightOptions& options)
 {
-    std::vector<ParallelSource> sources = sky_sources(scene.sky, options.sky_directions,
-                                                      options.seed);
+    std::vector<std::vector<ParallelSource>> sources{
+        sky_sources(scene.sky, options.sky_directions, options.seed)};
     for (const PunctualLight& light : scene.lights) {
         if (light.kind != PunctualLight::Kind::directional || !(light.intensity > 0.0f))
             continue;
         const std::uint32_t count =
             light.angle > 0.0f ? options.disc_directions : options.sun_directions;
-        const std::vector<ParallelSource> sun = sun_sources(light, count, options.seed);
-        sources.insert(sources.end(), sun.begin(), sun.end());
+        sources.push_back(sun_sources(light, count, options.seed));
     }
     return sources;
 }
@@ -34,31 +35,26 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
                          const Lumels& lumels, const DirectLightOptions& options,
                          const std::function<bool(double)>& go_on)
 {
-    const gpu::Array<glm::vec3> irradiance(device, lumels.lumels.size());
+    SummedLight summed(device, lumels.lumels.size());
     gpu::Pacer pacer(device);
-    pacer.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.fill(irradiance.buffer());
-    });
-    // Neither kind of source says how long the other takes.
-    const auto half = [&](double from) {
-        return [&go_on, from](double fraction) { return !go_on || go_on(from + 0.5 * fraction); };
-    };
+    const std::vector<std::vector<ParallelSource>> sources = parallel_sources(scene, options);
+    const double parts = double(sources.size()) + 1.0;  // the lamps are one
+    double part = 0.0;
+    const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
+    const ParallelLightOptions parallel{.side = parallel_side(device, world, lumels),
+                                        .seed = options.seed,
+                                        .centre = options.centre};
     DirectLight light;
-    light.finished =
-        add_parallel_light(pacer, device, world, parallel_sources(scene, options),
-                           {.side = parallel_side(device, world, lumels),
-                            .seed = options.seed,
-                            .centre = options.centre},
-                           irradiance, half(0.0)) &&
-        add_lamps(pacer, device, world, scene,
-                  {.projection = options.projection,
-                   .hemicube = options.hemicube,
-                   .batch = options.batch,
-                   .seed = options.seed,
-                   .centre = options.centre},
-                  irradiance, half(0.5));
+    for (const std::vector<ParallelSource>& directions : sources) {
+        light.finished = light.finished && add_parallel_light(pacer, device, world, directions,
+                                                              parallel, summed, told);
+        part += 1.0;
+    }
+    light.finished = light.finished &&
+                     add_lamps(pacer, device, world, scene,
+                               {.seed = options.seed, .centre = options.centre}, summed, told);
     pacer.finish();
-    light.irradiance = irradiance.download();
+    light.irradiance = summed.irradiance();
     light.times = pacer.times();
     return light;
 }

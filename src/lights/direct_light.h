@@ -7,7 +7,7 @@
 
 #include "gpu/pacer.h"
 #include "scene/scene.h"
-#include "visibility/eye_views.h"
+#include "world/world.h"
 
 namespace lumel {
 
@@ -17,9 +17,6 @@ struct DirectLightOptions {
     std::uint32_t disc_directions = 256;  ///< for each that has a disc
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
-    Projection projection = Projection::hemicube;
-    std::uint32_t hemicube = 256;  ///< side of lamps' hemicubes [pixels], see EyeViews
-    std::uint32_t batch = 16;      ///< hemicubes at a time
 };
 
 struct DirectLight {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numbers>
+#include <span>
 #include <vector>
 
-#include "core/r2_sequence.h"
+#include "core/lattice.h"
 #include "lights/lamps.shared.h"
 
 namespace lumel {
@@ -15,26 +17,40 @@ constexpr std::uint32_t kReceiveSpirv[] = {
 #include "lights/lamps.receive.comp.inc"
 };
 
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-                                       gpu::Slot::texture, gpu::Slot::array};
+constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,
+                                       gpu::Slot::array,   gpu::Slot::array, gpu::Slot::texture,
+                                       gpu::Slot::array};
 
 constexpr float kPi = std::numbers::pi_v<float>;
+/// Between the keys of one lamp's random numbers and the next's.
+constexpr std::uint32_t kLampKeys = 977;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbeLumels = 4096;
 /// Least difference of a cone's cosines that counts as soft (KHR_lights_punctual).
 constexpr float kLeastConeStep = 0.001f;
+/// Pixels of all hemicubes of a batch, which bounds its memory to 32 MiB.
+constexpr std::uint64_t kMostPixels = 8u << 20;
+
+/// Does it take two hemicubes to see all that the light shines on?
+bool has_halves(const PunctualLight& light)
+{
+    return light.kind == PunctualLight::Kind::point && light.radius == 0.0f;
+}
 
 Lamp lamp_of(const PunctualLight& light)
 {
-    Lamp lamp{.x = glm::normalize(glm::vec3(light.transform[0])),
+    Lamp lamp{.position = glm::vec3(light.transform[3]),
+              .radius = light.radius,
+              .x = glm::normalize(glm::vec3(light.transform[0])),
               .y = glm::normalize(glm::vec3(light.transform[1])),
               .z = glm::normalize(glm::vec3(light.transform[2])),
               .intensity = light.color * light.intensity,
               .range = light.range,
               .cone_scale = 0.0f,
               .cone_offset = 1.0f,
-              .profile = light.profile < 0 ? kNoProfile : std::uint32_t(light.profile)};
+              .profile = light.profile < 0 ? kNoProfile : std::uint32_t(light.profile),
+              .halves = has_halves(light) ? 2u : 1u,
+              .share = 1.0f};
     if (light.kind == PunctualLight::Kind::spot) {
         const float outer = std::cos(light.outer_cone);
         lamp.cone_scale = 1.0f / std::max(std::cos(light.inner_cone) - outer, kLeastConeStep);
@@ -43,23 +59,15 @@ Lamp lamp_of(const PunctualLight& light)
     return lamp;
 }
 
-/// All eyes of all lamps.
-struct Shots {
-    std::vector<Lamp> lamps;
-    std::vector<Eye> eyes;
-    std::vector<LampShot> shots;
-
-    void add(const glm::vec3& position, const glm::vec3& normal, float turn, float share, bool ball)
-    {
-        const glm::vec3 other =
-            std::abs(normal.x) < 0.5f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-        const glm::vec3 s = glm::normalize(glm::cross(other, normal)), t = glm::cross(normal, s);
-        const glm::vec3 tangent = std::cos(turn) * s + std::sin(turn) * t;
-        eyes.push_back({position, tangent, glm::cross(normal, tangent), normal,
-                        std::uint32_t(eyes.size())});
-        shots.push_back({std::uint32_t(lamps.size()) - 1, share, ball ? 1u : 0u});
-    }
-};
+/// Looks along `normal`, turned about it by `turn` [rad].
+Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::uint32_t random)
+{
+    const glm::vec3 other =
+        std::abs(normal.x) < 0.5f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
+    const glm::vec3 s = glm::normalize(glm::cross(other, normal)), t = glm::cross(normal, s);
+    const glm::vec3 tangent = std::cos(turn) * s + std::sin(turn) * t;
+    return {position, tangent, glm::cross(normal, tangent), normal, random};
+}
 
 glm::vec3 on_sphere(const glm::vec2& at)
 {
@@ -67,37 +75,35 @@ glm::vec3 on_sphere(const glm::vec2& at)
     return {r * std::cos(2.0f * kPi * at.y), r * std::sin(2.0f * kPi * at.y), z};
 }
 
-void add_light(Shots& shots, const PunctualLight& light, const LampOptions& options)
+/// Where a lamp is looked from: points of its ball, or the lamp itself, turned differently each
+/// time; all around in two halves, or only where a spot shines.
+std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options, std::uint32_t key)
 {
-    shots.lamps.push_back(lamp_of(light));
+    std::vector<Eye> eyes;
     const glm::vec3 position(light.transform[3]);
-    const std::uint32_t key = options.seed + 977u * std::uint32_t(shots.lamps.size());
     const bool ball = light.radius > 0.0f;
-    const bool spot = light.kind == PunctualLight::Kind::spot;
     const std::uint32_t count = ball ? options.ball_points : options.points;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec2 at = r2_point(i, key);
-        const glm::vec3 way = on_sphere(at);
-        const float turn = 2.0f * kPi * r2_point(i, ~key).x, share = 1.0f / float(count);
+        const glm::vec3 way = on_sphere(lattice_point(i, count, key));
+        const float turn = 2.0f * kPi * lattice_point(i, count, ~key).y;
+        const std::uint32_t random = key * count + i;
         if (ball) {
-            shots.add(position + light.radius * way, way, turn, share, true);
-        } else if (spot) {
-            shots.add(position, -shots.lamps.back().z, turn, share, false);
-        } else {  // all around: two halves
-            shots.add(position, way, turn, share, false);
-            shots.add(position, -way, turn, share, false);
+            eyes.push_back(eye_at(position + light.radius * way, way, turn, random));
+        } else if (has_halves(light)) {
+            eyes.push_back(eye_at(position, way, turn, random));
+            eyes.push_back(eye_at(position, -way, turn, random));
+        } else {
+            const glm::vec3 axis = -glm::normalize(glm::vec3(light.transform[2]));
+            eyes.push_back(eye_at(position, axis, turn, random));
         }
     }
+    return eyes;
 }
 
-Shots shots_of(const Scene& scene, const LampOptions& options)
+bool shines(const PunctualLight& light)
 {
-    Shots shots;
-    for (const PunctualLight& light : scene.lights)
-        if (light.kind != PunctualLight::Kind::directional && light.intensity > 0.0f &&
-            light.color != glm::vec3(0.0f))
-            add_light(shots, light, options);
-    return shots;
+    return light.kind != PunctualLight::Kind::directional && light.intensity > 0.0f &&
+           light.color != glm::vec3(0.0f);
 }
 
 std::vector<float> profiles_of(const Scene& scene)
@@ -108,57 +114,99 @@ std::vector<float> profiles_of(const Scene& scene)
     return candela;
 }
 
-}  // namespace
+/// What lamps take turns with.
+struct LampStage {
+    LampStage(const gpu::Device& on, const World& in, const Scene& scene,
+              const std::vector<Lamp>& all, const LampOptions& given)
+        : device(&on),
+          world(&in),
+          options(&given),
+          lamps(on, std::span<const Lamp>(all)),
+          profiles(on, std::span<const float>(profiles_of(scene))),
+          views(on, in, Projection::hemicube, given.hemicube, batch_of(given)),
+          receive(on, "lamps.receive", kReceiveSpirv, kReceiveSlots, sizeof(LampReceiveParams),
+                  kLampGroup, std::uint32_t(Projection::hemicube))
+    {
+    }
 
-bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
-               const Scene& scene, const LampOptions& options,
-               const gpu::Array<glm::vec3>& irradiance, const std::function<bool(double)>& go_on)
-{
-    const Shots shots = shots_of(scene, options);
-    if (shots.shots.empty())
-        return true;
-    const gpu::Array<Lamp> lamps(device, std::span<const Lamp>(shots.lamps));
-    const gpu::Array<LampShot> shot_array(device, std::span<const LampShot>(shots.shots));
-    const std::vector<float> candela = profiles_of(scene);
-    const gpu::Array<float> profiles(device, std::span<const float>(candela));
-    const auto total = std::uint32_t(shots.shots.size()), lumels = std::uint32_t(irradiance.size());
-    EyeViews views(device, world, options.projection, options.hemicube,
-                   std::min(options.batch, total));
-    const gpu::Kernel receive(device, "lamps.receive", kReceiveSpirv, kReceiveSlots,
-                              sizeof(LampReceiveParams), kLampGroup,
-                              std::uint32_t(options.projection));
+    static std::uint32_t batch_of(const LampOptions& given)
+    {
+        return std::uint32_t(std::max<std::uint64_t>(
+            kMostPixels / view_pixels(Projection::hemicube, given.hemicube), 1));
+    }
 
-    std::vector<gpu::Array<Eye>> batches;  // in flight until the pacer has finished
-    bool going = true;
-    for (std::uint32_t begin = 0; begin < total && going; begin += views.capacity()) {
-        const std::uint32_t count = std::min(views.capacity(), total - begin);
-        const gpu::Array<Eye>& eyes =
-            batches.emplace_back(device, std::span<const Eye>(shots.eyes).subspan(begin, count));
-        views.look_from(pacer, eyes, count);
-        pacer.work("lamps", lumels, kProbeLumels,
-                   [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                       const LampReceiveParams params{.views = views.layout(),
-                                                      .first = first,
-                                                      .last = last,
-                                                      .first_shot = begin,
-                                                      .shots = count,
-                                                      .iteration = std::uint32_t(batches.size()),
-                                                      .seed = options.seed,
-                                                      .centre = options.centre ? 1u : 0u,
-                                                      .polar_steps = Photometry::kPolarSteps,
-                                                      .azimuth_steps = Photometry::kAzimuthSteps};
+    /// Adds the light of some of a lamp's eyes. first: of them among the lamp's.
+    void take(gpu::Pacer& pacer, std::span<const Eye> batch, std::uint32_t lamp,
+              std::uint32_t first, const SummedLight& light)
+    {
+        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch);
+        views.look_from(pacer, eyes, std::uint32_t(batch.size()));
+        pacer.work("lamps", light.lumels(), kProbeLumels,
+                   [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
+                       const LampReceiveParams params{
+                           .views = views.layout(),
+                           .first = begin,
+                           .last = end,
+                           .lamp = lamp,
+                           .first_eye = first,
+                           .eyes = std::uint32_t(batch.size()),
+                           .seed = options->seed,
+                           .centre = options->centre ? 1u : 0u,
+                           .polar_steps = Photometry::kPolarSteps,
+                           .azimuth_steps = Photometry::kAzimuthSteps};
                        commands.dispatch(receive,
-                                         {world.lumels(),
-                                          world.pieces(),
+                                         {world->lumels(),
+                                          world->pieces(),
                                           eyes,
-                                          shot_array,
                                           lamps,
                                           profiles,
                                           {views.image(), views.sampler()},
-                                          irradiance},
-                                         params, last - first);
+                                          light.sums()},
+                                         params, end - begin);
                    });
-        going = go_on(double(begin + count) / double(total));
+    }
+
+    const gpu::Device* device;
+    const World* world;
+    const LampOptions* options;
+    gpu::Array<Lamp> lamps;
+    gpu::Array<float> profiles;
+    EyeViews views;
+    gpu::Kernel receive;
+    std::deque<gpu::Array<Eye>> in_flight;  ///< until the pacer has finished
+};
+
+}  // namespace
+
+bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
+               const Scene& scene, const LampOptions& options, SummedLight& light,
+               const std::function<bool(double)>& go_on)
+{
+    std::vector<Lamp> lamps;
+    std::vector<std::vector<Eye>> eyes;
+    for (const PunctualLight& lamp : scene.lights) {
+        if (!shines(lamp))
+            continue;
+        const auto key = options.seed + kLampKeys * std::uint32_t(lamps.size());
+        eyes.push_back(eyes_of(lamp, options, key));
+        lamps.push_back(lamp_of(lamp));
+        lamps.back().share = float(lamps.back().halves) / float(eyes.back().size());
+    }
+    if (lamps.empty())
+        return true;
+    LampStage stage(device, world, scene, lamps, options);
+    bool going = true;
+    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
+        const std::span<const Eye> all(eyes[lamp]);
+        for (std::size_t first = 0; first < all.size() && going; first += stage.views.capacity()) {
+            const std::size_t count =
+                std::min<std::size_t>(stage.views.capacity(), all.size() - first);
+            stage.take(pacer, all.subspan(first, count), std::uint32_t(lamp), std::uint32_t(first),
+                       light);
+            going = go_on((double(lamp) + double(first) / double(all.size())) /
+                          double(lamps.size()));
+        }
+        light.finish_source(pacer);
     }
     pacer.finish();
     return going;

@@ -3,27 +3,31 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 
-// Every lumel takes the light of K points of lamps:
+// Every lumel takes the light of K eyes at a lamp:
 //
-//     H += Σ_k  share_k · I(ω) / r² · V cosθ · window(r),
+//     H = Σ_k  share · I(ω) / r² · V cosθ · window(r),
 //
 // I the lamp's intensity towards the lumel. A ball of even luminance L and radius R has I = π R² L;
 // a point y drawn evenly from its surface stands for  4 I max(n_y·ω, 0).
+//
+// What is known of V is summed up as light_sums.shared.h says. Light with nothing in its way is
+// taken at more points of the lumel than views are asked about: it may change much over a lumel.
 
 layout(local_size_x = kLampGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
 layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };  // of this batch
-layout(binding = 3, scalar) readonly buffer Shots { LampShot shots[]; };  // of all
-layout(binding = 4, scalar) readonly buffer Lamps { Lamp lamps[]; };
-layout(binding = 5, scalar) readonly buffer Profiles { float candela[]; };
-layout(binding = 6) uniform sampler2D views;
-layout(binding = 7, scalar) buffer Irradiance { vec3 irradiance[]; };
+layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 3, scalar) readonly buffer Lamps { Lamp lamps[]; };
+layout(binding = 4, scalar) readonly buffer Profiles { float candela[]; };
+layout(binding = 5) uniform sampler2D views;
+layout(binding = 6, scalar) buffer Sums { LightSums sums[]; };
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
+#include "visibility/pixels.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_from.glsl"
 
 const float kPi = 3.14159265;
 
@@ -64,22 +68,44 @@ float range_window(Lamp lamp, float squared)
     return clamp(1.0 - part * part, 0.0, 1.0);
 }
 
-vec3 receive(LumelPoint point, uint k)
+// A ball that shines evenly all around and is wholly above the horizon lights as its centre would.
+bool is_whole_ball(Lamp lamp, LumelPoint point)
 {
-    const Eye eye = eyes[k];
+    return lamp.radius > 0.0 && lamp.cone_scale == 0.0 && lamp.profile == kNoProfile &&
+           lamp.range <= 0.0 && dot(lamp.position - point.position, point.normal) > lamp.radius;
+}
+
+vec3 light_of_centre(Lamp lamp, LumelPoint point)
+{
+    const vec3 d = lamp.position - point.position;
+    const float squared = dot(d, d);
+    return lamp.intensity * (lamp.share * dot(d, point.normal) / (squared * sqrt(squared)));
+}
+
+// Light of an eye at a point with nothing in its way; 0 where either looks away.
+vec3 open_light(Lamp lamp, Eye eye, LumelPoint point)
+{
     const vec3 d = point.position - eye.position;
     const float squared = dot(d, d), away = dot(d, eye.normal), facing = -dot(d, point.normal);
     if (away <= 0.0 || facing <= 0.0 || dot(d, point.facing) >= 0.0)
         return vec3(0.0);
-    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
-    if (!sees(p.views, k, d * frame, point.facing * frame))
-        return vec3(0.0);
-    const LampShot shot = shots[p.first_shot + k];
-    const Lamp lamp = lamps[shot.lamp];
     const float distance_ = sqrt(squared);
-    const float ball = shot.ball != 0u ? 4.0 * away / distance_ : 1.0;
+    const float ball = lamp.radius > 0.0 ? 4.0 * away / distance_ : 1.0;
     return intensity_towards(lamp, d / distance_) *
-           (shot.share * ball * range_window(lamp, squared) * facing / (squared * distance_));
+           (lamp.share * ball * range_window(lamp, squared) * facing / (squared * distance_));
+}
+
+// Looks for a ray of eye k's hemicube that meets the piece the point lies on. `seen`: nothing is
+// before it.
+bool ask_view(Eye eye, uint k, LumelPoint point, out RayMet ray, out bool seen)
+{
+    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
+    const ViewPoint f = project(p.views, (point.position - eye.position) * frame);
+    const PieceInView piece = piece_from(p.views, f, eye.position, frame, pieces[point.piece]);
+    const float side = float(p.views.side);
+    const bool found = find_ray(piece, f.at, vec2(side, f.front ? side : 0.5 * side), ray);
+    seen = found && is_first(piece, ray, stored_depth(p.views, k, f, ray.pixel));
+    return found;
 }
 
 void main()
@@ -90,9 +116,29 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
-    const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
-    vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < p.shots; ++k)
-        sum += receive(point, k);
-    irradiance[i] += sum;
+    const Lamp lamp = lamps[p.lamp];
+    LightSums sum = sums[i];
+    for (uint k = 0u; k < p.eyes; ++k) {
+        const Eye eye = eyes[k];
+        // Two halves ask for the same points: each point is in view of one of them.
+        const uint index = (p.first_eye + k) / lamp.halves * kOpenPoints;
+        vec3 here = vec3(0.0);
+        LumelPoint point;
+        for (uint n = 0u; n < kOpenPoints; ++n) {
+            point = receiving_point(lumel, i, index + n, p.seed, p.centre != 0u);
+            here = open_light(lamp, eye, point);
+            sum.open += (is_whole_ball(lamp, point) ? light_of_centre(lamp, point) : here) /
+                        float(kOpenPoints);
+        }
+        if (here == vec3(0.0))
+            continue;
+        RayMet ray;
+        bool seen;
+        if (!ask_view(eye, k, point, ray, seen))
+            continue;
+        sum.known += here / ray.chance;
+        if (seen)
+            sum.arrived += here / ray.chance;
+    }
+    sums[i] = sum;
 }

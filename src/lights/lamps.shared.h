@@ -1,5 +1,6 @@
 #ifndef LUMEL_LIGHTS_LAMPS_SHARED_H
 #define LUMEL_LIGHTS_LAMPS_SHARED_H
+#include "lights/light_sums.shared.h"
 #include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
@@ -9,29 +10,28 @@ LUMEL_CONST uint kNoProfile = 0xffffffffu;
 
 /// A point or spot light.
 struct Lamp {
+    vec3 position;     ///< [m]
+    float radius;      ///< [m], 0: a point
     vec3 x, y, z;      ///< its unit axes in the world; it shines along -z
     vec3 intensity;    ///< [cd]; a factor where there is a profile
     float range;       ///< [m], 0: unlimited
     float cone_scale;  ///< KHR_lights_punctual's lightAngleScale and lightAngleOffset;
     float cone_offset; ///< 0 and 1: no cone
     uint profile;      ///< index into the profiles, or kNoProfile
+    uint halves;       ///< eyes that together see all around: 2 of a point light, else 1
+    float share;       ///< of the lamp's light that an eye, or two halves, stand for
 };
 
-/// An eye at a lamp.
-struct LampShot {
-    uint lamp;
-    float share;  ///< of the lamp's light
-    uint ball;    ///< 1: a point on the surface of a ball of even luminance
-};
+LUMEL_CONST uint kOpenPoints = 4u;  ///< of a lumel that are asked for light with nothing in its way
 
 /// Push constants of lamps.receive.comp.
 struct LampReceiveParams {
     EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
-    uint first_shot;  ///< of this batch: eye k is shot first_shot + k
-    uint shots;       ///< K
-    uint iteration;   ///< numbers the batches
+    uint lamp;
+    uint first_eye;  ///< of this batch among the lamp's
+    uint eyes;       ///< K
     uint seed;
     uint centre;          ///< 1: receive at the centroid
     uint polar_steps;     ///< of profiles, see Photometry

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/r2_sequence.h"
+#include "core/lattice.h"
 
 namespace lumel {
 namespace {
@@ -28,14 +28,14 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu
                                        gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array};
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Keys of the points drawn, see r2_point.
+/// Keys of the points drawn, see lattice_point.
 constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4, kOffsetKey = 5;
 /// Keys of one seed.
 constexpr std::uint32_t kKeys = 8;
 
 /// Pixels of a view across a typical lumel: fewer, and the rays of pixels miss lumels that are
 /// seen from the side; more cost time.
-constexpr float kPixelsPerLumel = 2.5f;
+constexpr float kPixelsPerLumel = 3.5f;
 constexpr std::uint32_t kLeastSide = 128, kMostSide = 2048;
 /// Pixels of all views of a batch, which bounds its memory to 32 MiB.
 constexpr std::uint64_t kMostPixels = 8u << 20;
@@ -51,13 +51,13 @@ glm::vec3 in_cone(const glm::vec2& at, float angle)
     return {r * std::cos(phi), r * std::sin(phi), 1.0f - down};
 }
 
-ParallelView view_of(const ParallelSource& source, std::uint32_t index, const World& world,
-                     const ParallelLightOptions& options)
+ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t count,
+                     const World& world, const ParallelLightOptions& options)
 {
     const std::uint32_t keys = options.seed * kKeys;
     const ParallelPose pose{.toward = source.toward,
-                            .turn = 2.0f * kPi * r2_point(index, keys + kTurnKey).x,
-                            .offset = r2_point(index, keys + kOffsetKey),
+                            .turn = 2.0f * kPi * lattice_point(index, count, keys + kTurnKey).y,
+                            .offset = lattice_point(index, count, keys + kOffsetKey),
                             .random = index + options.seed * 0x9e3779b9u};
     return fit_view(world.low(), world.high(), options.side, pose);
 }
@@ -79,9 +79,9 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
         sources.push_back({toward, radiance / ((density + kEven) * float(half))});
     };
     for (std::uint32_t i = 0; i < half; ++i) {
-        const SkySample bright = sampler.sample(r2_point(i, seed * kKeys + kBrightKey));
+        const SkySample bright = sampler.sample(lattice_point(i, half, seed * kKeys + kBrightKey));
         add(bright.direction, bright.radiance, bright.density);
-        const glm::vec3 even = in_cone(r2_point(i, seed * kKeys + kEvenKey), kPi);
+        const glm::vec3 even = in_cone(lattice_point(i, half, seed * kKeys + kEvenKey), kPi);
         const glm::vec3 toward(even.x, even.z, even.y);
         add(toward, sky_radiance(sky, toward), sampler.density(toward));
     }
@@ -104,7 +104,7 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
     const glm::vec3 each = light.color * (light.intensity / (float(count) * mean_cosine));
     std::vector<ParallelSource> sources;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 d = in_cone(r2_point(i, seed * kKeys + kDiscKey), light.angle);
+        const glm::vec3 d = in_cone(lattice_point(i, count, seed * kKeys + kDiscKey), light.angle);
         sources.push_back({glm::normalize(d.x * s + d.y * t + d.z * toward), each});
     }
     return sources;
@@ -127,15 +127,15 @@ std::uint32_t parallel_side(const gpu::Device& device, const World& world, const
 
 bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
                         const std::vector<ParallelSource>& sources,
-                        const ParallelLightOptions& options,
-                        const gpu::Array<glm::vec3>& irradiance,
+                        const ParallelLightOptions& options, SummedLight& light,
                         const std::function<bool(double)>& go_on)
 {
     if (sources.empty())
         return true;
     std::vector<ParallelView> views;
     for (const ParallelSource& source : sources)
-        views.push_back(view_of(source, std::uint32_t(views.size()), world, options));
+        views.push_back(view_of(source, std::uint32_t(views.size()), std::uint32_t(sources.size()),
+                                world, options));
     const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
     const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
     const std::uint64_t fit = kMostPixels / (std::uint64_t(options.side) * options.side);
@@ -144,12 +144,12 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
     const gpu::Kernel receive(device, "parallel_light.receive", kReceiveSpirv, kReceiveSlots,
                               sizeof(ParallelReceiveParams), kParallelGroup);
 
-    const auto total = std::uint32_t(sources.size()), lumels = std::uint32_t(irradiance.size());
+    const auto total = std::uint32_t(sources.size());
     bool going = true;
     for (std::uint32_t begin = 0; begin < total && going; begin += images.capacity()) {
         const std::uint32_t count = std::min(images.capacity(), total - begin);
         images.look_along(pacer, view_array, begin, count);
-        pacer.work("parallel light", lumels, kProbeLumels,
+        pacer.work("parallel light", light.lumels(), kProbeLumels,
                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                        const ParallelReceiveParams params{.layout_ = images.layout(),
                                                           .first = first,
@@ -164,11 +164,12 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
                                           view_array,
                                           source_array,
                                           {images.image(), images.sampler()},
-                                          irradiance},
+                                          light.sums()},
                                          params, last - first);
                    });
         going = go_on(double(begin + count) / double(total));
     }
+    light.finish_source(pacer);
     pacer.finish();
     return going;
 }

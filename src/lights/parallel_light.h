@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "lights/light_sums.h"
 #include "lights/parallel_light.shared.h"
 #include "scene/scene.h"
 #include "visibility/parallel_views.h"
@@ -29,12 +30,11 @@ struct ParallelLightOptions {
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds to irradiance [N] [lx] what the sources send straight to the lumels. `go_on` is given the
-/// fraction done and returns false to stop. Returns false if it was stopped.
+/// Adds to `light` what these directions send straight to the lumels, as one source. `go_on` is
+/// given the fraction done and returns false to stop. Returns false if it was stopped.
 bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
                         const std::vector<ParallelSource>& sources,
-                        const ParallelLightOptions& options,
-                        const gpu::Array<glm::vec3>& irradiance,
+                        const ParallelLightOptions& options, SummedLight& light,
                         const std::function<bool(double)>& go_on);
 
 }  // namespace lumel

@@ -3,11 +3,11 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 
-// Every lumel takes the light of K directions that reaches it:
+// Every lumel takes the light of K directions:
 //
-//     H += Σ_k  illuminance_k · V · max(cosθ, 0).
+//     H = Σ_k  illuminance_k · V_k · max(cosθ_k, 0).
 //
-// The point that receives moves over the lumel from direction to direction.
+// What is known of V is summed up as light_sums.shared.h says.
 
 layout(local_size_x = kParallelGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
@@ -16,12 +16,13 @@ layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
 layout(binding = 2, scalar) readonly buffer Views { ParallelView views[]; };
 layout(binding = 3, scalar) readonly buffer Sources { ParallelSource sources[]; };
 layout(binding = 4) uniform sampler2D parallel_image;
-layout(binding = 5, scalar) buffer Irradiance { vec3 irradiance[]; };
+layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
 #include "visibility/parallel.glsl"
-#include "visibility/sees_along.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_along.glsl"
 
 void main()
 {
@@ -31,17 +32,26 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
-    vec3 sum = vec3(0.0);
+    LightSums sum = sums[i];
     for (uint k = 0u; k < p.views; ++k) {
         const ParallelSource source = sources[p.first_view + k];
+        // The point moves over the lumel from direction to direction.
         const LumelPoint point =
             receiving_point(lumel, i, p.first_view + k, p.seed, p.centre != 0u);
         const float cosine = dot(point.normal, source.toward);
         if (cosine <= 0.0 || dot(point.facing, source.toward) <= 0.0)
             continue;
-        if (light_arrives(p.layout_, k, views[p.first_view + k], pieces[point.piece],
-                          point.position))
-            sum += cosine * source.illuminance;
+        const vec3 open = cosine * source.illuminance;
+        sum.open += open;
+        const ParallelView view = views[p.first_view + k];
+        const PieceInView piece = piece_along(view, pieces[point.piece]);
+        RayMet ray;
+        if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
+            continue;
+        const vec3 known = open / ray.chance;
+        sum.known += known;
+        if (is_first(piece, ray, first_depth_along(p.layout_, k, ray)))
+            sum.arrived += known;
     }
-    irradiance[i] += sum;
+    sums[i] = sum;
 }

@@ -1,5 +1,6 @@
 #ifndef LUMEL_LIGHTS_PARALLEL_LIGHT_SHARED_H
 #define LUMEL_LIGHTS_PARALLEL_LIGHT_SHARED_H
+#include "lights/light_sums.shared.h"
 #include "visibility/parallel_views.shared.h"
 LUMEL_SHARED_BEGIN
 

@@ -1,0 +1,31 @@
+#include "lights/light_sums.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kFinishSpirv[] = {
+#include "lights/light_sums.finish.comp.inc"
+};
+
+}  // namespace
+
+SummedLight::SummedLight(const gpu::Device& device, std::size_t lumels)
+    : sums_(device, lumels),
+      irradiance_(device, lumels),
+      finish_(device, "light_sums.finish", kFinishSpirv, 2, sizeof(FinishLightParams),
+              kLightSumsGroup)
+{
+    gpu::Commands commands(device);
+    commands.fill(sums_.buffer());
+    commands.fill(irradiance_.buffer());
+    commands.run();
+}
+
+void SummedLight::finish_source(gpu::Pacer& pacer)
+{
+    pacer.work("sum of a source", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        commands.dispatch(finish_, {sums_, irradiance_}, FinishLightParams{lumels()}, lumels());
+    });
+}
+
+}  // namespace lumel

@@ -1,0 +1,23 @@
+#ifndef LUMEL_LIGHTS_LIGHT_SUMS_SHARED_H
+#define LUMEL_LIGHTS_LIGHT_SUMS_SHARED_H
+#include "core/shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kLightSumsGroup = 64u;  ///< threads per workgroup of light_sums.finish.comp
+
+/// What a lumel has taken of one source so far [lx]. A view tells whether light is hidden only of
+/// lumels that one of its rays meets, which has a chance P. So three sums are kept, and H = U N / D
+/// is exact wherever nothing or everything is hidden.
+struct LightSums {
+    vec3 open;     ///< U: with nothing in the way
+    vec3 known;    ///< D: the same where it is known what is in the way, over P: U in the mean
+    vec3 arrived;  ///< N: of D, what arrives
+};
+
+/// Push constants of light_sums.finish.comp.
+struct FinishLightParams {
+    uint count;  ///< N lumels
+};
+
+LUMEL_SHARED_END
+#endif

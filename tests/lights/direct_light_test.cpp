@@ -1,0 +1,248 @@
+// Direct light against closed forms.
+
+#include "lights/direct_light.h"
+
+#include <gtest/gtest.h>
+
+#include "../support/box_lumels.h"
+#include "nearfield/near_field.h"
+
+namespace lumel {
+namespace {
+
+using support::kPi;
+
+/// A horizontal square at height 0 about the origin, facing up.
+support::Quad floor_of(float half, int res)
+{
+    return {.corner = {-half, 0.0f, half},
+            .edge_u = {2.0f * half, 0.0f, 0.0f},
+            .edge_v = {0.0f, 0.0f, -2.0f * half},
+            .res_u = res,
+            .res_v = res};
+}
+
+Sky constant_sky(const glm::vec3& radiance)
+{
+    return {1, 1, {radiance}};
+}
+
+/// Places a light so that it shines along `way`.
+glm::mat4 shining(const glm::vec3& way, const glm::vec3& position = glm::vec3(0.0f))
+{
+    const glm::vec3 z = -glm::normalize(way);
+    const glm::vec3 other = std::abs(z.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
+                                                 : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 x = glm::normalize(glm::cross(other, z));
+    return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f),
+            glm::vec4(position, 1.0f)};
+}
+
+std::vector<glm::vec3> lit(const support::HandMade& made, const DirectLightOptions& options = {})
+{
+    const gpu::Device device;
+    const World world(device, made.scene, made.lumels);
+    const DirectLight light = direct_light(device, world, made.scene, made.lumels, options);
+    EXPECT_EQ(device.validation_messages(), "");
+    EXPECT_TRUE(light.finished);
+    return light.irradiance;
+}
+
+TEST(SkyLight, OpenPlaneGetsPiTimesTheRadiance)
+{
+    support::HandMade plane = support::make_quads({floor_of(1.0f, 8)});
+    plane.scene.sky = constant_sky({1.0f, 2.0f, 3.0f});
+    for (const glm::vec3& h : lit(plane))
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(h[c], kPi * float(c + 1), 0.005f * kPi * float(c + 1));
+}
+
+TEST(SkyLight, BesideAWallItsFormFactorIsMissing)
+{
+    std::vector<support::Quad> quads{floor_of(1.0f, 16)};
+    const glm::vec3 corners[] = {
+        {-1.0f, 0.0f, -1.2f}, {1.0f, 0.0f, -1.2f}, {1.0f, 1.5f, -1.2f}, {-1.0f, 1.5f, -1.2f}};
+    quads.push_back({.corner = corners[0],
+                     .edge_u = corners[1] - corners[0],
+                     .edge_v = corners[3] - corners[0],
+                     .res_u = 16,
+                     .res_v = 12});
+    support::HandMade corner = support::make_quads(quads);
+    corner.scene.sky = constant_sky(glm::vec3(1.0f));
+    const std::vector<glm::vec3> irradiance = lit(corner);
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < corner.first[1]; ++i) {
+        const glm::vec3 at = corner.lumels.lumels[i].position;
+        const float hidden = polygon_form_factor(at, {0.0f, 1.0f, 0.0f}, corners, 4);
+        const double truth = double(kPi) * (1.0 - double(hidden));
+        square += (double(irradiance[i].x) - truth) * (double(irradiance[i].x) - truth);
+        sum += truth;
+    }
+    const double count = double(corner.first[1]);
+    EXPECT_LT(std::sqrt(square / count) / (sum / count), 0.01);
+}
+
+TEST(SkyLight, SealedBoxStaysExactlyDarkInside)
+{
+    std::vector<support::Quad> quads;
+    support::Quad look;
+    look.res_u = look.res_v = 24;
+    for (const support::Quad& wall :
+         support::box_walls({-0.7f, 0.0f, -0.6f}, {0.5f, 0.9f, 0.8f}, true, look))
+        quads.push_back(wall);
+    const std::size_t inside = 6u * 24u * 24u;
+    quads.push_back(floor_of(2.0f, 40));
+    quads.back().corner.y = -0.1f;
+    support::HandMade box = support::make_quads(quads);
+    box.scene.sky = constant_sky(glm::vec3(1e4f));
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::directional;
+    sun.intensity = 1e5f;
+    sun.transform = shining({0.3f, -1.0f, 0.2f});
+    box.scene.lights.push_back(sun);
+    const std::vector<glm::vec3> irradiance = lit(box);
+    for (std::size_t i = 0; i < inside; ++i)
+        ASSERT_EQ(irradiance[i], glm::vec3(0.0f)) << "lumel " << i;
+    EXPECT_GT(irradiance.back().x, 0.0f);
+}
+
+
+class Sun : public testing::TestWithParam<float> {};
+
+TEST_P(Sun, LightsAPlaneByTheCosine)
+{
+    const float angle = glm::radians(60.0f);
+    support::HandMade plane = support::make_quads({floor_of(1.0f, 8)});
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::directional;
+    sun.intensity = 1000.0f;
+    sun.angle = glm::radians(GetParam());
+    sun.transform = shining({std::sin(angle), -std::cos(angle), 0.0f});
+    plane.scene.lights.push_back(sun);
+    for (const glm::vec3& h : lit(plane))
+        EXPECT_NEAR(h.x, 500.0f, 0.005f * 500.0f);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfDegrees, Sun, testing::Values(0.0f, 0.27f, 5.0f));
+
+TEST(SunLight, ShadowOfAnEdgeIsSharpAndWhereItBelongs)
+{
+    // A plate one metre above the floor covers x < 0; the sun stands at 45° towards +x, so that its
+    // shadow ends at x = -1.
+    std::vector<support::Quad> quads{floor_of(2.0f, 64)};
+    quads.push_back({.corner = {-4.0f, 1.0f, -4.0f},
+                     .edge_u = {0.0f, 0.0f, 8.0f},
+                     .edge_v = {4.0f, 0.0f, 0.0f},
+                     .res_u = 128,
+                     .res_v = 64});
+    support::HandMade scene = support::make_quads(quads);
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::directional;
+    sun.intensity = 1.0f;
+    sun.transform = shining({-1.0f, -1.0f, 0.0f});
+    scene.scene.lights.push_back(sun);
+    const std::vector<glm::vec3> irradiance = lit(scene);
+    const float full = std::sqrt(0.5f), lumel = 4.0f / 64.0f;
+    for (std::size_t i = 0; i < 64u * 64u; ++i) {
+        const float x = scene.lumels.lumels[i].position.x;
+        if (x < -1.0f - 0.6f * lumel) {
+            EXPECT_EQ(irradiance[i].x, 0.0f) << x;
+        } else if (x > -1.0f + 0.6f * lumel) {
+            EXPECT_NEAR(irradiance[i].x, full, 0.005f * full) << x;
+        }
+    }
+}
+
+class PointLight : public testing::TestWithParam<float> {};
+
+TEST_P(PointLight, LightsAFloorByTheInverseSquareAndTheCosine)
+{
+    const float height = 2.0f;
+    support::HandMade plane = support::make_quads({floor_of(1.5f, 16)});
+    PunctualLight lamp;
+    lamp.intensity = 100.0f;
+    lamp.radius = GetParam();
+    lamp.transform[3] = glm::vec4(0.0f, height, 0.0f, 1.0f);
+    plane.scene.lights.push_back(lamp);
+    const std::vector<glm::vec3> irradiance = lit(plane);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const glm::vec3 at = plane.lumels.lumels[i].position;
+        const float squared = height * height + at.x * at.x + at.z * at.z;
+        const float truth = 100.0f * height / (squared * std::sqrt(squared));
+        EXPECT_NEAR(irradiance[i].x, truth, 0.005f * truth);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRadius, PointLight, testing::Values(0.0f, 0.3f));
+
+TEST(SpotLight, FallsOffBetweenItsCones)
+{
+    const float height = 2.0f;
+    const int res = 32;
+    support::HandMade plane = support::make_quads({floor_of(2.0f, res)});
+    PunctualLight lamp;
+    lamp.kind = PunctualLight::Kind::spot;
+    lamp.intensity = 100.0f;
+    lamp.inner_cone = glm::radians(15.0f);
+    lamp.outer_cone = glm::radians(35.0f);
+    lamp.transform = shining({0.0f, -1.0f, 0.0f}, {0.0f, height, 0.0f});
+    plane.scene.lights.push_back(lamp);
+    const std::vector<glm::vec3> irradiance = lit(plane);
+    const float inner = std::cos(lamp.inner_cone), outer = std::cos(lamp.outer_cone);
+    const auto truth_at = [&](const glm::vec2& at) {
+        const float squared = height * height + glm::dot(at, at);
+        const float cosine = height / std::sqrt(squared);
+        const float part = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
+        return 100.0f * part * part * cosine / squared;
+    };
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const glm::vec3 at = plane.lumels.lumels[i].position;
+        constexpr int kSide = 8;
+        double truth = 0.0;
+        for (int y = 0; y < kSide; ++y)
+            for (int x = 0; x < kSide; ++x) {
+                const glm::vec2 step = (glm::vec2(x, y) + 0.5f) / float(kSide) - 0.5f;
+                truth += double(truth_at(glm::vec2(at.x, at.z) + step * (4.0f / float(res))));
+            }
+        truth /= double(kSide * kSide);
+        square += (double(irradiance[i].x) - truth) * (double(irradiance[i].x) - truth);
+        sum += truth;
+    }
+    const double count = double(irradiance.size());
+    EXPECT_LT(std::sqrt(square / count) / (sum / count), 0.01);
+}
+
+TEST(PointLight, RangeEndsTheLight)
+{
+    support::HandMade plane = support::make_quads({floor_of(0.05f, 1)});
+    PunctualLight lamp;
+    lamp.intensity = 100.0f;
+    lamp.range = 2.0f;
+    lamp.transform[3] = glm::vec4(0.0f, 1.0f, 0.0f, 1.0f);
+    plane.scene.lights.push_back(lamp);
+    const float truth = 100.0f * (1.0f - 1.0f / 16.0f);
+    EXPECT_NEAR(lit(plane)[0].x, truth, 0.005f * truth);
+    plane.scene.lights[0].range = 0.9f;
+    EXPECT_EQ(lit(plane)[0].x, 0.0f);
+}
+
+TEST(PointLight, OutsideTheRoomIsKeptOutByItsWalls)
+{
+    std::vector<support::Quad> quads;
+    support::Quad look;
+    look.res_u = look.res_v = 12;
+    for (const support::Quad& wall :
+         support::box_walls(glm::vec3(-0.5f), glm::vec3(0.5f), true, look))
+        quads.push_back(wall);
+    support::HandMade room = support::make_quads(quads);
+    PunctualLight lamp;
+    lamp.intensity = 1000.0f;
+    lamp.transform[3] = glm::vec4(1.0f, 0.2f, 0.1f, 1.0f);
+    room.scene.lights.push_back(lamp);
+    for (const glm::vec3& h : lit(room))
+        ASSERT_EQ(h, glm::vec3(0.0f));
+}
+
+}  // namespace
+}  // namespace lumel
