@@ -69,10 +69,10 @@ void print_row(int size, std::size_t lumels, const Scene& scene, const Iteration
     const double other = sum_of(cost.stages, {"other", "figures", "polish"});
     fmt::print("| {}² | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} "
                "| {:.2f} | {:.2f} | {} | {} ({}) |\n",
-               size, lumels, drawn_vertices(scene), find_occluders(scene).inner_indices().size() / 3,
-               cost.cpu_ms, cost.wall_ms, ms("select"), ms("power"), ms("look"), ms("receive"),
-               ms("advance"), other, cost.recorded.dispatches, cost.recorded.passes,
-               cost.recorded.draws);
+               size, lumels, drawn_vertices(scene),
+               find_occluders(scene).inner_indices().size() / 3, cost.cpu_ms, cost.wall_ms,
+               ms("select"), ms("power"), ms("look"), ms("receive"), ms("advance"), other,
+               cost.recorded.dispatches, cost.recorded.passes, cost.recorded.draws);
     std::fflush(stdout);
 }
 

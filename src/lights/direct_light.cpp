@@ -50,9 +50,9 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
                                                               parallel, summed, told);
         part += 1.0;
     }
-    light.finished = light.finished &&
-                     add_lamps(pacer, device, world, scene,
-                               {.seed = options.seed, .centre = options.centre}, summed, told);
+    light.finished =
+        light.finished && add_lamps(pacer, device, world, scene,
+                                    {.seed = options.seed, .centre = options.centre}, summed, told);
     pacer.finish();
     light.irradiance = summed.irradiance();
     light.times = pacer.times();

@@ -17,8 +17,8 @@ constexpr std::uint32_t kReceiveSpirv[] = {
 #include "lights/lamps.receive.comp.inc"
 };
 
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,
-                                       gpu::Slot::array,   gpu::Slot::array, gpu::Slot::texture,
+constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
+                                       gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
                                        gpu::Slot::array};
 
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -143,17 +143,16 @@ struct LampStage {
         views.look_from(pacer, eyes, std::uint32_t(batch.size()));
         pacer.work("lamps", light.lumels(), kProbeLumels,
                    [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
-                       const LampReceiveParams params{
-                           .views = views.layout(),
-                           .first = begin,
-                           .last = end,
-                           .lamp = lamp,
-                           .first_eye = first,
-                           .eyes = std::uint32_t(batch.size()),
-                           .seed = options->seed,
-                           .centre = options->centre ? 1u : 0u,
-                           .polar_steps = Photometry::kPolarSteps,
-                           .azimuth_steps = Photometry::kAzimuthSteps};
+                       const LampReceiveParams params{.views = views.layout(),
+                                                      .first = begin,
+                                                      .last = end,
+                                                      .lamp = lamp,
+                                                      .first_eye = first,
+                                                      .eyes = std::uint32_t(batch.size()),
+                                                      .seed = options->seed,
+                                                      .centre = options->centre ? 1u : 0u,
+                                                      .polar_steps = Photometry::kPolarSteps,
+                                                      .azimuth_steps = Photometry::kAzimuthSteps};
                        commands.dispatch(receive,
                                          {world->lumels(),
                                           world->pieces(),
@@ -178,8 +177,8 @@ struct LampStage {
 
 }  // namespace
 
-bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
-               const Scene& scene, const LampOptions& options, SummedLight& light,
+bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world, const Scene& scene,
+               const LampOptions& options, SummedLight& light,
                const std::function<bool(double)>& go_on)
 {
     std::vector<Lamp> lamps;
@@ -203,8 +202,8 @@ bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
                 std::min<std::size_t>(stage.views.capacity(), all.size() - first);
             stage.take(pacer, all.subspan(first, count), std::uint32_t(lamp), std::uint32_t(first),
                        light);
-            going = go_on((double(lamp) + double(first) / double(all.size())) /
-                          double(lamps.size()));
+            going =
+                go_on((double(lamp) + double(first) / double(all.size())) / double(lamps.size()));
         }
         light.finish_source(pacer);
     }

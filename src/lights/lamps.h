@@ -21,8 +21,8 @@ struct LampOptions {
 /// Adds to `light` what the scene's point and spot lights send straight to the lumels, each lamp
 /// as one source. Hemicubes, whose edges are exact, are used whatever projection solvers use.
 /// `go_on` is given the fraction done and returns false to stop. Returns false if it was stopped.
-bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
-               const Scene& scene, const LampOptions& options, SummedLight& light,
+bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world, const Scene& scene,
+               const LampOptions& options, SummedLight& light,
                const std::function<bool(double)>& go_on);
 
 }  // namespace lumel

@@ -94,8 +94,8 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
 {
     const glm::mat3 frame(light.transform);
     const glm::vec3 toward = glm::normalize(frame[2]);  // it shines along -z
-    const glm::vec3 other = std::abs(toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
-                                                      : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 other =
+        std::abs(toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
     const glm::vec3 s = glm::normalize(glm::cross(other, toward)), t = glm::cross(toward, s);
     // Even radiance over the disc makes this illuminance on a surface that faces its middle:
     // the mean cosine over a cone is sin²α / 2(1 - cosα).

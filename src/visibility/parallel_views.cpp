@@ -38,8 +38,7 @@ ParallelLayout make_layout(const gpu::Device& device, std::uint32_t side, std::u
 std::uint32_t fitting(const gpu::Device& device, const ParallelLayout& layout,
                       std::uint32_t capacity)
 {
-    return std::min(capacity,
-                    layout.columns * std::max(device.max_image_side() / layout.side, 1u));
+    return std::min(capacity, layout.columns * std::max(device.max_image_side() / layout.side, 1u));
 }
 
 std::uint32_t rows_of(const ParallelLayout& layout, std::uint32_t count)
@@ -77,8 +76,8 @@ Reach reach_along(const glm::vec3& axis, const glm::vec3& low, const glm::vec3& 
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose)
 {
-    const glm::vec3 other = std::abs(pose.toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
-                                                           : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 other =
+        std::abs(pose.toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
     const glm::vec3 s = glm::normalize(glm::cross(other, pose.toward));
     const glm::vec3 t = glm::cross(pose.toward, s);
     const glm::vec3 right = std::cos(pose.turn) * s + std::sin(pose.turn) * t;
@@ -103,8 +102,7 @@ ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std:
     : world_(&world),
       layout_(make_layout(device, side, capacity)),
       capacity_(fitting(device, layout_, capacity)),
-      image_(device, gpu::Pixel::depth, layout_.columns * side,
-             rows_of(layout_, capacity_) * side),
+      image_(device, gpu::Pixel::depth, layout_.columns * side, rows_of(layout_, capacity_) * side),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       opaque_(device, "parallel",
               {.vertex = kVertexSpirv,

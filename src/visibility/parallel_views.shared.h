@@ -4,8 +4,8 @@
 LUMEL_SHARED_BEGIN
 
 /// A parallel projection of the world onto a square tile of pixels. A point x falls on
-/// (right, up)·x + shift [pixels from the tile's corner]; what is nearer to the light has the larger
-/// toward·x + depth_shift, which lies in 0…1.
+/// (right, up)·x + shift [pixels from the tile's corner]; what is nearer to the light has the
+/// larger toward·x + depth_shift, which lies in 0…1.
 struct ParallelView {
     vec3 right;         ///< [pixels / m]
     vec3 up;            ///< [pixels / m]

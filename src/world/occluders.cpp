@@ -182,9 +182,8 @@ Occluders find_occluders(const Scene& scene, bool with_hull)
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
             const Material& material = scene.materials[primitive.material];
             const std::uint32_t base = append_vertices(out, primitive, i, material);
-            IndexLists& lists = may_be_transparent(material, primitive)
-                                    ? per_material[primitive.material]
-                                    : opaque;
+            IndexLists& lists =
+                may_be_transparent(material, primitive) ? per_material[primitive.material] : opaque;
             for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
                 std::vector<std::uint32_t>& indices = outer[triangle] ? lists.hull : lists.inner;
                 for (std::size_t c = 0; c < 3; ++c)

@@ -32,7 +32,7 @@ public:
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
-    glm::vec3 low() const { return low_; }    ///< corners of the bounding box [m]
+    glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
     glm::vec3 high() const { return high_; }
     float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
 

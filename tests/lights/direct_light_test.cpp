@@ -31,8 +31,8 @@ Sky constant_sky(const glm::vec3& radiance)
 glm::mat4 shining(const glm::vec3& way, const glm::vec3& position = glm::vec3(0.0f))
 {
     const glm::vec3 z = -glm::normalize(way);
-    const glm::vec3 other = std::abs(z.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f)
-                                                 : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 other =
+        std::abs(z.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
     const glm::vec3 x = glm::normalize(glm::cross(other, z));
     return {glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f),
             glm::vec4(position, 1.0f)};
@@ -105,7 +105,6 @@ TEST(SkyLight, SealedBoxStaysExactlyDarkInside)
         ASSERT_EQ(irradiance[i], glm::vec3(0.0f)) << "lumel " << i;
     EXPECT_GT(irradiance.back().x, 0.0f);
 }
-
 
 class Sun : public testing::TestWithParam<float> {};
 
