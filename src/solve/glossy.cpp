@@ -22,8 +22,8 @@
 // averaged.
 //
 // Differs from the paper else:
-// - K shooters per iteration; of a shooter's K lobes, wide ones are represented by one of them,
-//   drawn by what it reflects.
+// - K shooters per iteration. Of a shooter's K lobes some stand for all, drawn by what they
+//   reflect: one where they are wide, K but at most 64 where they are narrow.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
 //   diffusely; lobes between them go through the same form factors. In the paper all pairs have
@@ -93,6 +93,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       batch_(batch_of(options)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
+      reflecting_area_(reflecting_area(lumels)),
+      emitted_power_(emitted_power(lumels, emission_of(lumels))),
       device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -118,9 +120,6 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
-    for (const Lumel& lumel : lumels.lumels)
-        if (!(lumel.flags & kLumelBuried))
-            emitted_power_ += luminance(lumel.emission) * double(lumel.area);
     begin();
 }
 
@@ -297,12 +296,10 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
     if (given.size() != count_)
         throw Error(ErrorKind::input, "emission", "must be given for every lumel");
     std::vector<glm::vec3> emission(given.begin(), given.end());
-    emitted_power_ = 0.0;
-    for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t i = 0; i < count_; ++i)
         if (lumels_->lumels[i].flags & kLumelBuried)
             emission[i] = glm::vec3(0.0f);
-        emitted_power_ += luminance(emission[i]) * double(lumels_->lumels[i].area);
-    }
+    emitted_power_ = emitted_power(*lumels_, emission);
     rewind();
     const std::vector<glm::vec3> before = emission_.download();
     emission_.upload(emission);
@@ -321,17 +318,18 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
 void GlossyIllumination::draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area)
 {
     pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        power_.build(commands, exitance, surface_, by_area, reflecting_area(*lumels_));
+        power_.build(commands, exitance, surface_, by_area, reflecting_area_);
     });
 }
 
 std::vector<glm::vec3> GlossyIllumination::mean_exitance()
 {
+    const std::vector<glm::vec3> arriving = irradiance();
+    std::vector<glm::vec3> exitance = emission_.download();
     // The lobes' albedo counts as 1: what is drawn by need not be exact.
-    std::vector<glm::vec3> exitance = irradiance();
     for (std::size_t i = 0; i < count_; ++i) {
         const Gloss& gloss = lumels_->gloss[i];
-        exitance[i] = lumels_->lumels[i].emission + (gloss.diffuse + gloss.specular) * exitance[i];
+        exitance[i] += (gloss.diffuse + gloss.specular) * arriving[i];
     }
     return exitance;
 }
@@ -342,8 +340,6 @@ std::vector<float> GlossyIllumination::brightness()
     std::vector<float> brightness(count_, 0.0f);
     double power = 0.0;
     for (std::uint32_t j = 0; j < count_; ++j) {
-        if (lumels_->lumels[j].flags & kLumelBuried)
-            continue;
         brightness[j] = float(luminance(exitance[j]));
         power += double(brightness[j]) * double(lumels_->lumels[j].area);
     }

@@ -89,7 +89,8 @@ private:
     std::uint32_t batch_;  ///< K
     bool paper_;
     float near_radius_;
-    double emitted_power_ = 0.0;  ///< Σ A 𝓛(E) [lm]
+    float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
+    double emitted_power_;   ///< Σ A 𝓛(E) [lm]
 
     const gpu::Device* device_;
     const World* world_;

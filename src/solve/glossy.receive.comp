@@ -6,11 +6,11 @@
 // Every lumel takes its share of all K shots ([BSS05] Eq. (4)), keeps the actual irradiance of each
 // for the next iteration's reflections, and adds it to the running average:
 //
-//     I_k = L_j(ω) V cosθ_i cosθ_j / (r² + A_j/π) · A_j / (p_j K),
+//     I_k = L_j(ω) V cosθ_i cosθ_j / r² · A_j / (p_j K),
 //     B_i = E_i + Σ_k I_k a_i(ω_k) + near light, the power that the next selection draws from.
 //
 // Near pairs exchange diffuse light in the near field; only lobes are shot at them, through the
-// same form factors.
+// same form factors. Scheme::paper has no near field and takes r² + A_j/π for r², Eq. (8).
 
 layout(local_size_x = kGlossyReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };

@@ -30,4 +30,12 @@ float reflecting_area(const Lumels& lumels)
     return sum;
 }
 
+double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < emission.size(); ++i)
+        sum += luminance(emission[i]) * double(lumels.lumels[i].area);
+    return sum;
+}
+
 }  // namespace lumel

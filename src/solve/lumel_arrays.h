@@ -18,6 +18,9 @@ std::vector<glm::vec3> emission_of(const Lumels& lumels);
 /// Σ A of lumels that reflect [m²]
 float reflecting_area(const Lumels& lumels);
 
+/// Σ A 𝓛(E) [lm]; emission [N] as of emission_of.
+double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission);
+
 /// Rec. 709.
 inline double luminance(const glm::vec3& c)
 {

@@ -1,4 +1,4 @@
-// What every diffuse solver needs.
+// What the shaders of every solver need.
 
 const float kPi = 3.14159265358979;
 

@@ -107,6 +107,8 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       batch_(std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
+      reflecting_area_(reflecting_area(lumels)),
+      emitted_power_(emitted_power(lumels, emission_of(lumels))),
       world_(&world),
       kernels_(device, options.projection),
       views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
@@ -132,10 +134,6 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
-    reflecting_area_ = reflecting_area(lumels);
-    for (const Lumel& lumel : lumels.lumels)
-        if (!(lumel.flags & kLumelBuried))
-            emitted_power_ += luminance(lumel.emission) * double(lumel.area);
     phase_length_ = paper_ ? 1 : std::max(2u, kFirstPhaseShots / batch_);
 
     pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
