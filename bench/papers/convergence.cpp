@@ -94,17 +94,10 @@ void print_row(const SolverOptions& options, const SolverState& state, double cp
     std::fflush(stdout);
 }
 
-NearField near_field_for(const SolverOptions& options, const Prepared& world)
-{
-    return options.scheme == Scheme::paper ? no_near_field(world.lumels)
-                                           : build_near_field(world.scene, world.rays, world.lumels,
-                                                              near_field_options(options));
-}
-
 void follow(const ConvergenceSettings& settings, const SolverOptions& options,
             const gpu::Device& device, const Prepared& world, const std::optional<Image>& reference)
 {
-    const NearField near = near_field_for(options, world);
+    const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     {  // the driver compiles shaders when they first run
         const auto warm = make_solver(device, resident, world.lumels, near, options);

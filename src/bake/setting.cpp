@@ -34,9 +34,7 @@ NearField near_field_of(const Prepared& world, const SolverOptions& options, Sta
 {
     tell_user(world);
     stages.begin("near field");
-    if (options.scheme != Scheme::phased)
-        return {};
-    return build_near_field(world.scene, world.rays, world.lumels, near_field_options(options));
+    return near_field_for(world.scene, world.rays, world.lumels, options);
 }
 
 const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)

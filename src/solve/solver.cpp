@@ -27,6 +27,14 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     return near;
 }
 
+NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                         const SolverOptions& options)
+{
+    if (options.scheme == Scheme::paper)
+        return {};
+    return build_near_field(scene, rays, lumels, near_field_options(options));
+}
+
 const MethodInfo& method_of(const std::string& id)
 {
     std::string known;

@@ -85,6 +85,10 @@ const MethodInfo& method_of(const std::string& id);
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);
 
+/// Builds it; empty for schemes without a near field.
+NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                         const SolverOptions& options);
+
 /// Throws Error{input} if options.method is not in the table. `near` may be empty for methods
 /// and schemes without a near field.
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,

@@ -32,11 +32,8 @@ struct Effort {
 Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
              const SolverOptions& options, std::uint64_t directional_shots)
 {
-    NearField near;
-    if (options.scheme == Scheme::phased)
-        near = build_near_field(scene, rays, lumels, near_field_options(options));
-    const gpu::Device device;
-    const World world(device, scene, lumels);
+    const support::Resident resident(scene, rays, lumels, options);
+    const auto& [near, device, world] = resident;
     const auto solver = make_solver(device, world, lumels, near, options);
     EXPECT_TRUE(solve(*solver, options));
     Lit lit;

@@ -28,10 +28,8 @@ GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
     for (Gloss& gloss : furnace.lumels.gloss)
         gloss = {glm::vec3(room.diffuse), glm::vec3(room.specular), room.shininess};
     const SolverOptions options{.method = "glossy", .max_shots = shots, .target_error = 0.0};
-    const NearField near =
-        build_near_field(furnace.scene, furnace.rays, furnace.lumels, near_field_options(options));
-    const gpu::Device device;
-    const World world(device, furnace.scene, furnace.lumels);
+    const support::Resident resident(furnace.scene, furnace.rays, furnace.lumels, options);
+    const auto& [near, device, world] = resident;
     GlossyIllumination solver(device, world, furnace.lumels, near, options);
     EXPECT_TRUE(solve(solver, options));
 

@@ -18,6 +18,20 @@ inline std::string scene_path(const std::string& name)
     return LUMEL_SOURCE_DIR "/scenes/" + name + ".gltf";
 }
 
+/// A scene on the default device with what a solver is made of.
+struct Resident {
+    Resident(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+             const SolverOptions& options)
+        : near(near_field_for(scene, rays, lumels, options)),
+          world(device, scene, lumels)
+    {
+    }
+
+    NearField near;
+    gpu::Device device;
+    World world;
+};
+
 struct Solved {
     std::vector<glm::vec3> irradiance;  ///< [N] [lx]
     SolverState state;
@@ -27,11 +41,8 @@ struct Solved {
 inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                           const SolverOptions& options)
 {
-    NearField near;
-    if (options.scheme == Scheme::phased)
-        near = build_near_field(scene, rays, lumels, near_field_options(options));
-    const gpu::Device device;
-    const World world(device, scene, lumels);
+    const Resident resident(scene, rays, lumels, options);
+    const auto& [near, device, world] = resident;
     const auto solver = make_solver(device, world, lumels, near, options);
     EXPECT_TRUE(solve(*solver, options));
     Solved solved{solver->irradiance(), solver->state()};
