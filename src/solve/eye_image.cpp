@@ -36,6 +36,15 @@ std::uint64_t EyeImage::most_points(const gpu::Device& device)
     return device.max_array_bytes() / sizeof(EyePoint);
 }
 
+void EyeImage::restart(gpu::Pacer& pacer)
+{
+    pacer.work("restart", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        for (const auto& sums : sums_)
+            commands.fill(sums.buffer());
+    });
+    iterations_ = 0;
+}
+
 void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Array<Eye>& eyes,
                        const gpu::Array<GlossyShot>& shots, const gpu::Array<GlossyLobe>& lobes,
                        std::uint32_t count)

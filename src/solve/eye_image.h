@@ -34,6 +34,9 @@ public:
     EyeImage(const gpu::Device& device, Projection projection, std::span<const EyePoint> points,
              std::span<const float> brightness, const EyeSampling& sampling);
 
+    /// Begins anew.
+    void restart(gpu::Pacer& pacer);
+
     /// Takes the light of an iteration's shooters.
     void receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Array<Eye>& eyes,
                  const gpu::Array<GlossyShot>& shots, const gpu::Array<GlossyLobe>& lobes,

@@ -312,6 +312,8 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
     add_change(exitance_, exitance_);
     add_change(diffuse_, diffuse_);
     restart();
+    if (eye_)
+        eye_->restart(pacer_);
     draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
 }
 
@@ -336,7 +338,8 @@ std::vector<glm::vec3> GlossyIllumination::mean_exitance()
 
 std::vector<float> GlossyIllumination::brightness()
 {
-    const std::vector<glm::vec3> exitance = mean_exitance();
+    const std::vector<glm::vec3> exitance =
+        held_ ? held_->mean_exitance.download() : mean_exitance();
     std::vector<float> brightness(count_, 0.0f);
     double power = 0.0;
     for (std::uint32_t j = 0; j < count_; ++j) {

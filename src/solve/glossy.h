@@ -39,8 +39,8 @@ public:
 
     /// A frame of other light: E [N] [lm/m²] from now on. Every frame goes on from the iteration
     /// that the first one went on from, with the same random numbers and the same shooters; its
-    /// average starts again. Where light moved far from where it was in the first frame, that is
-    /// noisy: forget_frames() then. Waits for the device.
+    /// average, and the eye's, start again. Where light moved far from where it was in the first
+    /// frame, that is noisy: forget_frames() then. Waits for the device.
     void set_emission(std::span<const glm::vec3> emission);
 
     /// [N] 𝓛(B_j) / Φ [1/m²]: about the density with which shooters are drawn from now on. Waits
