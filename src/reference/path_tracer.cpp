@@ -41,7 +41,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// Veach's power heuristic (β = 2) for a sample drawn with density `mine`. [VG95]
 float power_heuristic(float mine, float other)
 {
-    return mine * mine / (mine * mine + other * other);
+    const float ratio = other / mine;  // not of squares, which may be too large for a float
+    return 1.0f / (1.0f + ratio * ratio);
 }
 
 float lift_of(const RayScene& rays)

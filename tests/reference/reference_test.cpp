@@ -3,6 +3,7 @@
 #include "reference/reference.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -109,6 +110,17 @@ TEST(Reference, PlatesAtARightAngleMatchTheFormFactorAtEveryPoint)
         return point_to_perpendicular_rectangle({-at.x, 1 - at.x}, {0, 1}, at.z);
     };
     EXPECT_LT(plate_error(made, solve(made, 1024, SampleRule::centre), form_factor), 0.005);
+}
+
+TEST(Reference, ALampOfANanometreLightsAsAPointDoes)
+{
+    constexpr float kSide = 1e-9f, kHeight = 10.0f;
+    Quad lamp{{}, {0, kSide, 0}, {kSide, 0, 0}};
+    lamp.emission = glm::vec3(100.0f / (kSide * kSide));  // 100 lm
+    Quad receiver{{-0.5f, -0.5f, -kHeight}};
+    const double truth = 100.0 / (std::numbers::pi * kHeight * kHeight);
+    const auto irradiance = solve(make_quads({lamp, receiver}), 16, SampleRule::centre);
+    EXPECT_NEAR(double(irradiance[1].g), truth, 1e-4 * truth);
 }
 
 TEST(Reference, LightIsTheSameHoweverTheSceneIsPlaced)
