@@ -44,12 +44,13 @@ Seen look(const View& view, int width, int height, std::uint32_t sets, const Ray
     std::vector<EyePoint> eye_points(pixels);
     for (std::uint32_t set = 0; set < sets; ++set) {
         seen.first.push_back(std::uint32_t(seen.glossy.size()));
+        const glm::vec2 within = place(set, sets);
         parallel_for(std::size_t(height), kRowsPerTask, [&](std::size_t top, std::size_t bottom) {
             for (std::size_t i = top * std::size_t(width); i < bottom * std::size_t(width); ++i) {
                 const std::size_t row = i / std::size_t(width);
                 const glm::vec2 pixel(float(i % std::size_t(width)), float(row));
-                const Ray ray = ray_through(view, (pixel + place(set, sets)) /
-                                                      glm::vec2(float(width), float(height)));
+                const Ray ray =
+                    ray_through(view, (pixel + within) / glm::vec2(float(width), float(height)));
                 SeenPoint& point = seen.points[set * pixels + i];
                 if (!rays.closest(ray.origin, ray.direction, 0.0f,
                                   std::numeric_limits<float>::max(),
