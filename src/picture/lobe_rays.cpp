@@ -16,29 +16,16 @@
 
 #include "core/parallel.h"
 #include "reference/samples.h"
+#include "solve/phong.h"
 
 namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Rays start this share of the scene's size off their surface.
-constexpr float kLift = 1e-5f;
 /// Lobes that one ray follows at most: mirrors that face each other would hold it for ever.
 constexpr int kMostLobes = 16;
 /// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
-
-/// A direction about `axis` with density (n + 1) / 2π cosⁿ.
-glm::vec3 lobe_direction(const glm::vec3& axis, float shininess, const glm::vec2& at)
-{
-    const float height = std::pow(1.0f - at.x, 1.0f / (shininess + 1.0f));
-    const float radius = std::sqrt(std::max(0.0f, 1.0f - height * height));
-    const float angle = 2.0f * kPi * at.y;
-    const glm::vec3 other = std::abs(axis.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 tangent = glm::normalize(glm::cross(other, axis));
-    const glm::vec3 bitangent = glm::cross(axis, tangent);
-    return radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) + height * axis;
-}
 
 class LobeRays {
 public:
@@ -48,11 +35,9 @@ public:
           surfaces_(surfaces),
           lit_(lit),
           brightness_(brightness),
-          options_(options)
+          options_(options),
+          lift_(rays.lift())
     {
-        const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
-        lift_ =
-            kLift * std::max({reach.x, reach.y, reach.z, glm::length(rays.high() - rays.low())});
     }
 
     /// One estimate of what a point reflects to the eye.
@@ -65,7 +50,7 @@ public:
             if (cos_eye <= 0.0f)
                 break;
             const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
-            const glm::vec3 way = lobe_direction(
+            const glm::vec3 way = phong_direction(
                 mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
             const float cos_in = glm::dot(x.normal, way);
             RayHit hit;
@@ -78,8 +63,7 @@ public:
             throughput *= x.specular * (cos_in / std::max(cos_in, cos_eye));
             const glm::vec3 sent =
                 there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
-            const float density = (x.shininess + 1.0f) * (0.5f / kPi) *
-                                  std::pow(std::max(glm::dot(mirror, way), 0.0f), x.shininess);
+            const float density = phong_density(glm::dot(mirror, way), x.shininess);
             sum += throughput * sent * (lobe == 0 ? weight(hit, density, way) : 1.0f);
 
             if (there.reflectance.specular == glm::vec3(0.0f) ||
@@ -133,7 +117,7 @@ private:
     const LitScene& lit_;
     std::span<const float> brightness_;
     LobeRayOptions options_;
-    float lift_ = 0.0f;  ///< [m]
+    float lift_;  ///< [m]
 };
 
 }  // namespace

@@ -11,6 +11,10 @@ namespace lumel {
 
 namespace {
 
+/// Rays start this share of the scene's size off their surface: far above the rounding of a hit's
+/// position (about 1e-7 of it), far below anything one could see.
+constexpr float kLift = 1e-5f;
+
 /// What Embree's geometry number stands for.
 struct Part {
     const Scene* scene = nullptr;
@@ -240,6 +244,12 @@ glm::vec3 RayScene::high() const
     RTCBounds bounds;
     rtcGetSceneBounds(data_->tree, &bounds);
     return {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+}
+
+float RayScene::lift() const
+{
+    const glm::vec3 reach = glm::max(glm::abs(low()), glm::abs(high()));
+    return kLift * std::max({reach.x, reach.y, reach.z, glm::length(high() - low())});
 }
 
 }  // namespace lumel

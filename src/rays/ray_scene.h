@@ -45,6 +45,9 @@ public:
     glm::vec3 low() const;
     glm::vec3 high() const;
 
+    /// How far off a surface that was hit rays should start, so as to miss it [m].
+    float lift() const;
+
 private:
     struct Data;
     std::unique_ptr<Data> data_;

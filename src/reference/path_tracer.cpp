@@ -26,9 +26,6 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Path starts are lifted off their surface by this share of the scene's size: far above the
-/// rounding of a hit's position (about 1e-7 of it), far below anything one could see.
-constexpr float kLift = 1e-5f;
 /// Bounces that draw stratified numbers; later ones add too little for it to pay.
 constexpr int kStratifiedBounces = 1;
 /// Pairs of random numbers that each bounce may draw.
@@ -43,13 +40,6 @@ float power_heuristic(float mine, float other)
 {
     const float ratio = other / mine;  // not of squares, which may be too large for a float
     return 1.0f / (1.0f + ratio * ratio);
-}
-
-float lift_of(const RayScene& rays)
-{
-    const glm::vec3 low = rays.low(), high = rays.high();
-    const glm::vec3 reach = glm::max(glm::abs(low), glm::abs(high));
-    return kLift * std::max(glm::length(high - low), std::max({reach.x, reach.y, reach.z}));
 }
 
 /// Stops a path that carries little by Russian roulette, or makes it carry more. False: stopped.
@@ -72,7 +62,7 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, int max_bounces
       surfaces_(scene),
       emitters_(surfaces_),
       max_bounces_(max_bounces),
-      lift_(lift_of(rays))
+      lift_(rays.lift())
 {
 }
 

@@ -8,12 +8,28 @@
 
 namespace lumel {
 
+float phong_density(float mirrored, float shininess)
+{
+    const float scale = (shininess + 1.0f) * float(0.5 / std::numbers::pi);
+    return scale * std::pow(std::max(mirrored, 0.0f), shininess);
+}
+
+glm::vec3 phong_direction(const glm::vec3& mirror, float shininess, const glm::vec2& at)
+{
+    const float height = std::pow(1.0f - at.x, 1.0f / (shininess + 1.0f));
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - height * height));
+    const float angle = 2.0f * std::numbers::pi_v<float> * at.y;
+    const glm::vec3 other = std::abs(mirror.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 tangent = glm::normalize(glm::cross(other, mirror));
+    const glm::vec3 bitangent = glm::cross(mirror, tangent);
+    return radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) + height * mirror;
+}
+
 float phong_lobe(float cos_in, float cos_out, float mirrored, float shininess)
 {
-    if (cos_in <= 0.0f || cos_out <= 0.0f || mirrored <= 0.0f)
+    if (cos_in <= 0.0f || cos_out <= 0.0f)
         return 0.0f;
-    const float scale = (shininess + 1.0f) * float(0.5 / std::numbers::pi);
-    return scale * std::pow(mirrored, shininess) / std::max(cos_in, cos_out);
+    return phong_density(mirrored, shininess) / std::max(cos_in, cos_out);
 }
 
 float phong_albedo(float cos_in, float shininess)

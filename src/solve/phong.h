@@ -17,6 +17,13 @@
 
 namespace lumel {
 
+/// The lobe itself [1/sr], a density of directions. `mirrored`: m · ω'.
+float phong_density(float mirrored, float shininess);
+
+/// Maps a point of the unit square to a direction of that density about unit `mirror`. Some lie
+/// below the surface.
+glm::vec3 phong_direction(const glm::vec3& mirror, float shininess, const glm::vec2& at);
+
 /// f_r without ρ_s, for ρ_d = 0 [1/sr]. `mirrored`: m · ω'.
 float phong_lobe(float cos_in, float cos_out, float mirrored, float shininess);
 

@@ -63,6 +63,30 @@ TEST(Phong, LooksTheSameBothWays)
         EXPECT_EQ(phong_lobe(0.3f, 0.8f, 0.9f, shininess), phong_lobe(0.8f, 0.3f, 0.9f, shininess));
 }
 
+TEST(Phong, DirectionsAreDrawnAsOftenAsTheLobeIsDense)
+{
+    constexpr int kSide = 200, kSteps = 10'000;
+    constexpr double kFrom = 0.5, kTo = 0.9;  // cosines with the mirror direction
+    const glm::vec3 mirror = glm::normalize(glm::vec3(1.0f, -2.0f, 0.5f));
+    for (const float shininess : kExponents) {
+        double drawn = 0.0, dense = 0.0;
+        for (int x = 0; x < kSide; ++x)
+            for (int y = 0; y < kSide; ++y) {
+                const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(kSide);
+                const glm::vec3 way = phong_direction(mirror, shininess, at);
+                EXPECT_NEAR(glm::length(way), 1.0f, 1e-5f);
+                const auto cosine = double(glm::dot(way, mirror));
+                drawn += cosine > kFrom && cosine < kTo ? 1.0 / (kSide * kSide) : 0.0;
+            }
+        for (int i = 0; i < kSteps; ++i) {
+            const double cosine = kFrom + (kTo - kFrom) * (i + 0.5) / kSteps;
+            dense += 2.0 * std::numbers::pi * (kTo - kFrom) / kSteps *
+                     double(phong_density(float(cosine), shininess));
+        }
+        EXPECT_NEAR(drawn, dense, 1.0 / kSide) << "n " << shininess;
+    }
+}
+
 TEST(Phong, TheReferenceReflectsAlike)
 {
     const glm::vec3 normal(0.0f, 0.0f, 1.0f);
