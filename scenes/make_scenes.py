@@ -8,6 +8,23 @@ from gltf_writer import Gltf, Shape
 from room import room
 
 
+def walls(gltf, materials, size):
+    """The six walls of a room from (0, 0, 0) to `size`, each an object: its side to its material."""
+    for side, material in materials.items():
+        shape = Shape()
+        skip = " ".join(set(materials) - {side})
+        shape.box(material, (0, 0, 0), size, skip=skip, inward=True)
+        gltf.object(f"wall {side}", shape)
+
+
+def ceiling_lamp(gltf, material, xs, ceiling, zs):
+    """A rectangle that faces down, 2 mm below the ceiling."""
+    (x0, x1), y, (z0, z1) = xs, ceiling - 0.002, zs
+    shape = Shape()
+    shape.quad(material, [(x0, y, z0), (x1, y, z0), (x1, y, z1), (x0, y, z1)])
+    gltf.object("ceiling lamp", shape)
+
+
 def cornell_box(glossy=False):
     """The Cornell box as measured (mm), here in metres, with the RGB albedos in common use.
 
@@ -68,11 +85,7 @@ def glossy_floor():
     lamp = gltf.material("lamp", 0.5, luminance=(60.0, 55.0, 48.0))
     width, height, depth = 4.0, 2.6, 3.0
     sides = {"-x": plaster, "+x": blue, "-y": polished, "+y": plaster, "-z": plaster, "+z": plaster}
-    for side, material in sides.items():
-        shape = Shape()
-        skip = " ".join(set(sides) - {side})
-        shape.box(material, (0, 0, 0), (width, height, depth), skip=skip, inward=True)
-        gltf.object(f"wall {side}", shape)
+    walls(gltf, sides, (width, height, depth))
     for name, material, low, high in (
         ("orange block", orange, (0.8, 0.0, 0.6), (1.4, 1.2, 1.2)),
         ("green block", green, (2.4, 0.0, 0.9), (3.2, 0.5, 1.7)),
@@ -80,10 +93,7 @@ def glossy_floor():
         shape = Shape()
         shape.box(material, low, high, skip="-y")
         gltf.object(name, shape)
-    light = Shape()
-    light.quad(lamp, [(1.5, height - 0.002, 1.0), (2.5, height - 0.002, 1.0),
-                      (2.5, height - 0.002, 2.0), (1.5, height - 0.002, 2.0)])
-    gltf.object("ceiling lamp", light)
+    ceiling_lamp(gltf, lamp, (1.5, 2.5), height, (1.0, 2.0))
     gltf.camera("camera", [2.6, 1.5, 2.9], [1.8, 0.5, 0.6], 1.0, 1.5)
     return gltf
 
@@ -100,11 +110,7 @@ def specular_objects():
     glaze = gltf.material("glaze", (0.2, 0.45, 0.35), metallic=0.3, roughness=0.3)
     width, height, depth = 3.0, 2.4, 3.0
     sides = {"-x": red, "+x": blue, "-y": plaster, "+y": plaster, "-z": plaster, "+z": plaster}
-    for side, material in sides.items():
-        shape = Shape()
-        skip = " ".join(set(sides) - {side})
-        shape.box(material, (0, 0, 0), (width, height, depth), skip=skip, inward=True)
-        gltf.object(f"wall {side}", shape)
+    walls(gltf, sides, (width, height, depth))
 
     def ball(radius, rings=24):
         angles = [math.pi * k / rings for k in range(1, rings)]
@@ -122,10 +128,7 @@ def specular_objects():
         shape = Shape()
         shape.lathe(material, centre, profile, segments=48, smooth=smooth)
         gltf.object(name, shape)
-    light = Shape()
-    light.quad(lamp, [(1.0, height - 0.002, 1.0), (2.0, height - 0.002, 1.0),
-                      (2.0, height - 0.002, 2.0), (1.0, height - 0.002, 2.0)])
-    gltf.object("ceiling lamp", light)
+    ceiling_lamp(gltf, lamp, (1.0, 2.0), height, (1.0, 2.0))
     gltf.camera("camera", [1.6, 1.1, 2.9], [1.55, 0.5, 0.9], 0.9, 1.4)
     return gltf
 
@@ -183,11 +186,8 @@ def furnace(albedo):
     """A closed unit cube of one albedo and exitance 1 lm/m²: radiosity is 1/(1 - albedo)."""
     gltf = Gltf()
     wall = gltf.material("wall", albedo, luminance=[1 / math.pi] * 3)
-    sides = {"-x", "+x", "-y", "+y", "-z", "+z"}
-    for side in sorted(sides):
-        shape = Shape()
-        shape.box(wall, (0, 0, 0), (1, 1, 1), skip=" ".join(sides - {side}), inward=True)
-        gltf.object(f"wall {side}", shape)
+    sides = ("+x", "+y", "+z", "-x", "-y", "-z")
+    walls(gltf, {side: wall for side in sides}, (1, 1, 1))
     gltf.camera("camera", [0.1, 0.5, 0.9], [0.6, 0.45, 0.3], 1.2, 1.0)
     return gltf
 
