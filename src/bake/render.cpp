@@ -5,10 +5,8 @@
 #include <filesystem>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
+#include "bake/report.h"
 #include "bake/setting.h"
-#include "core/log.h"
 #include "finish/finish.h"
 #include "output/image_files.h"
 #include "picture/lobe_rays.h"
@@ -142,57 +140,32 @@ void write_picture(const std::string& path, const Image& image)
         write_png(path, tone_map(unmultiplied(image)));
 }
 
-std::string report_of(const RenderSummary& summary, const Stages& stages,
-                      const gpu::StageTimes& gpu_times)
-{
-    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
-    for (const StageTime& stage : stages.times())
-        parts.push_back({{"stage", stage.name},
-                         {"wall_seconds", stage.wall_seconds},
-                         {"cpu_seconds", stage.cpu_seconds}});
-    nlohmann::ordered_json report = {{"width", summary.width},
-                                     {"height", summary.height},
-                                     {"shots", summary.shots},
-                                     {"interrupted", summary.interrupted},
-                                     {"wall_seconds", summary.seconds},
-                                     {"stages", parts},
-                                     {"gpu_ms", gpu_times}};
-    if (summary.error >= 0.0)
-        report["estimated_error"] = summary.error;
-    return report.dump(2);
-}
+/// A picture and the facts of it.
+struct Made {
+    Image image;
+    Report report;
+};
 
-Rendered finished(Image image, RenderSummary summary, const Stages& stages,
-                  const gpu::StageTimes& gpu_times)
+Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 {
-    summary.width = image.width;
-    summary.height = image.height;
-    summary.seconds = stages.seconds();
-    summary.report = report_of(summary, stages, gpu_times);
-    return {std::move(image), std::move(summary)};
-}
-
-Rendered path_trace(const Scene& scene, RenderOptions options, Stages& stages)
-{
-    for (const std::string& warning : scene.warnings)
-        log_warning(warning);
+    tell_warnings(scene);
     const RayScene rays(scene);
     const View view = view_for(scene, rays, options);
     stages.begin("path tracing");
-    RenderSummary summary;
+    bool stopped = false;
     const ReferenceImageOptions reference{.width = options.width,
                                           .height = options.height,
                                           .samples_per_pixel = options.paths,
                                           .seed = options.bake.solver.seed};
     Image image = reference_image(scene, rays, view, reference, [&](double fraction) {
-        summary.interrupted = !stages.tell(fraction);
-        return !summary.interrupted;
+        stopped = !stages.tell(fraction);
+        return !stopped;
     });
     stages.end();
-    return finished(std::move(image), std::move(summary), stages, {});
+    return {std::move(image), path_traced_report(options, scene, stopped, stages)};
 }
 
-Rendered shoot(Scene scene, RenderOptions options, Stages& stages)
+Made shoot(Scene scene, RenderOptions options, Stages& stages)
 {
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
@@ -201,7 +174,7 @@ Rendered shoot(Scene scene, RenderOptions options, Stages& stages)
     check_size(device, options);
     GlossyIllumination solver(device, setting.resident, world.lumels, setting.near,
                               options.bake.solver);
-    const SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
+    SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
     stages.begin("looking");
@@ -214,18 +187,26 @@ Rendered shoot(Scene scene, RenderOptions options, Stages& stages)
     stages.end();
     if (const std::string messages = device.validation_messages(); !messages.empty())
         throw Error(ErrorKind::device, "Vulkan validation", messages);
-    return finished(std::move(image),
-                    {.shots = solver.state().shots,
-                     .error = solved.error,
-                     .interrupted = !run.finished || lobes.stopped},
-                    stages, solver.times());
+    const Results results{.shots = solver.state().shots,
+                          .iterations = solver.state().iterations,
+                          .error = solved.error,
+                          .interrupted = !run.finished || lobes.stopped,
+                          .near_pairs = setting.near.column.size(),
+                          .curve = std::move(run.curve)};
+    return {std::move(image), picture_report(options, world, device, solver, results, stages)};
 }
 
-Rendered render(Scene scene, RenderOptions options, Stages& stages)
+Made make(Scene scene, RenderOptions options, Stages& stages)
 {
     options.bake.solver.method = "glossy";
     return options.paths > 0 ? path_trace(scene, options, stages)
                              : shoot(std::move(scene), options, stages);
+}
+
+RenderSummary summary_of(const Report& report)
+{
+    return {report.picture_width, report.picture_height, report.shots,   report.estimated_error,
+            report.wall_seconds,  report.interrupted,    to_json(report)};
 }
 
 }  // namespace
@@ -233,7 +214,8 @@ Rendered render(Scene scene, RenderOptions options, Stages& stages)
 Rendered render(Scene scene, const RenderOptions& options, const ProgressFunction& progress)
 {
     Stages stages(progress);
-    return render(std::move(scene), options, stages);
+    Made made = make(std::move(scene), options, stages);
+    return {std::move(made.image), summary_of(made.report)};
 }
 
 RenderSummary render(const std::string& scene_path, const std::string& picture_path,
@@ -242,9 +224,10 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     check(picture_path, options);
     Stages stages(progress);
     stages.begin("reading");
-    const Rendered rendered = render(read_gltf(scene_path, MaterialModel::glossy), options, stages);
-    write_picture(picture_path, rendered.image);
-    return rendered.summary;
+    Made made = make(read_gltf(scene_path, MaterialModel::glossy), options, stages);
+    write_picture(picture_path, made.image);
+    made.report.files = {std::filesystem::path(picture_path).filename().string()};
+    return summary_of(made.report);
 }
 
 }  // namespace lumel

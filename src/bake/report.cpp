@@ -20,12 +20,25 @@ const char* text_of(Directional directional)
                                             : (directional == Directional::sh1 ? "sh1" : "sh2");
 }
 
-Report common(const Prepared& world, const Stages& stages)
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+Report common(const Scene& scene, const Stages& stages)
 {
     Report report;
     report.lumel_version = LUMEL_VERSION;
-    report.scene = std::filesystem::path(world.scene.path).filename().string();
-    report.scene_hash = world.scene.hash;
+    report.scene = std::filesystem::path(scene.path).filename().string();
+    report.scene_hash = scene.hash;
+    report.stages = stages.times();
+    report.wall_seconds = stages.seconds();
+    report.cpu_seconds = cpu_seconds();
+    report.peak_host_bytes = std::int64_t(peak_memory_bytes());
+    report.warnings = scene.warnings;
+    return report;
+}
+
+Report common(const Prepared& world, const Stages& stages)
+{
+    Report report = common(world.scene, stages);
     report.atlas_width = world.atlas.width;
     report.atlas_height = world.atlas.height;
     report.texels_per_metre = double(world.atlas.texels_per_metre);
@@ -37,16 +50,11 @@ Report common(const Prepared& world, const Stages& stages)
         report.triangles += surface.indices.size() / 3;
     for (const Lumel& lumel : world.lumels.lumels)
         report.buried_lumels += (lumel.flags & kLumelBuried) != 0;
-    report.stages = stages.times();
-    report.wall_seconds = stages.seconds();
-    report.cpu_seconds = cpu_seconds();
-    report.peak_host_bytes = std::int64_t(peak_memory_bytes());
-    report.warnings = world.scene.warnings;
     report.notes = world.atlas.notes;
     return report;
 }
 
-std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& options)
+Settings settings_of(const BakeOptions& options)
 {
     const SolverOptions& solver = options.solver;
     return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
@@ -58,20 +66,16 @@ std::vector<std::pair<std::string, std::string>> settings_of(const BakeOptions& 
             {"time", fmt::format("{}", solver.max_seconds)},
             {"error", fmt::format("{}", 100.0 * solver.target_error)},
             {"gutter", std::to_string(options.atlas.gutter)},
-            {"max-size", std::to_string(options.atlas.max_size)},
-            {"half", options.half ? "true" : "false"},
-            {"directional", text_of(options.directional)}};
+            {"max-size", std::to_string(options.atlas.max_size)}};
 }
 
-}  // namespace
-
-Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
-                   const Solver& solver, const Results& results, const Stages& stages)
+/// What all solvers have to say, whatever is made of the solution.
+Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+              const Solver& solver, const Results& results, const Stages& stages)
 {
     Report report = common(world, stages);
     report.settings = settings_of(options);
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
-    report.directional_shots = results.directional.shots;
     report.seed = options.solver.seed;
     report.device = device.info().name;
     report.driver = device.info().driver;
@@ -84,11 +88,33 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     report.convergence = results.curve;
     for (const auto& [stage, ms] : solver.times())
         report.gpu_milliseconds.emplace_back(stage, std::vector<double>{ms});
-    for (const auto& [stage, ms] : results.directional.times)
-        report.gpu_milliseconds.emplace_back("directional: " + stage, std::vector<double>{ms});
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
     report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
+    return report;
+}
+
+/// Adds what a picture is of.
+void add_picture(Report& report, const RenderOptions& options, const Settings& settings)
+{
+    report.picture_width = options.width;
+    report.picture_height = options.height;
+    if (options.camera >= 0)
+        report.settings.emplace_back("camera", std::to_string(options.camera));
+    report.settings.insert(report.settings.end(), settings.begin(), settings.end());
+}
+
+}  // namespace
+
+Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+                   const Solver& solver, const Results& results, const Stages& stages)
+{
+    Report report = solved(options, world, device, solver, results, stages);
+    report.settings.emplace_back("half", options.half ? "true" : "false");
+    report.settings.emplace_back("directional", text_of(options.directional));
+    report.directional_shots = results.directional.shots;
+    for (const auto& [stage, ms] : results.directional.times)
+        report.gpu_milliseconds.emplace_back("directional: " + stage, std::vector<double>{ms});
     report.files = {"lightmap.exr", "lightmap.png", "scene.glb", "scene-baked.glb", "report.json"};
     if (options.preview_width > 0)
         report.files.emplace_back("preview.png");
@@ -106,6 +132,29 @@ Report reference_report(const ReferenceOptions& reference, const Prepared& world
     report.seed = reference.seed;
     report.interrupted = stopped;
     report.files = {"lightmap.exr", "lightmap.png", "report.json"};
+    return report;
+}
+
+Report picture_report(const RenderOptions& options, const Prepared& world,
+                      const gpu::Device& device, const Solver& solver, const Results& results,
+                      const Stages& stages)
+{
+    Report report = solved(options.bake, world, device, solver, results, stages);
+    add_picture(report, options,
+                {{"places", std::to_string(options.sets)},
+                 {"eye-shots", std::to_string(options.shots)},
+                 {"lobe-rays", std::to_string(options.rays)}});
+    return report;
+}
+
+Report path_traced_report(const RenderOptions& options, const Scene& scene, bool stopped,
+                          const Stages& stages)
+{
+    Report report = common(scene, stages);
+    report.method = "reference";
+    add_picture(report, options, {{"paths", std::to_string(options.paths)}});
+    report.seed = options.bake.solver.seed;
+    report.interrupted = stopped;
     return report;
 }
 

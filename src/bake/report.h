@@ -2,6 +2,7 @@
 // What a bake has to say of itself.
 
 #include "bake/outputs.h"
+#include "bake/render.h"
 #include "output/report.h"
 
 namespace lumel {
@@ -13,5 +14,14 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
 /// The facts of a reference.
 Report reference_report(const ReferenceOptions& reference, const Prepared& world, bool stopped,
                         const Stages& stages);
+
+/// The facts of a picture of a solved scene. options.height: as the picture is.
+Report picture_report(const RenderOptions& options, const Prepared& world,
+                      const gpu::Device& device, const Solver& solver, const Results& results,
+                      const Stages& stages);
+
+/// The facts of a path-traced picture. options.height: as the picture is.
+Report path_traced_report(const RenderOptions& options, const Scene& scene, bool stopped,
+                          const Stages& stages);
 
 }  // namespace lumel

@@ -65,10 +65,15 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
     return run;
 }
 
+void tell_warnings(const Scene& scene)
+{
+    for (const std::string& warning : scene.warnings)
+        log_warning(warning);
+}
+
 void tell_user(const Prepared& world)
 {
-    for (const std::string& warning : world.scene.warnings)
-        log_warning(warning);
+    tell_warnings(world.scene);
     for (const std::string& note : world.atlas.notes)
         log_info(note);
 }

@@ -9,6 +9,9 @@
 
 namespace lumel {
 
+/// Says what the scene's reader had to say.
+void tell_warnings(const Scene& scene);
+
 /// Says what the scene's reader and the atlas had to say.
 void tell_user(const Prepared& world);
 

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // What the numbers in the other files mean.
-Json units(bool directional)
+Json map_units(bool directional)
 {
     Json json = {
         {"length", "m"},
@@ -32,6 +32,15 @@ Json units(bool directional)
             "harmonics, world axes of the glTF; H(n) = sum of A_l sh.i Y_lm(n), A = pi, 2 pi / 3, "
             "pi / 4";
     return json;
+}
+
+Json picture_units()
+{
+    return {{"radiance", "cd/m2"},
+            {"color_space", "linear Rec. 709"},
+            {"exr", "radiance toward the eye [cd/m2] in RGB, multiplied by alpha, the share of the "
+                    "pixel where something is seen"},
+            {"png", "tone-mapped for looking, sRGB"}};
 }
 
 // Null for what JSON has no number for.
@@ -89,15 +98,20 @@ Json solution(const Report& report)
 
 Json sizes(const Report& report)
 {
-    return {{"atlas_width", report.atlas_width},
-            {"atlas_height", report.atlas_height},
-            {"texels_per_metre", number(report.texels_per_metre)},
-            {"instances", report.instances},
-            {"triangles", report.triangles},
-            {"charts", report.charts},
-            {"lumels", report.lumels},
-            {"buried_lumels", report.buried_lumels},
-            {"pieces", report.pieces}};
+    Json json = Json::object();
+    if (report.picture_width > 0)
+        json = {{"picture_width", report.picture_width}, {"picture_height", report.picture_height}};
+    if (report.atlas_width > 0)
+        json.update({{"atlas_width", report.atlas_width},
+                     {"atlas_height", report.atlas_height},
+                     {"texels_per_metre", number(report.texels_per_metre)},
+                     {"instances", report.instances},
+                     {"triangles", report.triangles},
+                     {"charts", report.charts},
+                     {"lumels", report.lumels},
+                     {"buried_lumels", report.buried_lumels},
+                     {"pieces", report.pieces}});
+    return json;
 }
 
 Json memory(const Report& report)
@@ -136,7 +150,8 @@ std::string to_json(const Report& report)
     json["solution"] = solution(report);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
-    json["units"] = units(report.directional_shots > 0);
+    json["units"] =
+        report.picture_width > 0 ? picture_units() : map_units(report.directional_shots > 0);
     json["files"] = report.files;
     json["warnings"] = report.warnings;
     json["notes"] = report.notes;

@@ -1,5 +1,5 @@
 #pragma once
-// report.json: what was baked, how, and what it took.
+// report.json: what was baked or shown, how, and what it took.
 
 #include <cstdint>
 #include <map>
@@ -43,6 +43,8 @@ struct Report {
     double texels_per_metre = 0.0;
     std::uint64_t charts = 0, lumels = 0, pieces = 0, triangles = 0, instances = 0;
     std::uint64_t buried_lumels = 0;
+    int picture_width = 0;   ///< [pixels], 0: maps were made, no picture
+    int picture_height = 0;  ///< [pixels]
 
     std::string method;  ///< id of the solver
     std::uint64_t shots = 0;
