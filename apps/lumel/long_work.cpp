@@ -1,0 +1,30 @@
+#include "long_work.h"
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "core/log.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+
+namespace lumel {
+
+int do_long_work(const Talk& talk, int batch,
+                 const std::function<Conclusion(const ProgressFunction&)>& work)
+{
+    watch_interrupts();
+    set_quiet(talk.quiet || talk.json);
+    ProgressBar bar(talk.progress && !talk.quiet, batch);
+    const Conclusion conclusion = work([&](const BakeProgress& progress) {
+        bar.show(progress);
+        return !interrupted();
+    });
+    bar.clear();
+    if (talk.json)
+        fmt::print("{}", conclusion.report);
+    else if (!talk.quiet)
+        fmt::print("{}{}\n", conclusion.sentence, conclusion.interrupted ? ", stopped early" : "");
+    return interrupted() ? interrupt_exit_code() : kExitDone;
+}
+
+}  // namespace lumel
