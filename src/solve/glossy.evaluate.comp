@@ -2,7 +2,7 @@
 #include "solve/glossy.shared.h"
 
 // H as the mean over all iterations since the last restart, and how far its halves are apart: the
-// first three of stochastic.evaluate.comp's terms, and Σ A 𝓛 of what is absorbed.
+// first three of iteration.evaluate.comp's terms, and Σ A 𝓛 of what is absorbed.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyEvaluateParams p; };

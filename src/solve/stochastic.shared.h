@@ -1,6 +1,5 @@
 #ifndef LUMEL_SOLVE_STOCHASTIC_SHARED_H
 #define LUMEL_SOLVE_STOCHASTIC_SHARED_H
-#include "solve/figures.shared.h"
 #include "solve/power_pyramid.shared.h"
 #include "visibility/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
@@ -45,34 +44,6 @@ struct ReceiveParams {
     uint seed;
     uint centre;        ///< 1: receive at the centroid
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
-};
-
-/// Push constants of stochastic.polish.comp.
-struct PolishParams {
-    uint count;  ///< N
-};
-
-/// How far the running averages are. Per half-solution h = 0, 1.
-struct Averages {
-    float emission_shots[2];  ///< shots in direct[h]
-    float source_shots[2];    ///< shots in indirect[h], this phase
-    float earlier_weight[2];  ///< weight of earlier[h], in shots
-    uint balance;             ///< 1: scale indirect light by the energy balance
-};
-
-/// Push constants of stochastic.balance.comp and stochastic.evaluate.comp.
-struct AverageParams {
-    Averages averages;
-    uint count;  ///< N
-    float dim;   ///< irradiance below which relative errors are relative to this [lx]; 0: unknown
-};
-
-/// Push constants of stochastic.advance.comp.
-struct AdvanceParams {
-    Averages averages;
-    uint count;
-    uint end_phase;      ///< 1: fold indirect into earlier and clear it
-    uint with_emission;  ///< 1: the source is B = E + ρH (the papers), 0: ρH
 };
 
 LUMEL_SHARED_END

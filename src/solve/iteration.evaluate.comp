@@ -1,5 +1,5 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/iteration.shared.h"
 #include "solve/radiosity.glsl"
 
 // The solution as it stands, and how far its two independent halves are apart:
@@ -22,7 +22,7 @@ layout(binding = 7, scalar) writeonly buffer Far { vec3 far[]; };
 layout(binding = 8, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
 layout(binding = 9, scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "solve/stochastic.glsl"
+#include "solve/iteration.glsl"
 #include "solve/sum.glsl"
 
 void main()

@@ -1,7 +1,7 @@
 // Running averages and the energy balance, shared by the kernels that read them. The includer
 // declares `Terms totals[]`.
 
-#include "solve/stochastic.balance.glsl"
+#include "solve/iteration.balance.glsl"
 
 // True if half-solution h has shots of indirect light.
 bool has_indirect(Averages averages, uint h)

@@ -1,11 +1,11 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/iteration.shared.h"
 
 // The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average),
 // and, at the end of a phase, this phase's far light (for unit power) folded into that of
 // earlier ones.
 
-layout(local_size_x = kReceiveGroup) in;
+layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };
 layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
 layout(binding = 1, scalar) readonly buffer Emission { vec3 emission[]; };
@@ -15,7 +15,7 @@ layout(binding = 4, scalar) buffer Indirect { vec3 indirect[]; };
 layout(binding = 5, scalar) buffer Earlier { vec3 earlier[]; };
 layout(binding = 6, scalar) writeonly buffer Source { vec3 source[]; };
 
-#include "solve/stochastic.glsl"
+#include "solve/iteration.glsl"
 
 void main()
 {

@@ -1,7 +1,7 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/iteration.shared.h"
 
-// Sums of the energy balance, column by column as stochastic.glsl reads them.
+// Sums of the energy balance, column by column as iteration.glsl reads them.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
@@ -14,7 +14,7 @@ layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };
 layout(binding = 6, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N] U
 layout(binding = 7, scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "solve/stochastic.balance.glsl"
+#include "solve/iteration.balance.glsl"
 #include "solve/sum.glsl"
 
 void main()

@@ -1,10 +1,10 @@
 #version 460
-#include "solve/stochastic.shared.h"
+#include "solve/iteration.shared.h"
 
 // One sweep of the near field over the finished far light:  X ← ρH (then near_rows.comp),
 // H ← far + near. Leaves the running averages as they are.
 
-layout(local_size_x = kReceiveGroup) in;
+layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { PolishParams p; };
 layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
 layout(binding = 1, scalar) readonly buffer Far { vec3 far[]; };
