@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include <embree3/rtcore.h>
 
@@ -94,6 +95,14 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near,
     ray.tfar = far;
     ray.mask = ~0u;
     return ray;
+}
+
+/// True if the ray meets nothing.
+bool is_clear(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
+{
+    QueryContext context = query_context(seed);
+    rtcOccluded1(tree, &context.embree, &ray);
+    return ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
 }
 
 }  // namespace
@@ -198,10 +207,13 @@ bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
     const float distance = glm::length(way);
     if (distance <= 2.0f * offset)
         return true;
-    RTCRay ray = make_ray(from, way / distance, offset, distance - offset);
-    QueryContext context = query_context(seed);
-    rtcOccluded1(data_->tree, &context.embree, &ray);
-    return ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
+    return is_clear(data_->tree, make_ray(from, way / distance, offset, distance - offset), seed);
+}
+
+bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const
+{
+    constexpr float kFar = std::numeric_limits<float>::max();
+    return is_clear(data_->tree, make_ray(from, direction, 0.0f, kFar), seed);
 }
 
 bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,

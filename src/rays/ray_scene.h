@@ -37,6 +37,9 @@ public:
     /// True if nothing lies between the two points (both ends are shortened by `offset` [m]).
     bool sees(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed) const;
 
+    /// True if nothing lies along a unit direction, however far.
+    bool sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const;
+
     /// First hit along a unit direction with distance in (near, far), or false.
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                  std::uint32_t seed, RayHit& hit) const;

@@ -73,6 +73,16 @@ TEST(RayScene, RespectsTheNearAndFarEndOfARay)
     EXPECT_FALSE(rays.closest(origin, down, 0.0f, 0.9f, 0, hit));
 }
 
+TEST(RayScene, SeesOutWhereNothingIsInTheWayHoweverFar)
+{
+    Scene scene;
+    add_quad(scene, unit_square(), glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, -1e6f}));
+    const RayScene rays(scene);
+    EXPECT_FALSE(rays.sees_out({0.3f, 0.4f, 1.0f}, {0.0f, 0.0f, -1.0f}, 0));
+    EXPECT_TRUE(rays.sees_out({0.3f, 0.4f, 1.0f}, {0.0f, 0.0f, 1.0f}, 0));
+    EXPECT_TRUE(rays.sees_out({1.3f, 0.4f, 1.0f}, {0.0f, 0.0f, -1.0f}, 0));
+}
+
 TEST(RayScene, TellsFrontFromBack)
 {
     Scene scene;
