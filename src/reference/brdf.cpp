@@ -4,37 +4,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "reference/directions.h"
+
 namespace lumel {
 
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// x, y, z along two tangents and `axis`.
-glm::vec3 turn_to(const glm::vec3& axis, float x, float y, float z)
-{
-    // Branch-free tangent frame. [DBC*17] T. Duff et al., Building an Orthonormal Basis, 2017
-    const float sign = std::copysign(1.0f, axis.z);
-    const float a = -1.0f / (sign + axis.z);
-    const float b = axis.x * axis.y * a;
-    const glm::vec3 tangent(1.0f + sign * axis.x * axis.x * a, sign * b, -sign * axis.x);
-    const glm::vec3 bitangent(b, sign + axis.y * axis.y * a, -axis.y);
-    return x * tangent + y * bitangent + z * axis;
-}
-
 /// A unit direction with density cosθ / π about `normal`.
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& at)
 {
-    // Concentric map of the square to the disc, which keeps strata compact.
-    const glm::vec2 offset = 2.0f * at - 1.0f;
-    glm::vec2 disc(0.0f);
-    if (std::abs(offset.x) > std::abs(offset.y)) {
-        const float angle = kPi / 4.0f * (offset.y / offset.x);
-        disc = offset.x * glm::vec2(std::cos(angle), std::sin(angle));
-    } else if (offset.y != 0.0f) {
-        const float angle = kPi / 2.0f - kPi / 4.0f * (offset.x / offset.y);
-        disc = offset.y * glm::vec2(std::cos(angle), std::sin(angle));
-    }
+    const glm::vec2 disc = square_to_disc(at);
     return turn_to(normal, disc.x, disc.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc))));
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/luminance.h"
+
 namespace lumel {
 
 namespace {
@@ -25,8 +27,7 @@ glm::vec2 square_to_triangle(glm::vec2 at)
 
 float luminance_of(const MaterialSample& look)
 {
-    // Rec. 709 luminance: what the eye would weigh the three channels by.
-    return look.opacity * glm::dot(look.emitted, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    return look.opacity * float(luminance(look.emitted));
 }
 
 float mean_luminance(const Surfaces& surfaces, const PlacedSurface& surface, std::uint32_t triangle)

@@ -75,7 +75,7 @@ std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& 
                                             const Lumels& lumels, const ReferenceOptions& options,
                                             const std::function<bool(double)>& progress)
 {
-    const PathTracer tracer(scene, rays, options.max_bounces);
+    const PathTracer tracer(scene, rays, options.max_bounces, options.parts);
     const LumelStarts starts(scene, lumels, options.rule, tracer.lift());
     const std::uint32_t key = PathSamples::hash(options.seed, kMapKey);
     const auto estimate = [&](std::size_t i, std::uint32_t sample) {

@@ -21,10 +21,11 @@ struct ReferenceImageOptions {
 
 /// Radiance [cd/m²], linear RGBA [height][width], as seen from `view`: what surfaces emit and
 /// reflect, glossily if the scene was read with MaterialModel::glossy. A pixel is the mean over its
-/// square; alpha is the share of it where anything is seen, and colours are multiplied by it.
-/// Unbiased, and independent for each seed. Emissive surfaces are the only lights, and backs of
-/// single-sided ones are black. `progress` is given the fraction done and returns false to stop,
-/// which leaves the samples taken so far; pixels without any get 0.
+/// square; alpha is the share of it where anything is seen, the sky being something, and colours
+/// are multiplied by it. Unbiased, and independent for each seed. Punctual lights shine, but are
+/// not seen, and backs of single-sided emissive surfaces are black. `progress` is given the
+/// fraction done and returns false to stop, which leaves the samples taken so far; pixels without
+/// any get 0.
 Image reference_image(const Scene& scene, const RayScene& rays, const View& view,
                       const ReferenceImageOptions& options,
                       const std::function<bool(double)>& progress = {});

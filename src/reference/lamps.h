@@ -1,0 +1,44 @@
+#pragma once
+// The punctual lights of a scene as a path tracer samples them. See lamps.cpp for the equations.
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace lumel {
+
+/// What a lamp sends to a point along one direction, as if nothing were between.
+struct LampSample {
+    glm::vec3 direction{0.0f};    ///< unit, towards the lamp
+    float distance = 0.0f;        ///< [m] to its surface; infinite: directional
+    glm::vec3 illuminance{0.0f};  ///< estimate [lx] for a plane that faces the direction
+};
+
+class Lamps {
+public:
+    /// `scene` must outlive this, unmoved.
+    explicit Lamps(const Scene& scene);
+
+    std::size_t count() const { return lamps_.size(); }
+
+    /// Draws a direction, by a point of the unit square, of those that a lamp shines from.
+    LampSample sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& at) const;
+
+private:
+    struct Lamp {
+        const PunctualLight* light = nullptr;
+        glm::vec3 position{0.0f};  ///< world [m]
+        glm::vec3 toward{0.0f};    ///< unit, against the way it shines
+    };
+
+    LampSample from_disc(const Lamp& lamp, const glm::vec2& at) const;
+    LampSample from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& at) const;
+
+    const Scene* scene_;
+    std::vector<Lamp> lamps_;  ///< those that shine
+};
+
+}  // namespace lumel
