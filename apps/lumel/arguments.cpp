@@ -58,6 +58,7 @@ const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
 const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
                                           {"hemisphere", Projection::hemisphere}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
+const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
@@ -274,6 +275,8 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
     command.add_flag_callback(
         "--gloss", [&reference] { reference.materials = MaterialModel::glossy; },
         "Pass light on by glossy reflection too, as --solver glossy does");
+    add_choice(command, "--only", reference.reference.parts, kParts,
+               "Of the arriving light only what comes straight from its source, or only the rest");
     add_atlas_options(command, reference.options.atlas);
     command.add_flag("--half", reference.options.half, "Write lightmap.exr in half precision");
     add_talk_options(command, reference.talk);

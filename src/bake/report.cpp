@@ -20,6 +20,11 @@ const char* text_of(Directional directional)
                                             : (directional == Directional::sh1 ? "sh1" : "sh2");
 }
 
+const char* text_of(Parts parts)
+{
+    return parts == Parts::all ? "all" : (parts == Parts::direct ? "direct" : "indirect");
+}
+
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 Report common(const Scene& scene, const Stages& stages)
@@ -128,7 +133,8 @@ Report reference_report(const ReferenceOptions& reference, const Prepared& world
     report.method = "reference";
     report.settings = {{"spp", std::to_string(reference.samples_per_lumel)},
                        {"sampling", text_of(reference.rule)},
-                       {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"}};
+                       {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"},
+                       {"only", text_of(reference.parts)}};
     report.seed = reference.seed;
     report.interrupted = stopped;
     report.files = {"lightmap.exr", "lightmap.png", "report.json"};
