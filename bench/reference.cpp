@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "finish/finish.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 
 namespace lumel::bench {
 

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 #include "reference/metrics.h"
 
 namespace lumel {

@@ -14,7 +14,7 @@
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 #include "preview/preview.h"
 #include "reference/metrics.h"
 

@@ -7,7 +7,7 @@
 
 #include "bake/prepare.h"
 #include "finish/finish.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 
 namespace lumel {
 

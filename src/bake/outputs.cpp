@@ -5,10 +5,10 @@
 #include "bake/directional_layers.h"
 #include "bake/report.h"
 #include "finish/finish.h"
+#include "images/image_files.h"
+#include "images/write_bytes.h"
 #include "output/folder.h"
 #include "output/gltf_write.h"
-#include "output/image_files.h"
-#include "output/write_bytes.h"
 #include "preview/preview.h"
 
 namespace lumel {

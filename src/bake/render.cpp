@@ -8,7 +8,7 @@
 #include "bake/report.h"
 #include "bake/setting.h"
 #include "finish/finish.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 #include "picture/lobe_rays.h"
 #include "picture/picture.h"
 #include "preview/view.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "images/image_files.h"
+#include "images/write_bytes.h"
 #include "output/baked_materials.h"
 #include "output/baked_meshes.h"
 #include "output/glb_builder.h"
-#include "output/image_files.h"
-#include "output/write_bytes.h"
 
 namespace lumel {
 namespace {

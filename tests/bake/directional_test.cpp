@@ -5,12 +5,12 @@
 #include <numbers>
 #include <random>
 
-#include "../output/temporary_folder.h"
 #include "../support/box_lumels.h"
+#include "../support/temporary_folder.h"
 #include "bake/bake.h"
 #include "core/parallel.h"
+#include "images/image_files.h"
 #include "nearfield/world_lumels.h"
-#include "output/image_files.h"
 #include "solve/directional.h"
 #include "solved.h"
 

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/temporary_folder.h"
 #include "core/error.h"
 #include "output/folder.h"
-#include "temporary_folder.h"
 
 namespace lumel {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/temporary_folder.h"
 #include "core/error.h"
 #include "hand_atlas.h"
+#include "images/image_files.h"
 #include "output/gltf_write.h"
-#include "output/image_files.h"
 #include "scene/gltf_document.h"
-#include "temporary_folder.h"
 
 namespace lumel {
 namespace {

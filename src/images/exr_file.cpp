@@ -21,8 +21,8 @@
 #include <half.h>
 
 #include "core/error.h"
-#include "output/image_files.h"
-#include "output/write_bytes.h"
+#include "images/image_files.h"
+#include "images/write_bytes.h"
 
 namespace lumel {
 namespace {

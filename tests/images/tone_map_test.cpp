@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "output/image_files.h"
+#include "images/image_files.h"
 
 namespace lumel {
 namespace {

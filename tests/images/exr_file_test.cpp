@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/temporary_folder.h"
 #include "core/error.h"
-#include "output/image_files.h"
-#include "temporary_folder.h"
+#include "images/image_files.h"
 
 namespace lumel {
 namespace {

@@ -1,4 +1,4 @@
-#include "output/write_bytes.h"
+#include "images/write_bytes.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "output/image_files.h"
+#include "images/image_files.h"
 
 namespace lumel {
 namespace {

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "../support/temporary_folder.h"
 #include "core/error.h"
-#include "output/image_files.h"
-#include "temporary_folder.h"
+#include "images/image_files.h"
 
 namespace lumel {
 namespace {

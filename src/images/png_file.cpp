@@ -9,8 +9,8 @@
 #include <png.h>
 
 #include "core/error.h"
-#include "output/image_files.h"
-#include "output/write_bytes.h"
+#include "images/image_files.h"
+#include "images/write_bytes.h"
 
 namespace lumel {
 namespace {
