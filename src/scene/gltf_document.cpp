@@ -123,9 +123,8 @@ GltfDocument load_gltf_document(const std::string& path)
     return document;
 }
 
-Bytes read_image_bytes(const GltfDocument& document, std::size_t image)
+Bytes read_linked_bytes(const GltfDocument& document, const JsonView& view)
 {
-    const JsonView view = document.root().get("images").at(image);
     const auto uri = view.find("uri");
     const auto buffer_view = view.find("bufferView");
     if (uri.has_value() == buffer_view.has_value())
@@ -133,6 +132,11 @@ Bytes read_image_bytes(const GltfDocument& document, std::size_t image)
     if (uri)
         return read_uri(*uri, document.path);
     return buffer_view_bytes(document, *buffer_view);
+}
+
+Bytes read_image_bytes(const GltfDocument& document, std::size_t image)
+{
+    return read_linked_bytes(document, document.root().get("images").at(image));
 }
 
 }  // namespace lumel

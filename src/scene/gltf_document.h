@@ -43,6 +43,10 @@ struct AccessorData {
 /// `accessor`: index into json["accessors"].
 AccessorData read_accessor(const GltfDocument& document, std::size_t accessor);
 
+/// The file that an object of the document names by "uri" or "bufferView".
+/// Throws Error{input} if it cannot be read or lies outside the scene's folder.
+Bytes read_linked_bytes(const GltfDocument& document, const JsonView& view);
+
 /// The encoded file (PNG, JPEG) of an image. `image`: index into json["images"].
 /// Throws Error{input} if it cannot be read or lies outside the scene's folder.
 Bytes read_image_bytes(const GltfDocument& document, std::size_t image);

@@ -9,7 +9,8 @@ namespace lumel {
 namespace {
 
 /// Read, or without effect on diffuse light, so a file may require them.
-constexpr std::array<std::string_view, 20> kSupported = {
+constexpr std::array<std::string_view, 21> kSupported = {
+    "EXT_lights_ies",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

@@ -4,6 +4,7 @@
 #include <climits>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 #include <stb/stb_image.h>
 
@@ -80,6 +81,79 @@ Claim jpeg_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
+/// Where the texels of a Radiance picture begin, behind the line that says its size.
+std::size_t hdr_data_begin(const Bytes& bytes)
+{
+    constexpr std::uint8_t kBlankLine[] = {'\n', '\n'};
+    const auto blank =
+        std::search(bytes.begin(), bytes.end(), std::begin(kBlankLine), std::end(kBlankLine));
+    if (blank == bytes.end())
+        return bytes.size();
+    const auto size_line = std::find(blank + 2, bytes.end(), '\n');
+    return std::size_t(size_line - bytes.begin()) + (size_line != bytes.end());
+}
+
+/// Where a run-length coded row of a Radiance picture ends; nothing if it is broken or cut short.
+/// The decoder would go round for ever on runs of length 0.
+std::optional<std::size_t> hdr_row_end(const Bytes& bytes, std::size_t at, int width)
+{
+    constexpr int kChannels = 4;
+    constexpr int kLongestDump = 128;  // a greater count is a run of what is above it
+    if (at + 4 > bytes.size() || bytes[at] != 2 || bytes[at + 1] != 2 ||
+        (bytes[at + 2] << 8 | bytes[at + 3]) != width)
+        return std::nullopt;
+    at += 4;
+    for (int channel = 0; channel < kChannels; ++channel)
+        for (int left = width; left > 0;) {
+            const int count = at < bytes.size() ? bytes[at] : 0;
+            const bool run = count > kLongestDump;
+            const int length = run ? count - kLongestDump : count;
+            at += std::size_t(1) + std::size_t(run ? 1 : length);
+            left -= length;
+            if (length == 0 || left < 0 || at > bytes.size())
+                return std::nullopt;
+        }
+    return at;
+}
+
+/// Rows of 8 to 32767 texels that begin with 2 2 are run-length coded by channel, others take four
+/// bytes a texel.
+Claim hdr_claim(const Bytes& bytes, const std::string& place)
+{
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (!stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())) ||
+        !stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
+        fail(place, "is not a Radiance picture that can be read");
+    Claim claim{std::uint64_t(width), std::uint64_t(height)};
+    std::optional<std::size_t> at = hdr_data_begin(bytes);
+    const bool packed = width >= 8 && width < 32768 && *at + 2 < bytes.size() && bytes[*at] == 2 &&
+                        bytes[*at + 1] == 2 && bytes[*at + 2] < 128;
+    if (packed)
+        for (int row = 0; row < height && at; ++row)
+            at = hdr_row_end(bytes, *at, width);
+    else
+        claim.possible = 4 * claim.width * claim.height <= bytes.size() - *at;
+    if (!at)
+        fail(place, "is a Radiance picture that is broken or cut short");
+    return claim;
+}
+
+/// Throws unless a claimed size can be true.
+void check_claim(const Claim& claim, std::size_t bytes, const std::string& place)
+{
+    const std::string size = std::to_string(claim.width) + " x " + std::to_string(claim.height);
+    if (claim.width == 0 || claim.height == 0)
+        fail(place, "claims " + size + " pixels");
+    if (claim.width > kLargestSide || claim.height > kLargestSide)
+        fail(place, "claims " + size + " pixels; at most " + std::to_string(kLargestSide) +
+                        " a side are read");
+    if (!claim.possible)
+        fail(place, "claims " + size + " pixels, more than its " + std::to_string(bytes) +
+                        " bytes can hold");
+}
+
 /// The decoder fills what is missing with grey; an end marker after the last scan proves the rest.
 bool jpeg_is_complete(const Bytes& bytes)
 {
@@ -111,15 +185,7 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
 
     // Believe the claimed size only if it can be true, before any memory is taken for it.
     const Claim claim = png ? png_claim(bytes, place) : jpeg_claim(bytes, place);
-    const std::string size = std::to_string(claim.width) + " x " + std::to_string(claim.height);
-    if (claim.width == 0 || claim.height == 0)
-        fail(place, "claims " + size + " pixels");
-    if (claim.width > kLargestSide || claim.height > kLargestSide)
-        fail(place, "claims " + size + " pixels; at most " + std::to_string(kLargestSide) +
-                        " a side are read");
-    if (!claim.possible)
-        fail(place, "claims " + size + " pixels, more than its " + std::to_string(bytes.size()) +
-                        " bytes can hold");
+    check_claim(claim, bytes.size(), place);
     if (!png && !jpeg_is_complete(bytes))
         fail(place, "is a JPEG image that is cut short");
 
@@ -136,6 +202,28 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
     const std::size_t count = std::size_t(texture.width) * std::size_t(texture.height) * kChannels;
     texture.rgba.assign(pixels.get(), pixels.get() + count);
     return texture;
+}
+
+Image decode_hdr(const Bytes& bytes, const std::string& place)
+{
+    if (bytes.size() > INT_MAX)
+        fail(place, "is larger than 2 GiB");
+    check_claim(hdr_claim(bytes, place), bytes.size(), place);
+
+    Image image;
+    image.channels = 3;
+    int channels_in_file = 0;
+    const std::unique_ptr<float, void (*)(void*)> pixels(
+        stbi_loadf_from_memory(bytes.data(), int(bytes.size()), &image.width, &image.height,
+                               &channels_in_file, image.channels),
+        stbi_image_free);
+    if (!pixels)
+        fail(place,
+             std::string("cannot be decoded as Radiance picture (") + stbi_failure_reason() + ")");
+    const std::size_t count =
+        std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
+    image.values.assign(pixels.get(), pixels.get() + count);
+    return image;
 }
 
 }  // namespace lumel

@@ -1,8 +1,9 @@
 #pragma once
-// Decoding of PNG and JPEG.
+// Decoding of PNG, JPEG and Radiance HDR.
 
 #include <string>
 
+#include "core/image.h"
 #include "scene/gltf_files.h"
 #include "scene/scene.h"
 
@@ -12,5 +13,9 @@ namespace lumel {
 /// Throws Error{input} if it is neither, broken, cut short, or claims more pixels than
 /// 16384 a side or than its bytes can encode.
 Texture decode_image(const Bytes& bytes, const std::string& place);
+
+/// Decodes a Radiance picture (.hdr, RGBE from the top left) to 3 channels of linear light, in the
+/// file's own unit. Throws Error{input} as decode_image does.
+Image decode_hdr(const Bytes& bytes, const std::string& place);
 
 }  // namespace lumel

@@ -1,14 +1,20 @@
 #include "scene/gltf_lights.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <glm/gtc/constants.hpp>
+
+#include "scene/ies.h"
 
 namespace lumel {
 
 namespace {
 
 constexpr const char* kLights = "KHR_lights_punctual";
+constexpr const char* kProfiles = "EXT_lights_ies";
 
 void read_cone(const JsonView& view, PunctualLight& light)
 {
@@ -75,24 +81,129 @@ Camera read_camera(const JsonView& view)
     return camera;
 }
 
+/// IES files of EXT_lights_ies, each read when a node first names it.
+class ProfileList {
+public:
+    ProfileList(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
+
+    /// Where it is in Scene::profiles.
+    int find(const JsonView& reference)
+    {
+        const auto list = document_.root().extension(kProfiles);
+        const std::size_t count = list ? list->count("lights") : 0;
+        const std::size_t index = reference.index(count, "lights");
+        known_.resize(count, -1);
+        if (known_[index] < 0) {
+            const JsonView view = list->get("lights").at(index);
+            known_[index] = int(scene_.profiles.size());
+            scene_.profiles.push_back(read_ies(read_linked_bytes(document_, view), view.place(),
+                                               view.string_or("name", "")));
+        }
+        return known_[index];
+    }
+
+private:
+    const GltfDocument& document_;
+    Scene& scene_;
+    std::vector<int> known_;  ///< by the file's index, -1: not read yet
+};
+
+/// A number of an object's extras; nothing if there is none, as anything may stand there.
+std::optional<float> extra(const JsonView& view, const char* key)
+{
+    const auto extras = view.find("extras");
+    if (!extras || !extras->json().is_object())
+        return std::nullopt;
+    const auto value = extras->find(key);
+    if (!value || !value->json().is_number())
+        return std::nullopt;
+    const float number = value->number();
+    if (number < 0.0f)
+        value->fail("is a size and cannot be below 0");
+    return number;
+}
+
+/// How large it is, as no extension says: {"radius": m} or {"angle": rad} of node or light.
+void read_size(const JsonView& view, PunctualLight& light)
+{
+    constexpr float kLargestAngle = glm::quarter_pi<float>();
+    if (light.kind == PunctualLight::Kind::directional)
+        light.angle = std::min(extra(view, "angle").value_or(light.angle), kLargestAngle);
+    else
+        light.radius = extra(view, "radius").value_or(light.radius);
+}
+
+/// EXT_lights_ies: the profile's candela times "multiplier", tinted. A punctual light on the same
+/// node is the same lamp: it keeps its kind, cone, range and colour.
+void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLight& light)
+{
+    glm::vec3 color(1.0f);
+    extension.numbers("color", &color.x, 3);
+    light.color *= glm::clamp(color, 0.0f, 1.0f);
+    light.intensity = extension.number_or("multiplier", 1.0f);
+    if (light.intensity < 0.0f)
+        extension.fail("shines with a negative multiplier");
+    if (light.kind == PunctualLight::Kind::directional)
+        extension.fail("stands on the node of a directional light, which has no place");
+    light.profile = profiles.find(extension.get("light"));
+}
+
+/// The light on a node, if there is one; without its place.
+std::optional<PunctualLight> read_light_of(const JsonView& root, const JsonView& node,
+                                           ProfileList& profiles)
+{
+    const auto punctual = node.extension(kLights);
+    const auto photometric = node.extension(kProfiles);
+    if (!punctual && !photometric)
+        return std::nullopt;
+    PunctualLight light;
+    std::string fallback = "light";
+    if (punctual) {
+        const auto list = root.extension(kLights);
+        const std::size_t count = list ? list->count("lights") : 0;
+        const std::size_t index = punctual->get("light").index(count, "lights");
+        const JsonView view = list->get("lights").at(index);
+        light = read_light(view);
+        read_size(view, light);
+        fallback += " " + std::to_string(index);
+    }
+    if (photometric)
+        read_profile(*photometric, profiles, light);
+    read_size(node, light);
+    if (light.name.empty())
+        light.name = node.string_or("name", fallback);
+    return light;
+}
+
+/// A node's place and turn; its scale does not count. Flattened ones shine as if unturned.
+glm::mat4 without_scale(const glm::dmat4& world)
+{
+    glm::dmat4 rigid(1.0);
+    rigid[3] = world[3];
+    const glm::dvec3 x(world[0]), y(world[1]), z(world[2]);
+    const double side = glm::dot(x, glm::cross(y, z));
+    if (side == 0.0)
+        return rigid;
+    const glm::dvec3 along = glm::normalize(z);
+    const glm::dvec3 right = glm::normalize(x - glm::dot(x, along) * along);
+    rigid[0] = glm::dvec4(right, 0.0);
+    rigid[1] = glm::dvec4(glm::cross(along, right) * (side < 0.0 ? -1.0 : 1.0), 0.0);
+    rigid[2] = glm::dvec4(along, 0.0);
+    return rigid;
+}
+
 }  // namespace
 
 void read_lights_and_cameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
                              Scene& scene)
 {
     const JsonView root = document.root();
-    const auto light_list = root.extension(kLights);
+    ProfileList profiles(document, scene);
     for (const PlacedNode& placed : nodes) {
         const JsonView node = root.get("nodes").at(placed.node);
-        if (const auto extension = node.extension(kLights)) {
-            const JsonView reference = extension->get("light");
-            const std::size_t count = light_list ? light_list->count("lights") : 0;
-            const std::size_t index = reference.index(count, "lights");
-            PunctualLight light = read_light(light_list->get("lights").at(index));
-            light.transform = placed.world;
-            if (light.name.empty())
-                light.name = node.string_or("name", "light " + std::to_string(index));
-            scene.lights.push_back(light);
+        if (auto light = read_light_of(root, node, profiles)) {
+            light->transform = without_scale(placed.world);
+            scene.lights.push_back(*light);
         }
         if (const auto reference = node.find("camera")) {
             const std::size_t index = reference->index(root.count("cameras"), "cameras");

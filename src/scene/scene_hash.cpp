@@ -107,6 +107,9 @@ void add_light(Hash& hash, const PunctualLight& light)
     hash.add(light.range);
     hash.add(light.inner_cone);
     hash.add(light.outer_cone);
+    hash.add(light.radius);
+    hash.add(light.angle);
+    hash.add(light.profile);
     hash.add(light.transform);
 }
 
@@ -133,6 +136,11 @@ std::string hash_scene(const Scene& scene)
     }
     for (const PunctualLight& light : scene.lights)
         add_light(hash, light);
+    for (const Photometry& profile : scene.profiles)
+        hash.add(profile.candela);
+    hash.add(scene.sky.width);
+    hash.add(scene.sky.height);
+    hash.add(scene.sky.radiance);
     return hash.hex();
 }
 

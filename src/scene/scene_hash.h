@@ -8,7 +8,7 @@
 namespace lumel {
 
 /// 16 hex digits over all that decides the light: geometry, placement, materials, texture
-/// contents, lights. Names, cameras and the encoding of the file do not count.
+/// contents, lights, sky. Names, cameras and the encoding of the file do not count.
 std::string hash_scene(const Scene& scene);
 
 }  // namespace lumel

@@ -90,6 +90,20 @@ float sky_texel_angle(const Sky& sky, int row)
     return float(angle_of(sky, row));
 }
 
+glm::dvec3 sky_irradiance(const Sky& sky)
+{
+    // ∫ cos θ dω of a texel is Δφ (sin²θ₁ − sin²θ₀) / 2, down to the horizon.
+    glm::dvec3 sum(0.0);
+    for (int row = 0; row < (sky.height + 1) / 2; ++row) {
+        const double above = cosine_above(sky, row);
+        const double below = std::max(0.0, cosine_above(sky, row + 1));
+        const double weight = kPi / sky.width * (above * above - below * below);
+        for (int column = 0; column < sky.width; ++column)
+            sum += weight * glm::dvec3(sky.radiance[index_of(sky, {row, column})]);
+    }
+    return sum;
+}
+
 SkySampler::SkySampler(const Sky& sky) : sky_(&sky)
 {
     if (sky.empty())

@@ -24,6 +24,9 @@ glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction);
 /// Solid angle [sr] of a texel of a row.
 float sky_texel_angle(const Sky& sky, int row);
 
+/// Irradiance [lx] of an open horizontal plane that faces up.
+glm::dvec3 sky_irradiance(const Sky& sky);
+
 /// A direction of the sky, drawn with a known density.
 struct SkySample {
     glm::vec3 direction;  ///< unit, towards the sky

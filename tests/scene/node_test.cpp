@@ -155,6 +155,89 @@ TEST(Nodes, PunctualLightsAreStoredWithAWarning)
     EXPECT_TRUE(warns(scene, "not solved yet"));
 }
 
+TEST(Nodes, ScaleDoesNotCountForLightsButMirrorsDo)
+{
+    GltfBuilder builder = one_triangle();
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"][0] = {{"type", "point"}};
+    builder.json["nodes"][0] = {{"mesh", 0},
+                                {"scale", {2, -3, 5}},
+                                {"rotation", {0, 0.70710678, 0, 0.70710678}},
+                                {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+    const glm::mat3 frame(builder.read().lights.at(0).transform);
+    EXPECT_LT(glm::distance(frame[0], glm::vec3(0, 0, -1)), 1e-6f);
+    EXPECT_LT(glm::distance(frame[1], glm::vec3(0, -1, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(frame[2], glm::vec3(1, 0, 0)), 1e-6f);
+}
+
+TEST(Nodes, ExtrasGiveLightsTheirSizeAndTheNodeHasTheLastWord)
+{
+    GltfBuilder builder = one_triangle();
+    Json& light = builder.json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    light = {{"type", "point"}, {"extras", {{"radius", 0.25}, {"angle", 1}}}};
+    Json& node = builder.json["nodes"][0];
+    node["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    EXPECT_FLOAT_EQ(builder.read().lights.at(0).radius, 0.25f);
+    EXPECT_EQ(builder.read().lights.at(0).angle, 0.0f);
+    node["extras"] = {{"radius", 0.5}};
+    EXPECT_FLOAT_EQ(builder.read().lights.at(0).radius, 0.5f);
+    light["type"] = "directional";
+    node["extras"] = "anything";
+    EXPECT_FLOAT_EQ(builder.read().lights.at(0).angle, 0.785398f);  // 1 rad is more than can be
+    light["extras"] = {{"angle", -1}};
+    EXPECT_TRUE(contains(error_of(builder), "/extras/angle: is a size"));
+}
+
+TEST(Nodes, PhotometricLightsShineAsTheirFileSays)
+{
+    const std::string ies = "IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 1\n0 90 0 30 30\n";
+    GltfBuilder builder = one_triangle();
+    const int view = builder.add_view(ies.data(), ies.size());
+    builder.json["extensionsRequired"] = {"EXT_lights_ies"};
+    builder.json["extensions"]["EXT_lights_ies"]["lights"] =
+        Json::array({{{"name", "unused"}, {"uri", "absent.ies"}},
+                     {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}}});
+    builder.push("nodes", {{"extensions", {{"EXT_lights_ies", {{"light", 1}}}}}});
+    Json& node = builder.json["nodes"][0];
+    node["name"] = "lamp";
+    Json& use = node["extensions"]["EXT_lights_ies"];
+    use["light"] = 1;
+    use["multiplier"] = 2;
+    use["color"] = {1, 0.5, 3};
+    builder.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = builder.read();
+    ASSERT_EQ(scene.lights.size(), 2u);
+    ASSERT_EQ(scene.profiles.size(), 1u);
+    EXPECT_EQ(scene.lights[0].name, "lamp");
+    EXPECT_EQ(scene.lights[0].kind, PunctualLight::Kind::point);
+    EXPECT_EQ(intensity_towards(scene, scene.lights[0], {0, 0, -1}), glm::vec3(60, 30, 60));
+    EXPECT_EQ(intensity_towards(scene, scene.lights[1], {0, 0, -1}), glm::vec3(30));
+    EXPECT_EQ(intensity_towards(scene, scene.lights[1], {0, 0, 1}), glm::vec3(0));
+
+    use["light"] = 2;
+    EXPECT_TRUE(contains(error_of(builder), "refers to lights[2]"));
+    use["light"] = 0;
+    EXPECT_TRUE(contains(error_of(builder), "absent.ies"));
+}
+
+TEST(Nodes, APunctualLightWithAProfileIsOneLamp)
+{
+    const std::string ies = "IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 1\n0 90 0 30 30\n";
+    GltfBuilder builder = one_triangle();
+    const int view = builder.add_view(ies.data(), ies.size());
+    builder.json["extensions"]["EXT_lights_ies"]["lights"][0]["bufferView"] = view;
+    Json& light = builder.json["extensions"]["KHR_lights_punctual"]["lights"][0];
+    light = {
+        {"type", "spot"}, {"intensity", 900}, {"color", {1, 0.5, 0}}, {"spot", Json::object()}};
+    builder.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0}}},
+                                              {"EXT_lights_ies", {{"light", 0}}}};
+    const Scene scene = builder.read();
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].kind, PunctualLight::Kind::spot);
+    EXPECT_EQ(intensity_towards(scene, scene.lights[0], {0, 0, -1}), glm::vec3(30, 15, 0));
+    light["type"] = "directional";
+    EXPECT_TRUE(contains(error_of(builder), "directional light"));
+}
+
 TEST(Nodes, LightsThatMakeNoSenseAreErrors)
 {
     GltfBuilder builder = one_triangle();

@@ -1,0 +1,214 @@
+#include "scene/light_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/gtc/constants.hpp>
+
+#include "core/error.h"
+#include "core/number.h"
+#include "scene/clear_sky.h"
+#include "scene/gltf_files.h"
+#include "scene/ies.h"
+#include "scene/scene_hash.h"
+#include "scene/sky_file.h"
+
+namespace lumel {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& what)
+{
+    throw Error(ErrorKind::input, option, what);
+}
+
+std::vector<std::string> split(const std::string& text)
+{
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t comma = text.find(','); comma != std::string::npos;
+         comma = text.find(',', begin)) {
+        parts.push_back(text.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+/// Alike from everywhere. As fine as is good for those who take a sky texel by texel.
+Sky even_sky(const glm::vec3& radiance)
+{
+    Sky sky{.width = 64, .height = 32};
+    sky.radiance.assign(std::size_t(sky.width) * std::size_t(sky.height), radiance);
+    return sky;
+}
+
+/// The sun where --sky-rotation puts it: azimuths grow clockwise.
+SunPosition placed_sun(const LightOptions& options)
+{
+    SunPosition sun = *options.sun;
+    sun.azimuth -= options.sky_rotation;
+    return sun;
+}
+
+/// The sky asked for, or else the scene's own, turned and scaled.
+void add_sky(Scene& scene, const LightOptions& options)
+{
+    if (!options.sky_file.empty())
+        scene.sky = read_sky(options.sky_file);
+    else if (options.sky_color)
+        scene.sky = even_sky(*options.sky_color);
+    else if (options.sun)
+        scene.sky = clear_sky(*options.sun);
+    if (options.sky_rotation != 0.0)
+        scene.sky = turned(scene.sky, options.sky_rotation);
+    for (glm::vec3& radiance : scene.sky.radiance)
+        radiance *= options.sky_scale;
+}
+
+void add_sun(Scene& scene, const LightOptions& options)
+{
+    if (options.sun->elevation > 0.0) {
+        scene.lights.push_back(sun_light(placed_sun(options)));
+        scene.lights.back().angle = options.sun_angle.value_or(scene.lights.back().angle);
+    } else {
+        scene.warnings.emplace_back(
+            "the sun given by --sun is below the horizon: it gives no light");
+    }
+}
+
+void give_sizes(Scene& scene, const LightOptions& options)
+{
+    for (PunctualLight& light : scene.lights) {
+        if (light.kind == PunctualLight::Kind::directional)
+            light.angle = light.angle > 0.0f ? light.angle : options.sun_angle.value_or(0.0f);
+        else
+            light.radius = light.radius > 0.0f ? light.radius : options.light_radius;
+    }
+}
+
+/// "'a', 'b'": lights that can have a profile, each name once.
+std::string names_of(const Scene& scene)
+{
+    std::vector<std::string> names;
+    for (const PunctualLight& light : scene.lights)
+        if (light.kind != PunctualLight::Kind::directional &&
+            std::find(names.begin(), names.end(), light.name) == names.end())
+            names.push_back(light.name);
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + quoted(name);
+    return list;
+}
+
+void attach_profile(Scene& scene, const LightProfile& profile)
+{
+    bool found = false;
+    for (PunctualLight& light : scene.lights)
+        if (light.name == profile.light && light.kind != PunctualLight::Kind::directional) {
+            light.profile = int(scene.profiles.size());
+            light.intensity = 1.0f;  // the file's candela stand in for it
+            found = true;
+        }
+    if (!found) {
+        const std::string names = names_of(scene);
+        refuse("--ies", "the scene has no point or spot light " + quoted(profile.light) +
+                            (names.empty() ? ", nor any other" : "; it has " + names));
+    }
+    scene.profiles.push_back(
+        read_ies(read_file(profile.path, profile.path), profile.path, profile.light));
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions& options)
+{
+    std::vector<std::pair<std::string, std::string>> settings;
+    const auto say = [&](const char* name, const std::vector<double>& values) {
+        std::string text;
+        for (const double value : values) {
+            std::array<char, 32> digits{};
+            std::snprintf(digits.data(), digits.size(), "%s%.7g", text.empty() ? "" : ",", value);
+            text += digits.data();
+        }
+        settings.emplace_back(name, text);
+    };
+    if (!options.sky_file.empty())
+        settings.emplace_back("sky", options.sky_file);
+    else if (const auto& color = options.sky_color)
+        say("sky", {color->r, color->g, color->b});
+    if (options.sky_scale != 1.0f)
+        say("sky-scale", {options.sky_scale});
+    if (options.sky_rotation != 0.0)
+        say("sky-rotation", {glm::degrees(options.sky_rotation)});
+    if (const auto& sun = options.sun)
+        say("sun", {glm::degrees(sun->azimuth), glm::degrees(sun->elevation)});
+    if (options.sun_angle)
+        say("sun-angle", {glm::degrees(*options.sun_angle)});
+    if (options.light_radius > 0.0f)
+        say("light-radius", {options.light_radius});
+    for (const LightProfile& profile : options.profiles)
+        settings.emplace_back("ies", profile.light + "=" + profile.path);
+    return settings;
+}
+
+void add_lights(Scene& scene, const LightOptions& options)
+{
+    add_sky(scene, options);
+    for (const LightProfile& profile : options.profiles)
+        attach_profile(scene, profile);
+    if (options.sun)
+        add_sun(scene, options);
+    give_sizes(scene, options);
+    scene.hash = hash_scene(scene);
+}
+
+void set_sky(LightOptions& options, const std::string& text)
+{
+    const std::vector<std::string> parts = split(text);
+    std::vector<double> values;
+    for (const std::string& part : parts)
+        if (const auto value = number_of(part))
+            values.push_back(*value);
+    if (values.size() != parts.size()) {
+        options.sky_file = text;
+        return;
+    }
+    if (values.size() != 3 || *std::min_element(values.begin(), values.end()) < 0.0)
+        refuse("--sky",
+               quoted(text) + " is neither a file nor three numbers R,G,B of 0 or more in cd/m2");
+    options.sky_color = glm::vec3(values[0], values[1], values[2]);
+}
+
+void set_sun(LightOptions& options, const std::string& text)
+{
+    const std::vector<std::string> parts = split(text);
+    const auto first = number_of(parts[0]);
+    const auto second = parts.size() > 1 ? number_of(parts[1]) : std::nullopt;
+    if ((parts.size() != 2 && parts.size() != 3) || !first || !second)
+        refuse("--sun", quoted(text) +
+                            " is neither AZIMUTH,ELEVATION in degrees nor LATITUDE,LONGITUDE,"
+                            "DATETIME such as 47.5,19.0,2024-06-21T12:00:00Z");
+    if (parts.size() == 2) {
+        if (std::abs(*second) > 90.0)
+            refuse("--sun", "the elevation must lie between -90 and 90 degrees");
+        options.sun = SunPosition{glm::radians(*first), glm::radians(*second)};
+        return;
+    }
+    if (std::abs(*first) > 90.0 || std::abs(*second) > 180.0)
+        refuse("--sun", "the latitude must lie between -90 and 90 degrees, the longitude between "
+                        "-180 and 180");
+    options.sun =
+        sun_position(glm::radians(*first), glm::radians(*second), seconds_since_2000(parts[2]));
+}
+
+void add_profile(LightOptions& options, const std::string& text)
+{
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+        refuse("--ies", quoted(text) + " is not of the form LIGHT=FILE");
+    options.profiles.push_back({text.substr(0, sign), text.substr(sign + 1)});
+}
+
+}  // namespace lumel

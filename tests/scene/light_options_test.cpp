@@ -1,0 +1,201 @@
+// Lights that the command line adds.
+
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/luminance.h"
+#include "gltf_builder.h"
+#include "images/image_files.h"
+#include "scene/clear_sky.h"
+#include "scene/light_options.h"
+
+using namespace lumel;
+using namespace lumel::test;
+
+namespace {
+
+const char* const kLamp = "IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 1\n0 90 0 30 30\n";
+
+Scene with_lights()
+{
+    Scene scene;
+    scene.lights = {{.kind = PunctualLight::Kind::point, .name = "bulb", .intensity = 50.0f},
+                    {.kind = PunctualLight::Kind::spot, .name = "spot"},
+                    {.kind = PunctualLight::Kind::directional, .name = "day"}};
+    return scene;
+}
+
+template <typename Action>
+std::string error_in(const Action& action)
+{
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST(LightOptions, NothingAskedForChangesNothing)
+{
+    Scene scene = one_triangle().read();
+    const std::string hash = scene.hash;
+    add_lights(scene, {});
+    EXPECT_EQ(scene.hash, hash);
+    EXPECT_TRUE(scene.sky.empty());
+    EXPECT_TRUE(settings_of(LightOptions{}).empty());
+}
+
+TEST(LightOptions, AConstantSkyLightsAPlaneWithPiTimesItsRadiance)
+{
+    LightOptions options;
+    set_sky(options, "1,2,0.5");
+    options.sky_scale = 3.0f;
+    Scene scene;
+    add_lights(scene, options);
+    const glm::dvec3 irradiance = sky_irradiance(scene.sky);
+    EXPECT_NEAR(irradiance.r, 3.0 * std::acos(-1.0), 1e-4);
+    EXPECT_NEAR(irradiance.g, 6.0 * std::acos(-1.0), 1e-4);
+    EXPECT_NEAR(irradiance.b, 1.5 * std::acos(-1.0), 1e-4);
+}
+
+TEST(LightOptions, ASkyFileTakesThePlaceOfTheScenesSky)
+{
+    const TempFolder folder;
+    Image image(2, 2, 3);
+    image.values.assign(12, 7.0f);
+    write_exr(folder.path("1,2,sky.exr"), image, Precision::float32, {});
+    LightOptions options;
+    set_sky(options, folder.path("1,2,sky.exr"));
+    Scene scene;
+    scene.sky = {.width = 1, .height = 1, .radiance = {glm::vec3(1.0f)}};
+    add_lights(scene, options);
+    EXPECT_EQ(scene.sky.width, 2);
+    EXPECT_EQ(scene.sky.radiance[3], glm::vec3(7.0f));
+}
+
+TEST(LightOptions, TheSunBringsItsSkyUnlessThereIsAnother)
+{
+    LightOptions options;
+    set_sun(options, "90,30");
+    Scene scene;
+    add_lights(scene, options);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_LT(glm::distance(glm::vec3(scene.lights[0].transform[2]),
+                            glm::vec3(std::cos(0.5235988f), 0.5f, 0.0f)),
+              1e-5f);
+    EXPECT_NEAR(scene.lights[0].angle, kSunAngle, 1e-7f);
+    EXPECT_NEAR(luminance(sky_irradiance(scene.sky)), clear_sky_illuminance(glm::radians(30.0)),
+                10.0);
+
+    set_sky(options, "0,0,0");
+    options.sun_angle = 0.1f;
+    Scene under_black;
+    add_lights(under_black, options);
+    EXPECT_EQ(sky_irradiance(under_black.sky).r, 0.0);
+    ASSERT_EQ(under_black.lights.size(), 1u);
+    EXPECT_FLOAT_EQ(under_black.lights[0].angle, 0.1f);
+}
+
+TEST(LightOptions, SunAndSkyTurnTogether)
+{
+    LightOptions options;
+    set_sun(options, "90,30");
+    options.sky_rotation = glm::radians(90.0);  // east to north
+    Scene scene;
+    add_lights(scene, options);
+    const glm::vec3 to_sun = glm::vec3(scene.lights[0].transform[2]);
+    EXPECT_LT(glm::distance(to_sun, {0.0f, 0.5f, -std::cos(0.5235988f)}), 1e-5f);
+    EXPECT_GT(luminance(sky_radiance(scene.sky, to_sun)),
+              3.0 * luminance(sky_radiance(scene.sky, {-to_sun.z, to_sun.y, 0.0f})));
+}
+
+TEST(LightOptions, ASunBelowTheHorizonGivesAWarning)
+{
+    LightOptions options;
+    set_sun(options, "47.5,19.0,2024-06-21T23:00:00Z");
+    Scene scene;
+    add_lights(scene, options);
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_TRUE(warns(scene, "below the horizon"));
+    EXPECT_EQ(sky_irradiance(scene.sky).r, 0.0);
+}
+
+TEST(LightOptions, SizesAreForLightsThatHaveNone)
+{
+    LightOptions options;
+    options.light_radius = 0.2f;
+    options.sun_angle = 0.01f;
+    Scene scene = with_lights();
+    scene.lights[1].radius = 0.5f;
+    add_lights(scene, options);
+    EXPECT_FLOAT_EQ(scene.lights[0].radius, 0.2f);
+    EXPECT_FLOAT_EQ(scene.lights[1].radius, 0.5f);
+    EXPECT_FLOAT_EQ(scene.lights[2].angle, 0.01f);
+    EXPECT_EQ(scene.lights[2].radius, 0.0f);
+}
+
+TEST(LightOptions, AProfileReplacesTheIntensityOfALight)
+{
+    const TempFolder folder;
+    LightOptions options;
+    add_profile(options, "bulb=" + folder.write("a=b.ies", std::string(kLamp)));
+    Scene scene = with_lights();
+    add_lights(scene, options);
+    EXPECT_EQ(scene.lights[0].profile, 0);
+    EXPECT_EQ(scene.lights[1].profile, -1);
+    EXPECT_FLOAT_EQ(intensity_towards(scene, scene.lights[0], {0, 0, -1}).x, 30.0f);
+    EXPECT_FLOAT_EQ(intensity_towards(scene, scene.lights[0], {0, 0, 1}).x, 0.0f);
+}
+
+TEST(LightOptions, AProfileForNoLightNamesThoseThereAre)
+{
+    const TempFolder folder;
+    const std::string file = folder.write("lamp.ies", std::string(kLamp));
+    LightOptions options;
+    options.profiles = {{"day", file}};
+    Scene scene = with_lights();
+    const std::string error = error_in([&] { add_lights(scene, options); });
+    EXPECT_TRUE(contains(error, "no point or spot light \"day\"; it has \"bulb\", \"spot\""))
+        << error;
+    Scene dark;
+    EXPECT_TRUE(contains(error_in([&] { add_lights(dark, options); }), "nor any other"));
+}
+
+TEST(LightOptions, EveryLightCountsInTheHash)
+{
+    const auto hash_with = [](const LightOptions& options) {
+        Scene scene = with_lights();
+        add_lights(scene, options);
+        return scene.hash;
+    };
+    LightOptions sky, turned_sky, sun, radius, angle;
+    set_sky(sky, "1,1,1");
+    set_sky(turned_sky, "1,1,2");
+    set_sun(sun, "10,40");
+    radius.light_radius = 0.1f;
+    angle.sun_angle = 0.1f;
+    const std::vector<std::string> hashes = {hash_with({}),         hash_with(sky),
+                                             hash_with(turned_sky), hash_with(sun),
+                                             hash_with(radius),     hash_with(angle)};
+    for (std::size_t i = 0; i < hashes.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_NE(hashes[i], hashes[k]) << i << " and " << k;
+}
+
+TEST(LightOptions, MistakesAreNamed)
+{
+    LightOptions options;
+    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,2"); }), "--sky"));
+    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,-2,1"); }), "0 or more"));
+    for (const char* text : {"", "1", "1,x", "1,2,3", "1,2,3,4", "1,91", "91,0,2024-06-21T12:00",
+                             "0,181,2024-06-21T12:00"})
+        EXPECT_NE(error_in([&] { set_sun(options, text); }), "") << text;
+    for (const char* text : {"", "lamp", "=file", "lamp="})
+        EXPECT_TRUE(contains(error_in([&] { add_profile(options, text); }), "LIGHT=FILE")) << text;
+}
