@@ -10,8 +10,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
+#include <glm/trigonometric.hpp>
 
 #include "core/error.h"
+#include "core/number.h"
 
 namespace lumel {
 namespace {
@@ -25,6 +27,8 @@ constexpr int kMostPaths = 100'000'000;
 constexpr int kMostCameras = 1'000'000;
 constexpr int kMostPlaces = 256;
 constexpr int kMostRays = 4096;
+constexpr double kMostDegrees = 36000.0;   // a turn that still has decimals as float
+constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
 
 /// Accepts whole numbers from `low` to `high`.
 CLI::Validator whole(std::int64_t low, std::int64_t high)
@@ -46,6 +50,18 @@ CLI::Validator positive()
         if (CLI::detail::lexical_cast(text, value) && value > 0.0 && std::isfinite(value))
             return {};
         return fmt::format("'{}' is not a number above 0", text);
+    };
+    return CLI::Validator(check, "");
+}
+
+/// Accepts finite numbers from `low` to `high`.
+CLI::Validator between(double low, double high)
+{
+    const auto check = [low, high](const std::string& text) -> std::string {
+        const auto value = number_of(text);
+        if (value && *value >= low && *value <= high)
+            return {};
+        return fmt::format("'{}' is not a number from {:g} to {:g}", text, low, high);
     };
     return CLI::Validator(check, "");
 }
@@ -118,6 +134,50 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
         ->check(whole(0, kLargestGutter));
 }
 
+/// Light from outside, and what lamps are like.
+void add_light_options(CLI::App& app, LightOptions& lights)
+{
+    app.add_option_function<std::string>(
+           "--sky", [&lights](const std::string& text) { set_sky(lights, text); },
+           "Light from all around: an .exr or .hdr image in cd/m2, +x at its centre, or one colour")
+        ->type_name("FILE|R,G,B");
+    app.add_option("--sky-scale", lights.sky_scale, "Factor to the light of the sky")
+        ->type_name("F")
+        ->check(positive());
+    app.add_option_function<double>(
+           "--sky-rotation",
+           [&lights](double degrees) { lights.sky_rotation = glm::radians(degrees); },
+           "Turn the sky, and --sun, about +y, counter-clockwise as seen from above")
+        ->type_name("DEGREES")
+        ->check(between(-kMostDegrees, kMostDegrees));
+    app.add_option_function<std::string>(
+           "--sun", [&lights](const std::string& text) { set_sun(lights, text); },
+           "Sun, and without --sky a clear sky: AZIMUTH (clockwise from north, which is -z), "
+           "ELEVATION in degrees, or LATITUDE,LONGITUDE,DATETIME such as "
+           "47.5,19.0,2024-06-21T12:00:00Z")
+        ->type_name("PLACE");
+    app.add_option_function<double>(
+           "--sun-angle",
+           [&lights](double degrees) { lights.sun_angle = float(glm::radians(degrees)); },
+           "Half the angle of the sun's disc, and of directional lights that have none "
+           "(default: 0.2665 for --sun)")
+        ->type_name("DEGREES")
+        ->check(between(0.0, kLargestSunAngle));
+    app.add_option("--light-radius", lights.light_radius,
+                   "Radius of point and spot lights that have none")
+        ->type_name("METRES")
+        ->check(positive());
+    app.add_option_function<std::vector<std::string>>(
+           "--ies",
+           [&lights](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts)
+                   add_profile(lights, text);
+           },
+           "IES photometric file for the point or spot lights of a name; may be repeated")
+        ->type_name("LIGHT=FILE")
+        ->allow_extra_args(false);  // one at a time, so that a scene may follow
+}
+
 void add_talk_options(CLI::App& app, Talk& talk)
 {
     app.add_flag("-q,--quiet", talk.quiet, "Say nothing but warnings and errors");
@@ -184,6 +244,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     command.add_option("folder", bake.folder, "Where the results go")
         ->required()
         ->type_name("FOLDER");
+    add_light_options(command, bake.options.lights);
     add_atlas_options(command, bake.options.atlas);
     add_method_options(command, bake.options.solver);
     add_solver_options(command, bake.options.solver);
@@ -242,6 +303,7 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
                     "Trace this many paths per pixel on the CPU instead, to compare with")
         ->type_name("N")
         ->check(whole(1, kMostPaths));
+    add_light_options(command, options.bake.lights);
     add_atlas_options(command, options.bake.atlas);
     add_solver_options(command, options.bake.solver);
     add_stop_options(command, options.bake.solver);
@@ -277,6 +339,7 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
         "Pass light on by glossy reflection too, as --solver glossy does");
     add_choice(command, "--only", reference.reference.parts, kParts,
                "Of the arriving light only what comes straight from its source, or only the rest");
+    add_light_options(command, reference.options.lights);
     add_atlas_options(command, reference.options.atlas);
     command.add_flag("--half", reference.options.half, "Write lightmap.exr in half precision");
     add_talk_options(command, reference.talk);
@@ -288,6 +351,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info)
     CLI::App& command =
         *app.add_subcommand("info", "Say what is in a scene and what a bake would take");
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
+    add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
     add_view_options(command, info.options.solver);
     command.add_flag("--json", info.json, "Print JSON");

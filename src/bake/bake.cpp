@@ -28,7 +28,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 {
     Stages stages(progress);
     stages.begin("reading");
-    Scene scene = read_gltf(scene_path, method_of(options.solver.method).materials);
+    Scene scene =
+        read_scene(scene_path, method_of(options.solver.method).materials, options.lights);
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);
@@ -65,7 +66,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
 {
     Stages stages(progress);
     stages.begin("reading");
-    Scene scene = read_gltf(scene_path, materials);
+    Scene scene = read_scene(scene_path, materials, options.lights);
     OutputFolder output(folder);
     stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);

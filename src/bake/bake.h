@@ -7,12 +7,14 @@
 
 #include "atlas/atlas.h"
 #include "reference/reference.h"
+#include "scene/light_options.h"
 #include "solve/directional.h"
 #include "solve/solver.h"
 
 namespace lumel {
 
 struct BakeOptions {
+    LightOptions lights;
     AtlasOptions atlas;
     SolverOptions solver;
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best

@@ -1,5 +1,7 @@
 // lumel info: what is in a scene and what a bake would take.
 
+#include <array>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +72,9 @@ ordered_json facts(const Prepared& world, const SolverOptions& solver)
     json["emissive_materials"] = emissive;
     json["textures"] = scene.textures.size();
     json["punctual_lights"] = scene.lights.size();
+    json["photometric_profiles"] = scene.profiles.size();
+    const glm::dvec3 sky = sky_irradiance(scene.sky);
+    json["sky_irradiance_lx"] = {sky.r, sky.g, sky.b};
     json["cameras"] = scene.cameras.size();
     json["surface_area_m2"] = area;
     json["surfaces"] = world.atlas.surfaces.size();
@@ -113,6 +118,10 @@ std::string text_of(const ordered_json& json)
     line("cameras", fmt::format("{}", count("cameras")));
     line("punctual lights", fmt::format("{}{}", count("punctual_lights"),
                                         count("punctual_lights") ? " (not solved yet)" : ""));
+    const auto sky = json["sky_irradiance_lx"].get<std::array<double, 3>>();
+    if (sky != std::array<double, 3>{})
+        line("sky", fmt::format("{:.4g}, {:.4g}, {:.4g} lx on an open plane that faces up", sky[0],
+                                sky[1], sky[2]));
     line("lightmap UVs", lightmap_uv_text(json));
     line("atlas", fmt::format("{} × {} texels, {:.4g} texels per metre, {} charts",
                               count("atlas_width"), count("atlas_height"),
@@ -132,7 +141,8 @@ std::string text_of(const ordered_json& json)
 
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
 {
-    const Prepared world(scene_path, options.atlas);
+    const Prepared world(read_scene(scene_path, MaterialModel::diffuse, options.lights),
+                         options.atlas);
     const ordered_json all = facts(world, options.solver);
     return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
 }

@@ -81,7 +81,8 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
     write_maps(folder, finish_map(world.scene, world.atlas, world.lumels, irradiance), options.half,
                world, {});
     stages.end();
-    const std::string report = to_json(reference_report(reference, world, stopped, stages));
+    const std::string report =
+        to_json(reference_report(options.lights, reference, world, stopped, stages));
     write_text(folder.path("report.json"), report);
     folder.commit();
     return {std::uint64_t(reference.samples_per_lumel), -1.0, stages.seconds(), stopped, report};

@@ -5,6 +5,13 @@
 
 namespace lumel {
 
+Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights)
+{
+    Scene scene = read_gltf(path, model);
+    add_lights(scene, lights);
+    return scene;
+}
+
 Prepared::Prepared(Scene given, const AtlasOptions& options)
     : scene(std::move(given)),
       rays(scene),

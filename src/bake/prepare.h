@@ -5,9 +5,12 @@
 
 #include "atlas/atlas.h"
 #include "rays/ray_scene.h"
-#include "scene/scene.h"
+#include "scene/light_options.h"
 
 namespace lumel {
+
+/// Reads a scene and adds the lights asked for. Throws Error.
+Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
 
 /// A scene with its lumels; buried ones are marked. Stays where it was made, since the rays look
 /// into the scene.

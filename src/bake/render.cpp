@@ -224,7 +224,7 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     check(picture_path, options);
     Stages stages(progress);
     stages.begin("reading");
-    Made made = make(read_gltf(scene_path, MaterialModel::glossy), options, stages);
+    Made made = make(read_scene(scene_path, MaterialModel::glossy, options.bake.lights), options, stages);
     write_picture(picture_path, made.image);
     made.report.files = {std::filesystem::path(picture_path).filename().string()};
     return summary_of(made.report);

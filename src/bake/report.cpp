@@ -74,12 +74,18 @@ Settings settings_of(const BakeOptions& options)
             {"max-size", std::to_string(options.atlas.max_size)}};
 }
 
+void append(Settings& settings, const Settings& more)
+{
+    settings.insert(settings.end(), more.begin(), more.end());
+}
+
 /// What all solvers have to say, whatever is made of the solution.
 Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
               const Solver& solver, const Results& results, const Stages& stages)
 {
     Report report = common(world, stages);
     report.settings = settings_of(options);
+    append(report.settings, settings_of(options.lights));
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
     report.seed = options.solver.seed;
     report.device = device.info().name;
@@ -126,8 +132,8 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     return report;
 }
 
-Report reference_report(const ReferenceOptions& reference, const Prepared& world, bool stopped,
-                        const Stages& stages)
+Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
+                        const Prepared& world, bool stopped, const Stages& stages)
 {
     Report report = common(world, stages);
     report.method = "reference";
@@ -135,6 +141,7 @@ Report reference_report(const ReferenceOptions& reference, const Prepared& world
                        {"sampling", text_of(reference.rule)},
                        {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"},
                        {"only", text_of(reference.parts)}};
+    append(report.settings, settings_of(lights));
     report.seed = reference.seed;
     report.interrupted = stopped;
     report.files = {"lightmap.exr", "lightmap.png", "report.json"};

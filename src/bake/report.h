@@ -12,8 +12,8 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
                    const Solver& solver, const Results& results, const Stages& stages);
 
 /// The facts of a reference.
-Report reference_report(const ReferenceOptions& reference, const Prepared& world, bool stopped,
-                        const Stages& stages);
+Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
+                        const Prepared& world, bool stopped, const Stages& stages);
 
 /// The facts of a picture of a solved scene. options.height: as the picture is.
 Report picture_report(const RenderOptions& options, const Prepared& world,

@@ -43,6 +43,16 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"bake", scene, "out", "--directional"}, {"--directional"}},
         {{"reference", scene, "out", "--directional", "sh1"}, {"--directional"}},
         {{"reference", scene, "out", "--spp", "0"}, {"--spp"}},
+        {{"info", scene, "--sky", "absent.hdr"}, {"absent.hdr", "no such file"}},
+        {{"info", scene, "--sky", "1,2"}, {"--sky", "1,2"}},
+        {{"info", scene, "--sky-scale", "0"}, {"--sky-scale"}},
+        {{"info", scene, "--sky-rotation", "nan"}, {"--sky-rotation"}},
+        {{"info", scene, "--sun", "noon"}, {"--sun", "noon", "ELEVATION"}},
+        {{"info", scene, "--sun", "47,19,yesterday"}, {"yesterday", "UTC"}},
+        {{"info", scene, "--sun-angle", "50"}, {"--sun-angle", "50"}},
+        {{"info", scene, "--light-radius", "-1"}, {"--light-radius"}},
+        {{"info", scene, "--ies", "lamp"}, {"--ies", "LIGHT=FILE"}},
+        {{"info", scene, "--ies", "lamp=file.ies"}, {"--ies", "lamp"}},
         {{"compare", "one.exr"}, {"B"}},
         {{"info"}, {"scene"}},
     };
@@ -50,6 +60,16 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         SCOPED_TRACE(testing::PrintToString(line.arguments));
         expect_one_sentence(run_lumel(line.arguments), 2, line.words);
     }
+}
+
+TEST(Options, LightsMayBeNegativeNumbersAndRepeated)
+{
+    const std::string scene = own_scene("cornell-box.gltf");
+    const Outcome sun = run_lumel({"info", scene, "--sun", "-30,45", "--sky-rotation", "-10"});
+    EXPECT_EQ(sun.code, 0) << sun.err;
+    EXPECT_NE(sun.out.find("lx on an open plane"), std::string::npos) << sun.out;
+    expect_one_sentence(run_lumel({"info", "--ies", "a=1.ies", "--ies", "b=2.ies", scene}), 2,
+                        {"\"a\""});
 }
 
 TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
