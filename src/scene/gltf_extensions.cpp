@@ -9,8 +9,9 @@ namespace lumel {
 namespace {
 
 /// Read, or without effect on diffuse light, so a file may require them.
-constexpr std::array<std::string_view, 21> kSupported = {
+constexpr std::array<std::string_view, 22> kSupported = {
     "EXT_lights_ies",
+    "EXT_lights_image_based",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
     "KHR_texture_transform",

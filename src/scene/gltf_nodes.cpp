@@ -71,33 +71,25 @@ glm::dmat4 local_transform(const JsonView& node)
     if (node.find("matrix"))
         return matrix_of(node);
     glm::vec3 translation(0.0f);
-    glm::vec4 rotation(0.0f, 0.0f, 0.0f, 1.0f);
     glm::vec3 scale(1.0f);
     node.numbers("translation", &translation.x, 3);
-    node.numbers("rotation", &rotation.x, 4);
     node.numbers("scale", &scale.x, 3);
-    if (!(std::abs(glm::length(rotation) - 1.0f) <= kUnitTolerance))
-        node.get("rotation").fail("is not a unit quaternion");
-
-    const glm::dvec4 unit = glm::normalize(glm::dvec4(rotation));
-    const glm::dquat turn(unit.w, unit.x, unit.y, unit.z);
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(translation)) * glm::mat4_cast(turn) *
-           glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
+    return glm::translate(glm::dmat4(1.0), glm::dvec3(translation)) *
+           glm::mat4_cast(rotation_of(node)) * glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
 }
 
 std::vector<std::size_t> scene_roots(const JsonView& root, const Hierarchy& tree)
 {
     std::vector<std::size_t> roots;
-    const auto chosen = root.find("scene");
-    const std::size_t scene = chosen ? chosen->index(root.count("scenes"), "scenes") : 0;
-    if (root.count("scenes") == 0) {
+    const auto scene = default_scene(root);
+    if (!scene) {
         for (std::size_t i = 0; i < tree.parent.size(); ++i)
             if (tree.parent[i] == kNone)
                 roots.push_back(i);
         return roots;
     }
     std::vector<bool> listed(tree.parent.size(), false);
-    root.get("scenes").at(scene).each("nodes", [&](const JsonView& view, std::size_t) {
+    scene->each("nodes", [&](const JsonView& view, std::size_t) {
         const std::size_t node = view.index(tree.parent.size(), "nodes");
         if (tree.parent[node] != kNone)
             view.fail("node " + std::to_string(node) + " is not a root, but a child of node " +
@@ -121,6 +113,24 @@ bool is_finite(const glm::dmat4& matrix)
 }
 
 }  // namespace
+
+std::optional<JsonView> default_scene(const JsonView& root)
+{
+    const auto chosen = root.find("scene");
+    const std::size_t count = root.count("scenes");
+    const std::size_t scene = chosen ? chosen->index(count, "scenes") : 0;
+    return count == 0 ? std::nullopt : std::optional(root.get("scenes").at(scene));
+}
+
+glm::dquat rotation_of(const JsonView& object)
+{
+    glm::vec4 rotation(0.0f, 0.0f, 0.0f, 1.0f);
+    object.numbers("rotation", &rotation.x, 4);
+    if (!(std::abs(glm::length(rotation) - 1.0f) <= kUnitTolerance))
+        object.get("rotation").fail("is not a unit quaternion");
+    const glm::dvec4 unit = glm::normalize(glm::dvec4(rotation));
+    return {unit.w, unit.x, unit.y, unit.z};
+}
 
 std::vector<PlacedNode> place_nodes(const GltfDocument& document)
 {

@@ -1,9 +1,11 @@
 #pragma once
 // The node hierarchy of a glTF file.
 
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "scene/gltf_document.h"
 
@@ -14,6 +16,13 @@ struct PlacedNode {
     std::size_t node = 0;   ///< index in the file
     glm::dmat4 world{1.0};  ///< node to world
 };
+
+/// The scene to show: the one the file chooses, else its first; nothing if it has none.
+std::optional<JsonView> default_scene(const JsonView& root);
+
+/// The turn that "rotation" of an object says, none if absent. Throws Error{input} unless it is a
+/// unit quaternion.
+glm::dquat rotation_of(const JsonView& object);
 
 /// Nodes reached from the default scene (else scene 0, else from every root), in file order.
 /// Throws Error{input} for cycles, nodes with two parents and transforms that are not finite.

@@ -9,6 +9,7 @@
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_sky.h"
 #include "scene/scene.h"
 #include "scene/scene_hash.h"
 
@@ -179,6 +180,7 @@ Scene read_scene(const std::string& path, MaterialModel model)
                     "its scene shows no triangles, there is nothing to bake");
     const MaterialList looks = read_looks(document, model, scene, notes);
     read_lights_and_cameras(document, nodes, scene);
+    scene.sky = read_image_based_light(document);
     write_warnings(notes, looks, scene);
     scene.hash = hash_scene(scene);
     return scene;
