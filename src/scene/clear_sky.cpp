@@ -128,7 +128,7 @@ Sky clear_sky(const SunPosition& sun)
             const double from_sun = std::acos(std::clamp(glm::dot(direction, to_sun), -1.0, 1.0));
             const glm::vec3 color = color_of(kX.at(direction.y, from_sun, sun_zenith),
                                              kY.at(direction.y, from_sun, sun_zenith));
-            sky.radiance[std::size_t(row * kWidth + column)] =
+            sky.radiance[std::size_t(row) * kWidth + std::size_t(column)] =
                 float(relative_luminance(direction.y, from_sun)) * color;
         }
     const auto level = float(clear_sky_illuminance(sun.elevation) / luminance(sky_irradiance(sky)));

@@ -165,7 +165,8 @@ std::optional<PunctualLight> read_light_of(const JsonView& root, const JsonView&
         const JsonView view = list->get("lights").at(index);
         light = read_light(view);
         read_size(view, light);
-        fallback += " " + std::to_string(index);
+        fallback += ' ';
+        fallback += std::to_string(index);
     }
     if (photometric)
         read_profile(*photometric, profiles, light);

@@ -77,7 +77,7 @@ glm::vec3 radiance_towards(const Cube& cube, const glm::vec3& d)
     const auto texel = [&](float at) {
         return std::clamp(int((at + 1.0f) * 0.5f * float(cube.size)), 0, cube.size - 1);
     };
-    const auto& face = cube.faces[std::size_t(2 * axis + (sign < 0.0f))];
+    const auto& face = cube.faces[std::size_t(axis) * 2 + std::size_t(sign < 0.0f)];
     return face[std::size_t(texel(place.y)) * std::size_t(cube.size) + std::size_t(texel(place.x))];
 }
 
@@ -87,8 +87,9 @@ glm::vec3 mean_radiance(const Cube& cube, const Sky& sky, const glm::mat3& into_
 {
     glm::vec3 sum(0.0f);
     for (int fine = 0; fine < kFine * kFine; ++fine) {
+        const int fine_row = fine / kFine;
         const float along = (float(fine % kFine) + 0.5f) / kFine;
-        const float down = (float(fine / kFine) + 0.5f) / kFine;
+        const float down = (float(fine_row) + 0.5f) / kFine;
         const float phi = glm::two_pi<float>() * (float(column) + along) / float(sky.width);
         const float theta = glm::pi<float>() * (float(row) + down) / float(sky.height);
         const glm::vec3 direction(-std::cos(phi) * std::sin(theta), std::cos(theta),
