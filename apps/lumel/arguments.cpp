@@ -20,6 +20,7 @@ namespace {
 
 constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
 constexpr int kLargestHemicube = 2048;
+constexpr int kSmallestMap = 16, kLargestMap = 4096;
 constexpr int kLargestBatch = 256;
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
@@ -75,6 +76,8 @@ const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
                                           {"hemisphere", Projection::hemisphere}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
+const Choices<Layers> kLayers = {{"list", Layers::list}, {"stochastic", Layers::stochastic}};
+const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
@@ -113,6 +116,19 @@ void add_view_options(CLI::App& app, SolverOptions& solver)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(16, kLargestHemicube));
+}
+
+void add_map_options(CLI::App& app, SolverOptions& solver)
+{
+    add_choice(app, "--layers", solver.layers, kLayers,
+               "What --solver directions keeps of surfaces behind one another: all of them (list, "
+               "the default), or one a pixel by chance (stochastic)");
+    add_choice(app, "--lookups", solver.lookups, kLookups,
+               "Side of the square of pixels looked up among stochastic layers (default: 3)");
+    app.add_option("--map-side", solver.map_side,
+                   "Side of --solver directions' maps in pixels (default: as suits the lumels)")
+        ->type_name("N")
+        ->check(whole(kSmallestMap, kLargestMap));
 }
 
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
@@ -248,11 +264,14 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_atlas_options(command, bake.options.atlas);
     add_method_options(command, bake.options.solver);
     add_solver_options(command, bake.options.solver);
+    add_map_options(command, bake.options.solver);
     add_stop_options(command, bake.options.solver);
     command
         .add_option("--device", bake.options.device, "Index or part of a name from lumel devices")
         ->type_name("NAME");
     command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
+    add_choice(command, "--only", bake.options.parts, kParts,
+               "Of the arriving light only what comes straight from its source, or only the rest");
     add_choice(command, "--directional", bake.options.directional, kDirectional,
                "Also write where the light comes from, as spherical harmonics of order 1 or 2");
     command.add_option("--preview-width", bake.options.preview_width, "Of preview.png; 0: none")

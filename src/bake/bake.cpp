@@ -2,8 +2,8 @@
 
 #include "bake/bake.h"
 
+#include "bake/lighting.h"
 #include "bake/outputs.h"
-#include "bake/setting.h"
 #include "output/folder.h"
 #include "solve/solver.h"
 
@@ -35,29 +35,29 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);
-    const std::unique_ptr<Solver> solver =
-        make_solver(device, setting.resident, setting.world.lumels, setting.near, options.solver);
-    SolveRun run = solve_in_stage(*solver, options.solver, stages);
-    const std::vector<glm::vec3> irradiance = solver->irradiance();
+    const std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
+    const SolverState solved = solution->solver->state();
+    SolveRun& run = solution->run;
 
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
         directional = gather_directional(
             device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
-            irradiance, directional_options(options, solver->state().shots),
+            solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
 
     stages.begin("finishing");
-    Results results{.shots = solver->state().shots,
-                    .iterations = solver->state().iterations,
-                    .error = solver->state().error,
+    Results results{.shots = solved.shots,
+                    .iterations = solved.iterations,
+                    .error = solved.error,
                     .interrupted = !run.finished,
                     .near_pairs = setting.near.column.size(),
                     .curve = std::move(run.curve),
                     .directional = std::move(directional)};
-    return write_bake(output, options, setting.world, device, *solver, irradiance, results, stages);
+    return write_bake(output, options, setting.world, device, *solution->solver,
+                      solution->irradiance, results, stages);
 }
 
 BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,

@@ -116,8 +116,7 @@ std::string text_of(const ordered_json& json)
     line("materials", fmt::format("{}, {} of them emissive; {} textures", count("materials"),
                                   count("emissive_materials"), count("textures")));
     line("cameras", fmt::format("{}", count("cameras")));
-    line("punctual lights", fmt::format("{}{}", count("punctual_lights"),
-                                        count("punctual_lights") ? " (not solved yet)" : ""));
+    line("punctual lights", fmt::format("{}", count("punctual_lights")));
     const auto sky = json["sky_irradiance_lx"].get<std::array<double, 3>>();
     if (sky != std::array<double, 3>{})
         line("sky", fmt::format("{:.4g}, {:.4g}, {:.4g} lx on an open plane that faces up", sky[0],

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "bake/lighting.h"
 #include "bake/report.h"
 #include "bake/setting.h"
 #include "finish/finish.h"
@@ -172,16 +173,22 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const Prepared& world = setting.world;
     const View view = view_for(world.scene, world.rays, options);
     check_size(device, options);
-    GlossyIllumination solver(device, setting.resident, world.lumels, setting.near,
-                              options.bake.solver);
+    const std::vector<glm::vec3> lamps =
+        light_of_lamps(device, setting, options.bake.solver, stages);
+    const Lumels lumels = shining(world.lumels, lamps);
+    GlossyIllumination solver(device, setting.resident, lumels, setting.near, options.bake.solver);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
     stages.begin("looking");
-    const Image map = finish_map(world.scene, world.atlas, world.lumels, solver.irradiance());
+    std::vector<glm::vec3> irradiance = solver.irradiance();
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        irradiance[i] += lamps[i];
+    const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, map);
-    const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces);
+    const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces,
+                           world.scene.sky);
     const Reflected lobes = reflect(solver, seen, setting, surfaces, lit, options, stages);
     Image image = compose(seen, lit, lobes.radiance);
     stages.end();
@@ -224,7 +231,8 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     check(picture_path, options);
     Stages stages(progress);
     stages.begin("reading");
-    Made made = make(read_scene(scene_path, MaterialModel::glossy, options.bake.lights), options, stages);
+    Scene scene = read_scene(scene_path, MaterialModel::glossy, options.bake.lights);
+    Made made = make(std::move(scene), options, stages);
     write_picture(picture_path, made.image);
     made.report.files = {std::filesystem::path(picture_path).filename().string()};
     return summary_of(made.report);

@@ -65,6 +65,9 @@ Settings settings_of(const BakeOptions& options)
     return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
             {"sampling", text_of(solver.rule)},
             {"batch", std::to_string(solver.batch)},
+            {"layers", solver.layers == Layers::list ? "list" : "stochastic"},
+            {"lookups", std::to_string(solver.lookups)},
+            {"map-side", std::to_string(solver.map_side)},
             {"projection", solver.projection == Projection::hemisphere ? "hemisphere" : "hemicube"},
             {"hemicube", std::to_string(solver.hemicube)},
             {"shots", std::to_string(solver.max_shots)},
@@ -121,6 +124,7 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
                    const Solver& solver, const Results& results, const Stages& stages)
 {
     Report report = solved(options, world, device, solver, results, stages);
+    report.settings.emplace_back("only", text_of(options.parts));
     report.settings.emplace_back("half", options.half ? "true" : "false");
     report.settings.emplace_back("directional", text_of(options.directional));
     report.directional_shots = results.directional.shots;

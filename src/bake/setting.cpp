@@ -48,7 +48,7 @@ const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
     : world(in_stage(std::move(scene), stages), options.atlas),
       near(near_field_of(world, options.solver, stages)),
-      resident(upload_to(device, stages), world.scene, world.lumels)
+      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas)
 {
 }
 

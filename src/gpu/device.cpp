@@ -293,6 +293,8 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     can_tessellate_ = have.core.features.tessellationShader == VK_TRUE;
     Features features;
     features.core.features.tessellationShader = have.core.features.tessellationShader;
+    can_list_fragments_ = have.core.features.fragmentStoresAndAtomics == VK_TRUE;
+    features.core.features.fragmentStoresAndAtomics = have.core.features.fragmentStoresAndAtomics;
     features.v13.dynamicRendering = VK_TRUE;
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;

@@ -196,8 +196,8 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
         .rasterizationSamples = VK_SAMPLE_COUNT_1_BIT};
     const VkPipelineDepthStencilStateCreateInfo depth{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = VK_TRUE,
-        .depthWriteEnable = VK_TRUE,
+        .depthTestEnable = state.depth_test ? VK_TRUE : VK_FALSE,
+        .depthWriteEnable = state.depth_test ? VK_TRUE : VK_FALSE,
         .depthCompareOp = VK_COMPARE_OP_GREATER};
     const VkPipelineColorBlendAttachmentState blend_attachment{.colorWriteMask = 0xf};
     const VkPipelineColorBlendStateCreateInfo blend{

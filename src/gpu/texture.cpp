@@ -9,7 +9,7 @@ namespace lumel::gpu {
 
 std::uint32_t pixel_bytes(Pixel pixel)
 {
-    return pixel == Pixel::rgba32 ? 16u : 4u;
+    return pixel == Pixel::rgba32 ? 16u : (pixel == Pixel::rg32u ? 8u : 4u);
 }
 
 VkFormat format_of(Pixel pixel)
@@ -21,6 +21,8 @@ VkFormat format_of(Pixel pixel)
         return VK_FORMAT_R8G8B8A8_UNORM;
     case Pixel::srgba8:
         return VK_FORMAT_R8G8B8A8_SRGB;
+    case Pixel::rg32u:
+        return VK_FORMAT_R32G32_UINT;
     case Pixel::rgba32:
         return VK_FORMAT_R32G32B32A32_SFLOAT;
     }

@@ -10,6 +10,7 @@ enum class Pixel {
     rgba8,   ///< 8-bit linear, four channels
     srgba8,  ///< 8-bit, colour channels sRGB-coded
     rgba32,  ///< float, four channels
+    rg32u,   ///< 32-bit unsigned, two channels
 };
 
 /// Bytes of one pixel.

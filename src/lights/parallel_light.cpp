@@ -33,10 +33,6 @@ constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4
 /// Keys of one seed.
 constexpr std::uint32_t kKeys = 8;
 
-/// Pixels of a view across a typical lumel: fewer, and the rays of pixels miss lumels that are
-/// seen from the side; more cost time.
-constexpr float kPixelsPerLumel = 3.5f;
-constexpr std::uint32_t kLeastSide = 128, kMostSide = 2048;
 /// Pixels of all views of a batch, which bounds its memory to 32 MiB.
 constexpr std::uint64_t kMostPixels = 8u << 20;
 /// Units tried first when a kind of work is timed (see gpu::Pacer).
@@ -108,21 +104,6 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
         sources.push_back({glm::normalize(d.x * s + d.y * t + d.z * toward), each});
     }
     return sources;
-}
-
-std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels)
-{
-    std::vector<float> sizes;
-    for (const Lumel& lumel : lumels.lumels)
-        if (!(lumel.flags & kLumelBuried))
-            sizes.push_back(std::sqrt(lumel.area));
-    if (sizes.empty())
-        return kLeastSide;
-    const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
-    std::nth_element(sizes.begin(), median, sizes.end());
-    const float pixels = kPixelsPerLumel * world.diagonal() / std::max(*median, 1e-30f);
-    const std::uint32_t most = std::min(kMostSide, device.max_image_side());
-    return std::clamp(std::uint32_t(std::min(pixels, float(most))), kLeastSide, most);
 }
 
 bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,

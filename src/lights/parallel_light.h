@@ -21,9 +21,6 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
 std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
                                         std::uint32_t seed);
 
-/// The side of parallel views that shows typical lumels a few pixels wide.
-std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels);
-
 struct ParallelLightOptions {
     std::uint32_t side = 512;  ///< of each view [pixels]
     std::uint32_t seed = 1;

@@ -24,6 +24,13 @@ layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 #include "visibility/first_met.glsl"
 #include "visibility/piece_along.glsl"
 
+float first_depth_along(ParallelLayout layout_, uint tile, RayMet ray)
+{
+    const vec2 corner =
+        vec2(tile % layout_.columns, tile / layout_.columns) * float(layout_.side);
+    return texelFetch(parallel_image, ivec2(corner + ray.pixel), 0).x;
+}
+
 void main()
 {
     const uint i = p.first + gl_GlobalInvocationID.x;

@@ -6,7 +6,8 @@
 namespace lumel {
 
 LitScene::LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& map)
-    : atlas_(&atlas),
+    : scene_(&scene),
+      atlas_(&atlas),
       map_(&map),
       first_surface_(scene.instances.size(), 0),
       front_(std::size_t(lumels.width) * std::size_t(lumels.height), kNone),
@@ -50,6 +51,11 @@ std::uint32_t LitScene::lumel(const RayHit& hit) const
     const int y = std::clamp(int(at.y), 0, atlas_->height - 1);
     return (hit.front ? front_
                       : back_)[std::size_t(y) * std::size_t(atlas_->width) + std::size_t(x)];
+}
+
+glm::vec3 LitScene::sky(const glm::vec3& direction) const
+{
+    return sky_radiance(scene_->sky, direction);
 }
 
 }  // namespace lumel

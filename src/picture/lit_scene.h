@@ -19,6 +19,9 @@ public:
     /// H [lx], bilinear.
     glm::vec3 irradiance(const RayHit& hit) const;
 
+    /// Radiance of the sky in a unit direction [cd/m²].
+    glm::vec3 sky(const glm::vec3& direction) const;
+
     static constexpr std::uint32_t kNone = ~0u;
     /// Index of the lumel, on the side that was hit; kNone where there is none.
     std::uint32_t lumel(const RayHit& hit) const;
@@ -26,6 +29,7 @@ public:
 private:
     glm::vec2 place(const RayHit& hit) const;
 
+    const Scene* scene_;
     const Atlas* atlas_;
     const Image* map_;
     std::vector<std::size_t> first_surface_;   ///< [instances]

@@ -55,12 +55,15 @@ public:
             const float cos_in = glm::dot(x.normal, way);
             RayHit hit;
             const glm::vec3 origin = x.position + lift_ * x.facing;
-            if (cos_in <= 0.0f || glm::dot(x.facing, way) <= 0.0f ||
-                !rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
-                               samples.bits(pair), hit))
+            if (cos_in <= 0.0f || glm::dot(x.facing, way) <= 0.0f)
                 break;
-            const Shading there = surfaces_.shade(hit);
             throughput *= x.specular * (cos_in / std::max(cos_in, cos_eye));
+            if (!rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
+                               samples.bits(pair), hit)) {
+                sum += throughput * lit_.sky(way);  // shooters do not send it
+                break;
+            }
+            const Shading there = surfaces_.shade(hit);
             const glm::vec3 sent =
                 there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
             const float density = phong_density(glm::dot(mirror, way), x.shininess);

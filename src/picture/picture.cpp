@@ -25,10 +25,12 @@ Image compose(const Seen& seen, const LitScene& lit, std::span<const glm::vec3> 
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t set = 0; set < seen.sets; ++set) {
                 const SeenPoint& point = seen.points[set * pixels + i];
-                if (!point.there)
+                if (!point.there && !point.sky)
                     continue;
-                add(i, point.luminance + point.diffuse * lit.irradiance(point.hit) *
-                                             std::numbers::inv_pi_v<float>);
+                add(i, point.luminance);
+                if (point.there)
+                    add(i,
+                        point.diffuse * lit.irradiance(point.hit) * std::numbers::inv_pi_v<float>);
                 image.values[i * 4 + 3] += share;
             }
     });

@@ -36,7 +36,7 @@ EyePoint eye_point(const Ray& ray, const RayHit& hit, const Shading& shading)
 }  // namespace
 
 Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
-          const Surfaces& surfaces)
+          const Surfaces& surfaces, const Sky& sky)
 {
     Seen seen{width, height, sets, {}, {}, {}, {}};
     const std::size_t pixels = std::size_t(width) * std::size_t(height);
@@ -54,8 +54,11 @@ Seen look(const View& view, int width, int height, std::uint32_t sets, const Ray
                 SeenPoint& point = seen.points[set * pixels + i];
                 if (!rays.closest(ray.origin, ray.direction, 0.0f,
                                   std::numeric_limits<float>::max(),
-                                  std::uint32_t(set * pixels + i), point.hit))
+                                  std::uint32_t(set * pixels + i), point.hit)) {
+                    point.sky = !sky.empty();
+                    point.luminance = sky_radiance(sky, ray.direction);
                     continue;
+                }
                 const Shading shading = surfaces.shade(point.hit);
                 point.there = true;
                 point.diffuse = shading.reflectance.diffuse;

@@ -15,8 +15,9 @@ namespace lumel {
 struct SeenPoint {
     RayHit hit;
     glm::vec3 diffuse{0.0f};    ///< ρ_d
-    glm::vec3 luminance{0.0f};  ///< emitted [cd/m²]
-    bool there = false;         ///< false: nothing is seen
+    glm::vec3 luminance{0.0f};  ///< emitted [cd/m²]; of the sky where no surface is
+    bool there = false;         ///< false: no surface is seen
+    bool sky = false;           ///< the sky is seen
 };
 
 /// S points behind each pixel, at the same places within all of them.
@@ -32,6 +33,6 @@ struct Seen {
 
 /// Follows a ray through S places of every pixel, S = 1 or more.
 Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
-          const Surfaces& surfaces);
+          const Surfaces& surfaces, const Sky& sky);
 
 }  // namespace lumel

@@ -162,8 +162,6 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
          "treated as opaque");
     if (looks.clamped)
         scene.warnings.push_back("base colours outside 0 to 1 were clamped");
-    warn(scene, scene.lights.size(), "punctual light", "punctual lights",
-         "stored but not solved yet: no light comes from KHR_lights_punctual");
 }
 
 Scene read_scene(const std::string& path, MaterialModel model)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "solve/directions.h"
 #include "solve/glossy.h"
 #include "solve/stochastic.h"
 
@@ -30,7 +31,8 @@ NearFieldOptions near_field_options(const SolverOptions& options)
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options)
 {
-    if (options.scheme == Scheme::paper)
+    // Along global directions no pair is too close.
+    if (options.scheme == Scheme::paper || options.method == "directions")
         return {};
     return build_near_field(scene, rays, lumels, near_field_options(options));
 }
@@ -50,6 +52,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options)
 {
+    if (options.method == "directions")
+        return std::make_unique<GlobalDirections>(device, world, lumels, options);
     if (method_of(options.method).materials == MaterialModel::glossy)
         return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
     return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);

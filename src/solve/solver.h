@@ -13,6 +13,7 @@
 #include "nearfield/near_field.h"
 #include "reference/reference.h"
 #include "visibility/eye_views.h"
+#include "visibility/illumination_maps.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -30,10 +31,13 @@ struct SolverOptions {
     std::uint32_t seed = 1;
     int batch = 16;  ///< K, shooters per iteration
     Projection projection = Projection::hemicube;
-    int hemicube = 256;           ///< side of the front face [pixels], see EyeViews
-    std::uint64_t max_shots = 0;  ///< 0: no limit
-    double max_seconds = 0.0;     ///< of solving, 0: no limit
-    double target_error = 0.02;   ///< estimated relative error to stop at, 0: never
+    int hemicube = 256;            ///< side of the front face [pixels], see EyeViews
+    Layers layers = Layers::list;  ///< of illumination maps
+    int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
+    int map_side = 0;              ///< of an illumination map [pixels], 0: as suits the lumels
+    std::uint64_t max_shots = 0;   ///< 0: no limit
+    double max_seconds = 0.0;      ///< of solving, 0: no limit
+    double target_error = 0.02;    ///< estimated relative error to stop at, 0: never
 };
 
 /// Where a solver stands, as last heard from the device.
@@ -77,6 +81,8 @@ inline constexpr MethodInfo kMethods[] = {
      // It multiplies by the near field in every iteration, and what close pairs exchange loses its
      // lobes: few pairs are better.
      MaterialModel::glossy, 3.0f},
+    {"directions", "Global directions with stochastic depth buffering", "[TN11]",
+     "open scenes of diffuse surfaces with few small emissive lights"},
 };
 
 /// The method of that name. Throws Error{input} if there is none.

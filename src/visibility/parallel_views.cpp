@@ -26,31 +26,10 @@ constexpr float kBorder = 1.5f;
 /// Part of the range of depths that is left free at both ends.
 constexpr float kDepthBorder = 0.01f;
 
-ParallelLayout make_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity)
-{
-    const std::uint32_t fit = std::max(device.max_image_side() / side, 1u);
-    std::uint32_t columns = 1;
-    while (columns * columns < capacity)
-        ++columns;
-    return {side, std::min(columns, fit)};
-}
-
-std::uint32_t fitting(const gpu::Device& device, const ParallelLayout& layout,
-                      std::uint32_t capacity)
-{
-    return std::min(capacity, layout.columns * std::max(device.max_image_side() / layout.side, 1u));
-}
-
-std::uint32_t rows_of(const ParallelLayout& layout, std::uint32_t count)
-{
-    return (count + layout.columns - 1) / layout.columns;
-}
-
-gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t view)
-{
-    return {view % layout.columns * layout.side, view / layout.columns * layout.side, layout.side,
-            layout.side};
-}
+/// Pixels of a view across a typical lumel: fewer, and the rays of pixels miss lumels that are
+/// seen from the side; more cost time.
+constexpr float kPixelsPerLumel = 3.5f;
+constexpr std::uint32_t kLeastSide = 128, kMostSide = 2048;
 
 /// How far a box reaches along an axis.
 struct Reach {
@@ -72,6 +51,47 @@ Reach reach_along(const glm::vec3& axis, const glm::vec3& low, const glm::vec3& 
 }
 
 }  // namespace
+
+ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity)
+{
+    const std::uint32_t fit = std::max(device.max_image_side() / side, 1u);
+    std::uint32_t columns = 1;
+    while (columns * columns < capacity)
+        ++columns;
+    return {side, std::min(columns, fit)};
+}
+
+std::uint32_t tiles_that_fit(const gpu::Device& device, const ParallelLayout& layout,
+                             std::uint32_t capacity)
+{
+    return std::min(capacity, layout.columns * std::max(device.max_image_side() / layout.side, 1u));
+}
+
+std::uint32_t tile_rows(const ParallelLayout& layout, std::uint32_t count)
+{
+    return (count + layout.columns - 1) / layout.columns;
+}
+
+gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t view)
+{
+    return {view % layout.columns * layout.side, view / layout.columns * layout.side, layout.side,
+            layout.side};
+}
+
+std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels)
+{
+    std::vector<float> sizes;
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried))
+            sizes.push_back(std::sqrt(lumel.area));
+    if (sizes.empty())
+        return kLeastSide;
+    const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
+    std::nth_element(sizes.begin(), median, sizes.end());
+    const float pixels = kPixelsPerLumel * world.diagonal() / std::max(*median, 1e-30f);
+    const std::uint32_t most = std::min(kMostSide, device.max_image_side());
+    return std::clamp(std::uint32_t(std::min(pixels, float(most))), kLeastSide, most);
+}
 
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose)
@@ -100,9 +120,10 @@ ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t
 ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std::uint32_t side,
                              std::uint32_t capacity)
     : world_(&world),
-      layout_(make_layout(device, side, capacity)),
-      capacity_(fitting(device, layout_, capacity)),
-      image_(device, gpu::Pixel::depth, layout_.columns * side, rows_of(layout_, capacity_) * side),
+      layout_(tile_layout(device, side, capacity)),
+      capacity_(tiles_that_fit(device, layout_, capacity)),
+      image_(device, gpu::Pixel::depth, layout_.columns * side,
+             tile_rows(layout_, capacity_) * side),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       opaque_(device, "parallel",
               {.vertex = kVertexSpirv,

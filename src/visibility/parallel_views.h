@@ -21,6 +21,17 @@ struct ParallelPose {
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose);
 
+/// The side of parallel views that shows typical lumels a few pixels wide.
+std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels);
+
+/// How tiles of that side lie in an image, about square, that holds `capacity` of them if it may be
+/// so large; how many then fit it; the rows that `count` take; and where a tile lies.
+ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity);
+std::uint32_t tiles_that_fit(const gpu::Device& device, const ParallelLayout& layout,
+                             std::uint32_t capacity);
+std::uint32_t tile_rows(const ParallelLayout& layout, std::uint32_t count);
+gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t tile);
+
 /// Depth images of what `capacity` directions see, side by side in one image. A kernel asks them
 /// through visibility/sees_along.glsl.
 class ParallelViews {

@@ -1,5 +1,5 @@
-// Pieces of lumels in parallel views. Needs parallel_views.shared.h, parallel.glsl, first_met.glsl
-// and `sampler2D parallel_image` declared.
+// Pieces of lumels in parallel views. Needs parallel_views.shared.h, parallel.glsl and
+// first_met.glsl.
 
 // Rounding of stored depths, which lie in 0…1.
 const float kParallelRounding = 1e-6;
@@ -22,11 +22,4 @@ PieceInView piece_along(ParallelView view, Piece piece)
     s.rounding = kParallelRounding;
     s.parallelogram = piece.parallelogram != 0u;
     return s;
-}
-
-float first_depth_along(ParallelLayout layout_, uint tile, RayMet ray)
-{
-    const vec2 corner =
-        vec2(tile % layout_.columns, tile / layout_.columns) * float(layout_.side);
-    return texelFetch(parallel_image, ivec2(corner + ray.pixel), 0).x;
 }

@@ -108,12 +108,16 @@ std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
 
 /// Everything about one primitive of one instance, appended to the vertex arrays.
 std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::uint32_t instance,
-                              const Material& material)
+                              const Material& material, const Surface* surface)
 {
     const auto base = std::uint32_t(out.positions.size());
     const TextureUse& use = material.base_color_texture;
     const auto& uv = primitive.texcoords[use.texcoord == 1 ? 1 : 0];
-    for (std::size_t v = 0; v < primitive.positions.size(); ++v) {
+    const std::size_t count = surface ? surface->source_vertex.size() : primitive.positions.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t v = surface ? surface->source_vertex[i] : i;
+        if (surface)
+            out.place.push_back(surface->texcoord[i]);
         out.positions.push_back(primitive.positions[v]);
         out.instances.push_back(instance);
         const glm::vec3 at = uv.empty() ? glm::vec3(0.0f) : use.transform * glm::vec3(uv[v], 1.0f);
@@ -164,7 +168,7 @@ std::vector<std::uint32_t> Occluders::inner_indices() const
     return inner;
 }
 
-Occluders find_occluders(const Scene& scene, bool with_hull)
+Occluders find_occluders(const Scene& scene, bool with_hull, const Atlas* atlas)
 {
     std::vector<glm::vec3> points;
     for (const Instance& instance : scene.instances)
@@ -177,19 +181,25 @@ Occluders find_occluders(const Scene& scene, bool with_hull)
     Occluders out;
     IndexLists opaque;
     std::vector<IndexLists> per_material(scene.materials.size());
-    std::size_t triangle = 0;
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+    std::size_t triangle = 0, surface_index = 0;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const bool mirrored = glm::determinant(glm::mat3(scene.instances[i].transform)) < 0.0f;
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
+            // Surfaces come in the same order.
+            const Surface* surface = atlas ? &atlas->surfaces[surface_index++] : nullptr;
             const Material& material = scene.materials[primitive.material];
-            const std::uint32_t base = append_vertices(out, primitive, i, material);
+            const std::uint32_t base = append_vertices(out, primitive, i, material, surface);
             IndexLists& lists =
                 may_be_transparent(material, primitive) ? per_material[primitive.material] : opaque;
             for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
                 std::vector<std::uint32_t>& indices = outer[triangle] ? lists.hull : lists.inner;
-                for (std::size_t c = 0; c < 3; ++c)
-                    indices.push_back(base + primitive.indices[k + c]);
+                const std::vector<std::uint32_t>& corners =
+                    surface ? surface->indices : primitive.indices;
+                for (const int c : {0, mirrored ? 2 : 1, mirrored ? 1 : 2})
+                    indices.push_back(base + corners[k + std::size_t(c)]);
             }
         }
+    }
     out.opaque = append_indices(out, opaque);
     for (std::size_t m = 0; m < per_material.size(); ++m)
         if (!per_material[m].inner.empty() || !per_material[m].hull.empty())

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/atlas.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -27,6 +28,7 @@ struct Occluders {
     std::vector<glm::vec3> positions;      ///< [V] instance frame [m]
     std::vector<std::uint32_t> instances;  ///< [V] whose frame
     std::vector<glm::vec3> look;           ///< [V] (u, v, alpha factor) for cut-outs
+    std::vector<glm::vec2> place;          ///< [V] in the atlas [texels]; empty without one
     std::vector<std::uint32_t> indices;    ///< [3T]
     OccluderRange opaque;
     std::vector<CutOut> cut_outs;
@@ -38,6 +40,8 @@ struct Occluders {
 /// Collects all triangles. Those that have the whole scene and its lamps on one side of their plane
 /// are its hull: the outer walls of a room hide no point of it from another. `with_hull`: false
 /// where instances will move, which makes every triangle an inner one.
-Occluders find_occluders(const Scene& scene, bool with_hull = true);
+/// `atlas`: if given, vertices are split at chart borders and know their place. Corners go around
+/// a triangle counter-clockwise where it is seen from its front, mirrored instances' too.
+Occluders find_occluders(const Scene& scene, bool with_hull = true, const Atlas* atlas = nullptr);
 
 }  // namespace lumel

@@ -75,8 +75,9 @@ Box box_of(const Scene& scene)
 
 }  // namespace
 
-World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels)
-    : World(device, scene, lumels, find_occluders(scene))
+World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
+             const Atlas* atlas)
+    : World(device, scene, lumels, find_occluders(scene, true, atlas))
 {
 }
 
@@ -93,6 +94,7 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
       vertices_(device, occluders.positions.size()),
       vertex_instances_(device, std::span<const std::uint32_t>(occluders.instances)),
       looks_(device, std::span<const glm::vec3>(occluders.look)),
+      places_(device, std::span<const glm::vec2>(occluders.place)),
       indices_(device, std::span<const std::uint32_t>(occluders.indices)),
       opaque_(occluders.opaque),
       place_lumels_(device, "world.place_lumels", kPlaceLumelsSpirv, 5, sizeof(PlaceParams),
@@ -101,6 +103,7 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
                       kPlaceGroup)
 {
     const Box box = box_of(scene);
+    sky_ = scene.sky;
     low_ = box.low;
     high_ = box.high;
     for (const CutOut& cut_out : occluders.cut_outs)

@@ -23,17 +23,21 @@ struct CutOutDraw {
 /// Local data stays; placed data (in the world) follows the instances' transforms.
 class World {
 public:
-    World(const gpu::Device& device, const Scene& scene, const Lumels& lumels);
+    /// `atlas`: which the lumels were lifted from; null where no one asks where vertices are in it.
+    World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
+          const Atlas* atlas = nullptr);
 
     const gpu::Array<Lumel>& lumels() const { return lumels_; }          ///< [N] in the world
     const gpu::Array<Piece>& pieces() const { return pieces_; }          ///< [P] in the world
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
+    const gpu::Array<glm::vec2>& places() const { return places_; }  ///< [V] [texels], or none
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
     glm::vec3 high() const { return high_; }
+    const Sky& sky() const { return sky_; }
     float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
 
 private:
@@ -49,11 +53,13 @@ private:
     gpu::Array<glm::vec3> local_vertices_, vertices_;
     gpu::Array<std::uint32_t> vertex_instances_;
     gpu::Array<glm::vec3> looks_;
+    gpu::Array<glm::vec2> places_;
     gpu::Array<std::uint32_t> indices_;
     OccluderRange opaque_;
     std::vector<CutOutDraw> cut_outs_;
     gpu::Kernel place_lumels_, place_vertices_;
     glm::vec3 low_{0.0f}, high_{0.0f};
+    Sky sky_;
 
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Occluders& occluders);

@@ -74,7 +74,7 @@ struct Running {
         View view = view_of(world.scene.cameras.front());
         view.transform[3].x += sideways;
         const Surfaces surfaces(world.scene);
-        const Seen points = look(view, 24, 24, 1, world.rays, surfaces);
+        const Seen points = look(view, 24, 24, 1, world.rays, surfaces, {});
         const std::vector<float> brightness = solver.brightness();
         solver.look_at(points.glossy, brightness,
                        {points.first, std::uint64_t(kFrameSteps) * 16, 0});

@@ -1,0 +1,198 @@
+// Radiosity by global directions with stochastic depth buffering.
+//
+//   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
+//
+//     repeat
+//         for K directions d over the sphere:
+//             draw the scene along d, every surface with a random depth      look_along, Figure 4
+//         for all lumels i:                                                  gather, Figure 5
+//             H_i += 4 B_j max(n_i · d, 0),   j nearest of the lookups around i      Eq. (2)
+//         now and then:  B ← E + ρ H from the running average                Figure 6
+//
+// Cost of a step: K parallel views of the scene, N × K lookups.
+//
+// Differs from the paper:
+// - K directions per iteration, from a scrambled Sobol sequence over the sphere.
+// - A running average instead of leaky integration, in phases (iteration.cpp): a baked map is to
+//   converge. With Scheme::paper the source follows the average after every batch.
+// - Maps name lumels, not colours, so that emission and reflected light are gathered apart.
+// - Layers::list keeps every surface of a pixel, and is exact.
+// - The sky is gathered with Scheme::paper only; else it is among the emission already, through
+//   exact views of its own (lights/direct_light.h).
+
+#include "solve/directions.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "reference/samples.h"
+#include "solve/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kGatherSpirv[] = {
+#include "solve/directions.gather.comp.inc"
+};
+
+constexpr gpu::Slot kGatherSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
+                                      gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
+                                      gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
+                                      gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array};
+
+/// Directions that are made at a time.
+constexpr std::uint32_t kChunk = 1024;
+/// Dimension pairs of a direction's random numbers.
+constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
+/// Pixels of all maps of a batch, which bounds their memory.
+constexpr std::uint64_t kMostPixels = 4u << 20;
+/// Units tried first when a kind of work is timed (see gpu::Pacer).
+constexpr std::uint32_t kProbeLumels = 4096;
+
+/// Evenly over the sphere.
+glm::vec3 on_sphere(const glm::vec2& at)
+{
+    const float y = 1.0f - 2.0f * at.x, r = std::sqrt(std::max(1.0f - y * y, 0.0f));
+    const float turn = 2.0f * std::numbers::pi_v<float> * at.y;
+    return {r * std::cos(turn), y, r * std::sin(turn)};
+}
+
+std::uint32_t map_side(const gpu::Device& device, const World& world, const Lumels& lumels,
+                       const SolverOptions& options)
+{
+    return options.map_side > 0 ? std::uint32_t(options.map_side)
+                                : parallel_side(device, world, lumels);
+}
+
+std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side)
+{
+    const std::uint64_t fit = kMostPixels / (std::uint64_t(side) * side);
+    return std::uint32_t(
+        std::clamp<std::uint64_t>(fit, 1, std::uint64_t(std::max(options.batch, 1))));
+}
+
+/// [texels][2]: front and back lumel of each texel.
+std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels)
+{
+    std::vector<std::uint32_t> lumel_of(2 * std::size_t(lumels.width) * std::size_t(lumels.height),
+                                        kNoLumel);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        lumel_of[2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0)] =
+            std::uint32_t(i);
+    }
+    return lumel_of;
+}
+
+}  // namespace
+
+GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world,
+                                   const Lumels& lumels, const SolverOptions& options)
+    : options_(options),
+      device_(&device),
+      world_(&world),
+      maps_(device, world, options.layers, map_side(device, world, lumels, options),
+            wanted_batch(options, map_side(device, world, lumels, options)),
+            std::uint32_t(lumels.width), std::uint32_t(lumels.height)),
+      batch_(std::bit_floor(maps_.capacity())),
+      gather_(device, "directions.gather", kGatherSpirv, kGatherSlots, sizeof(GatherParams),
+              kGatherGroup, std::uint32_t(options.layers)),
+      lumel_of_(device, view(lumels_by_side(lumels))),
+      iteration_(device, lumels, NearField{}, options, batch_),
+      pacer_(device)
+{
+    iteration_.begin(pacer_);
+}
+
+GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::uint32_t first) const
+{
+    const bool with_sky = options_.scheme == Scheme::paper;
+    std::vector<ParallelView> views;
+    std::vector<GlobalDirection> directions;
+    const std::uint32_t stream = PathSamples::hash(options_.seed, half);
+    for (std::uint32_t i = first; i < first + kChunk; ++i) {
+        const PathSamples samples(stream, i);
+        const glm::vec3 toward = on_sphere(samples.stratified(kDirectionPair));
+        const float turn = 2.0f * std::numbers::pi_v<float> * samples.random(kTurnPair).x;
+        views.push_back(fit_view(world_->low(), world_->high(), maps_.layout().side,
+                                 {.toward = toward,
+                                  .turn = turn,
+                                  .offset = samples.random(kOffsetPair),
+                                  .random = samples.bits(kTurnPair)}));
+        directions.push_back(
+            {toward, with_sky ? sky_radiance(world_->sky(), toward) : glm::vec3(0.0f)});
+    }
+    return {gpu::Array<ParallelView>(*device_, std::span<const ParallelView>(views)),
+            gpu::Array<GlobalDirection>(*device_, std::span<const GlobalDirection>(directions)),
+            first};
+}
+
+const GlobalDirections::Chunk& GlobalDirections::chunk_of(std::uint32_t half, std::uint32_t index)
+{
+    std::deque<Chunk>& chunks = chunks_[half];
+    if (chunks.empty() || index >= chunks.back().first + kChunk) {
+        chunks.push_back(make_chunk(half, index / kChunk * kChunk));
+        // The one before may still be in use, those before that are not: hundreds of batches ago.
+        if (chunks.size() > 2)
+            chunks.pop_front();
+    }
+    return chunks.back();
+}
+
+void GlobalDirections::step()
+{
+    iteration_.take_figures(pacer_);
+    const Chunk& chunk = chunk_of(iteration_.half(), iteration_.emission_index());
+    const std::uint32_t first = iteration_.emission_index() - chunk.first;
+    maps_.look_along(pacer_, chunk.views, first, batch_);
+    gather(chunk, first);
+    iteration_.finish_batch(pacer_, batch_, iteration_.sends_reflected() ? batch_ : 0);
+}
+
+void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view)
+{
+    pacer_.work("gather", iteration_.lumels(), kProbeLumels,
+                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                    const GatherParams params{
+                        .layout_ = maps_.layout(),
+                        .first = first,
+                        .last = last,
+                        .count = iteration_.lumels(),
+                        .first_view = first_view,
+                        .views = batch_,
+                        .half_ = iteration_.half(),
+                        .first_point = std::uint32_t(iteration_.state().shots),
+                        .seed = options_.seed,
+                        .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                        .neighbours = std::uint32_t(options_.lookups / 2),
+                        .with_source = iteration_.sends_reflected() ? 1u : 0u};
+                    commands.dispatch(gather_,
+                                      {world_->lumels(),
+                                       world_->pieces(),
+                                       chunk.views,
+                                       chunk.directions,
+                                       {maps_.image(), maps_.sampler()},
+                                       maps_.heads(),
+                                       maps_.fragments(),
+                                       lumel_of_,
+                                       iteration_.emission(),
+                                       iteration_.source(),
+                                       iteration_.direct(),
+                                       iteration_.indirect()},
+                                      params, last - first);
+                });
+}
+
+std::vector<glm::vec3> GlobalDirections::irradiance()
+{
+    std::vector<glm::vec3> irradiance = iteration_.irradiance(pacer_);
+    if (options_.layers == Layers::list && maps_.kept() < 1.0)
+        throw Error(ErrorKind::device, "--layers list",
+                    "more surfaces lie behind one another than there is memory for; use --layers "
+                    "stochastic");
+    return irradiance;
+}
+
+}  // namespace lumel

@@ -1,0 +1,136 @@
+#version 460
+#include "solve/directions.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+
+// Every lumel i looks along K global directions d and takes the light of what it sees first,
+// [TN11] Eq. (2) and Figure 5:
+//
+//     H_i += Σ_k  4 B_j max(n_i · d_k, 0),        j the lumel seen from i along d_k;
+//
+// of the sky, 4π L. The map holds fragments, which name lumels; so emitted and reflected light are
+// gathered apart in one go.
+//
+// Of stochastic layers, (2 neighbours + 1)² pixels are looked up, what lies below the receiver's
+// plane is rejected, and the nearest of the rest is taken. A list holds every surface on the ray
+// through a pixel's centre, so there the receiving point is moved to where such a ray meets the
+// lumel (first_met.glsl), and what is seen is exact.
+
+layout(local_size_x = kGatherGroup) in;
+layout(constant_id = 0) const uint kLayers = kStochasticLayers;
+layout(push_constant, scalar) uniform Params { GatherParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Views { ParallelView views[]; };
+layout(binding = 3, scalar) readonly buffer Directions { GlobalDirection directions[]; };
+layout(binding = 4) uniform usampler2D illumination_map;
+layout(binding = 5, scalar) readonly buffer Heads { uint heads[]; };
+layout(binding = 6, scalar) readonly buffer Fragments { Fragment fragments[]; };
+layout(binding = 7, scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
+layout(binding = 8, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 9, scalar) readonly buffer Source { vec3 source[]; };
+layout(binding = 10, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
+layout(binding = 11, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/parallel.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_along.glsl"
+
+const float kPi = 3.14159265;
+// What lies higher than this above the plane is not the receiver itself [pixels' widths].
+const float kAbovePlane = 0.02;
+
+// What is seen, and how much it counts.
+struct Seen {
+    uint surface;  // as a Fragment has it; 0: the sky
+    float weight;  // 0: nothing is known
+};
+
+Seen see_by_chance(ParallelView view, uint tile, LumelPoint point)
+{
+    const vec2 at = place_in(view, point.position), here = floor(at);
+    const float nearness = nearness_in(view, point.position);
+    const float pixels_per_metre = length(view.right), nearness_per_metre = length(view.toward);
+    const vec3 normal = normalize(point.facing);
+    // Heights above the plane, per pixel and per nearness [pixels' widths].
+    const vec2 per_pixel = vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre;
+    const float per_nearness = dot(normal, view.toward) * pixels_per_metre /
+                               (nearness_per_metre * nearness_per_metre);
+    const ivec2 corner = ivec2(tile % p.layout_.columns, tile / p.layout_.columns) *
+                         int(p.layout_.side);
+    const int reach = int(p.neighbours), last = int(p.layout_.side) - 1;
+    Seen seen = Seen(0u, 1.0);
+    float first = 2.0;  // nearness of the nearest; all are below 1
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+            const ivec2 pixel = clamp(ivec2(here) + ivec2(x, y), ivec2(0), ivec2(last));
+            const uvec2 fragment = texelFetch(illumination_map, corner + pixel, 0).xy;
+            const float there = uintBitsToFloat(fragment.y);
+            const float height = dot(per_pixel, vec2(pixel) + 0.5 - at) +
+                                 per_nearness * (there - nearness);
+            if (fragment.x != 0u && height > kAbovePlane && there > nearness && there < first) {
+                first = there;
+                seen.surface = fragment.x;
+            }
+        }
+    return seen;
+}
+
+Seen see_exactly(ParallelView view, uint tile, LumelPoint point)
+{
+    const PieceInView piece = piece_along(view, pieces[point.piece]);
+    RayMet ray;
+    if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
+        return Seen(0u, 0.0);
+    const uint side = p.layout_.side;
+    uint next = heads[(tile * side + uint(ray.pixel.y)) * side + uint(ray.pixel.x)];
+    Seen seen = Seen(0u, 1.0 / ray.chance);
+    float first = 2.0;
+    while (next != kEndOfList) {
+        const Fragment fragment = fragments[next];
+        if (fragment.nearness < first && !is_first(piece, ray, fragment.nearness)) {
+            first = fragment.nearness;
+            seen.surface = fragment.surface;
+        }
+        next = fragment.next;
+    }
+    return seen;
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    vec3 of_emission = vec3(0.0), of_source = vec3(0.0);
+    for (uint k = 0u; k < p.views; ++k) {
+        const GlobalDirection direction = directions[p.first_view + k];
+        const LumelPoint point =
+            receiving_point(lumel, i, p.first_point + k, p.seed, p.centre != 0u);
+        const float cosine = dot(point.normal, direction.toward);
+        if (cosine <= 0.0 || dot(point.facing, direction.toward) <= 0.0)
+            continue;
+        const ParallelView view = views[p.first_view + k];
+        const Seen seen = kLayers == kListedLayers ? see_exactly(view, k, point)
+                                                   : see_by_chance(view, k, point);
+        const float weight = 4.0 * cosine * seen.weight;
+        if (seen.surface == 0u) {
+            of_emission += weight * kPi * direction.sky;
+            continue;
+        }
+        const uint j = lumel_of[seen.surface - 1u];
+        if (j == kNoLumel)
+            continue;
+        of_emission += weight * emission[j];
+        if (p.with_source != 0u)
+            of_source += weight * source[j];
+    }
+    const uint at = p.half_ * p.count + i;
+    direct[at] += of_emission;
+    indirect[at] += of_source;
+}

@@ -1,0 +1,52 @@
+#pragma once
+// Radiosity by global directions with stochastic depth buffering [TN11]. See directions.cpp.
+
+#include <array>
+#include <deque>
+
+#include "gpu/pacer.h"
+#include "solve/directions.shared.h"
+#include "solve/iteration.h"
+#include "solve/solver.h"
+#include "visibility/illumination_maps.h"
+
+namespace lumel {
+
+/// All lumels look along one direction at a time.
+class GlobalDirections final : public Solver {
+public:
+    /// `world` must know the atlas. Throws Error{device} if the device cannot keep the layers.
+    GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
+                     const SolverOptions& options);
+
+    void step() override;
+    SolverState state() const override { return iteration_.state(); }
+    std::vector<glm::vec3> irradiance() override;
+    const gpu::StageTimes& times() const override { return pacer_.times(); }
+    double longest_submission() const override { return pacer_.longest_ms(); }
+
+private:
+    /// Directions of one half-solution that are ready on the device.
+    struct Chunk {
+        gpu::Array<ParallelView> views;
+        gpu::Array<GlobalDirection> directions;
+        std::uint32_t first;  ///< index in the half's sequence
+    };
+
+    const Chunk& chunk_of(std::uint32_t half, std::uint32_t index);
+    Chunk make_chunk(std::uint32_t half, std::uint32_t first) const;
+    void gather(const Chunk& chunk, std::uint32_t first_view);
+
+    SolverOptions options_;
+    const gpu::Device* device_;
+    const World* world_;
+    IlluminationMaps maps_;
+    std::uint32_t batch_;  ///< K, a power of two
+    gpu::Kernel gather_;
+    gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2] lumel of each side, or kNoLumel
+    std::array<std::deque<Chunk>, 2> chunks_;
+    Iteration iteration_;
+    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+};
+
+}  // namespace lumel

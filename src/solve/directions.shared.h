@@ -1,0 +1,33 @@
+#ifndef LUMEL_SOLVE_DIRECTIONS_SHARED_H
+#define LUMEL_SOLVE_DIRECTIONS_SHARED_H
+#include "visibility/illumination_maps.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kGatherGroup = 64u;  ///< threads per workgroup of directions.gather.comp
+
+LUMEL_CONST uint kNoLumel = 0xffffffffu;
+
+/// A direction that light is gathered from.
+struct GlobalDirection {
+    vec3 toward;  ///< d: unit, from receivers to what they see
+    vec3 sky;     ///< radiance [cd/m²] where nothing is seen
+};
+
+/// Push constants of directions.gather.comp.
+struct GatherParams {
+    ParallelLayout layout_;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;        ///< N
+    uint first_view;   ///< views [first_view, first_view + views) in tiles 0, 1, …
+    uint views;        ///< K
+    uint half_;        ///< 0 or 1: which half-solution takes this batch
+    uint first_point;  ///< numbers the points of a lumel that receive
+    uint seed;
+    uint centre;       ///< 1: receive at the centroid
+    uint neighbours;   ///< lookups to each side of a pixel: 0, 1 or 2
+    uint with_source;  ///< 0: the source is still 0
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,9 @@
+// What a pixel of an illumination map holds. Needs illumination_maps.shared.h.
+
+// Which side of which texel a fragment shows. Seen against the direction, fronts go around
+// counter-clockwise; in the image, whose y axis points down, they go around the other way.
+uint surface_at(IlluminationParams p, vec2 place)
+{
+    const uvec2 texel = min(uvec2(max(place, vec2(0.0))), uvec2(p.width, p.height) - 1u);
+    return 1u + 2u * (texel.y * p.width + texel.x) + (gl_FrontFacing ? 0u : 1u);
+}

@@ -1,0 +1,26 @@
+#version 460
+#include "visibility/illumination_maps.shared.h"
+#include "core/hash.glsl"
+#include "visibility/alpha.glsl"
+#include "visibility/illumination.glsl"
+
+// illumination.stochastic.frag for surfaces with alpha.
+
+layout(push_constant, scalar) uniform Params { IlluminationParams p; };
+layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(binding = 1) uniform sampler2D base_color;
+layout(location = 1) in vec3 look;
+layout(location = 0) in vec2 place;
+layout(location = 0) out uvec2 fragment;
+
+void main()
+{
+    const float alpha = textureLod(base_color, look.xy, 0.0).a * look.z;
+    if (!blocks(alpha, p.cutoff, gl_FragCoord.xy, gl_FragCoord.z, views[p.view].random))
+        discard;
+    fragment = uvec2(surface_at(p, place), floatBitsToUint(gl_FragCoord.z));
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
+    // 0 is the cleared depth, which is behind everything.
+    gl_FragDepth = 1.0 - unit_float(hash(here ^ views[p.view].random));
+}

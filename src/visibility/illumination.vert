@@ -1,0 +1,17 @@
+#version 460
+#include "visibility/illumination_maps.shared.h"
+#include "visibility/parallel.glsl"
+
+// One vertex as it is seen along a direction, with its place in the atlas.
+
+layout(push_constant, scalar) uniform Params { IlluminationParams p; };
+layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 place_in_;
+layout(location = 0) out vec2 place;
+
+void main()
+{
+    gl_Position = through_parallel(views[p.view], p.layout_, position);
+    place = place_in_;
+}

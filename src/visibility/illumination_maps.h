@@ -1,0 +1,62 @@
+#pragma once
+// Illumination maps: all surfaces that lie along a direction, by parallel projection.
+//
+//   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
+
+#include <cstdint>
+
+#include "gpu/pacer.h"
+#include "visibility/illumination_maps.shared.h"
+#include "visibility/parallel_views.h"
+#include "world/world.h"
+
+namespace lumel {
+
+enum class Layers : std::uint32_t {
+    stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
+    list = kListedLayers,            ///< every surface, in a list for each pixel
+};
+
+/// Maps of `capacity` directions, side by side. Fragments name lumels, by side and texel, not
+/// colours: so one map serves emitted and reflected light.
+class IlluminationMaps {
+public:
+    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must know.
+    /// The capacity given is what fits the device and is at most the one asked for.
+    /// Throws Error{device} if the device cannot keep lists.
+    IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
+                     std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
+                     std::uint32_t height);
+
+    std::uint32_t capacity() const { return capacity_; }
+    const ParallelLayout& layout() const { return layout_; }
+    const gpu::Target& image() const { return image_; }  ///< stochastic: (surface, nearness)
+    const gpu::Sampler& sampler() const { return sampler_; }
+    const gpu::Array<std::uint32_t>& heads() const { return heads_; }     ///< of lists
+    const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< of lists
+
+    /// Draws views [first, first + count) into tiles 0, 1, …
+    void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
+                    std::uint32_t count);
+
+    /// Share of all fragments drawn last that lists had room for. Waits for the device.
+    double kept() const;
+
+private:
+    void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views, std::uint32_t view,
+              std::uint32_t tile);
+    bool lists() const { return layers_ == Layers::list; }
+
+    const World* world_;
+    Layers layers_;
+    ParallelLayout layout_;
+    std::uint32_t capacity_, width_, height_;
+    gpu::Target image_, depth_;
+    gpu::Sampler sampler_;
+    gpu::Array<std::uint32_t> heads_;
+    gpu::Array<Fragment> fragments_;
+    gpu::Array<FragmentCount> none_, count_;  ///< no fragments yet; those written
+    gpu::Raster opaque_, cut_out_;
+};
+
+}  // namespace lumel

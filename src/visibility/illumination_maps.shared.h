@@ -1,0 +1,35 @@
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_MAPS_SHARED_H
+#define LUMEL_VISIBILITY_ILLUMINATION_MAPS_SHARED_H
+#include "visibility/parallel_views.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kStochasticLayers = 0u;  ///< one surface a pixel, by chance [TN11]
+LUMEL_CONST uint kListedLayers = 1u;      ///< all of them, in a linked list
+
+LUMEL_CONST uint kEndOfList = 0xffffffffu;
+
+/// A surface at a pixel of an illumination map.
+struct Fragment {
+    uint surface;    ///< 1 + 2 × texel of the atlas + (1: its back); 0: nothing
+    float nearness;  ///< along the direction, as ParallelView has it
+    uint next;       ///< index of the next of this pixel, or kEndOfList
+};
+
+/// How many fragments were written, and how many there is room for.
+struct FragmentCount {
+    uint count;
+    uint capacity;
+};
+
+/// Push constants of the shaders that draw illumination maps.
+struct IlluminationParams {
+    ParallelLayout layout_;
+    uint view;   ///< index into the views
+    uint tile;   ///< that it is drawn into
+    uint width;  ///< of the atlas [texels]
+    uint height;
+    float cutoff;  ///< cut-outs: opaque where alpha ≥ cutoff; < 0: by chance
+};
+
+LUMEL_SHARED_END
+#endif
