@@ -6,8 +6,7 @@
 // The projection c_lm = ∫ L Y_lm of radiance over the sphere spends most of what one or two bands
 // can say on the horizon, below which nothing arrives. What is asked for is irradiance,
 //
-//     H(n') = ∫ L(ω) max(ω·n', 0) dω   ≈   Σ A_l c_lm Y_lm(n'),                  [RH01] Eq. (5),
-//     (8)
+//     H(n') = ∫ L(ω) max(ω·n', 0) dω   ≈   Σ A_l c_lm Y_lm(n'),            [RH01] Eq. (5), (8)
 //
 // for normals n' on the upper side of the surface's own normal n. So the coefficients of light L
 // are the linear functions c_lm = ∫ L(ω) D_lm(ω) dω for which
@@ -29,6 +28,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frame.h"
+
 namespace lumel {
 namespace {
 
@@ -40,7 +41,7 @@ using Matrix = glm::dmat3;
 constexpr double kPull = 0.03;
 /// Steps of the sums over normals, in height and round.
 constexpr int kHeights = 64, kAround = 128;
-/// Elevations nearer to the poles than this have no side to lean to [1].
+/// Elevations nearer to the poles than this have no side to lean to.
 constexpr double kPole = 1e-4;
 /// Scaling to the known irradiance, at most.
 constexpr float kMostScale = 2.0f;
@@ -162,15 +163,14 @@ namespace {
 /// Normals on rings about `axis`.
 std::vector<glm::vec3> rings_about(const glm::vec3& axis)
 {
-    const glm::vec3 other = std::abs(axis.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 t = glm::normalize(glm::cross(other, axis)), b = glm::cross(axis, t);
+    const glm::mat3 frame = frame_about(axis);
     std::vector<glm::vec3> normals;
     for (const float ring : kRings)
         for (int k = 0; k < kRingNormals; ++k) {
             const float tilt = glm::radians(ring);
             const float angle = 2.0f * std::numbers::pi_v<float> * float(k) / float(kRingNormals);
-            normals.push_back(std::cos(tilt) * axis +
-                              std::sin(tilt) * (std::cos(angle) * t + std::sin(angle) * b));
+            normals.push_back(frame * glm::vec3(std::sin(tilt) * std::cos(angle),
+                                                std::sin(tilt) * std::sin(angle), std::cos(tilt)));
         }
     return normals;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frame.h"
 #include "core/parallel.h"
 
 namespace lumel {
@@ -19,10 +20,8 @@ glm::vec3 phong_direction(const glm::vec3& mirror, float shininess, const glm::v
     const float height = std::pow(1.0f - at.x, 1.0f / (shininess + 1.0f));
     const float radius = std::sqrt(std::max(0.0f, 1.0f - height * height));
     const float angle = 2.0f * std::numbers::pi_v<float> * at.y;
-    const glm::vec3 other = std::abs(mirror.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 tangent = glm::normalize(glm::cross(other, mirror));
-    const glm::vec3 bitangent = glm::cross(mirror, tangent);
-    return radius * (std::cos(angle) * tangent + std::sin(angle) * bitangent) + height * mirror;
+    return frame_about(mirror) *
+           glm::vec3(radius * std::cos(angle), radius * std::sin(angle), height);
 }
 
 float phong_lobe(float cos_in, float cos_out, float mirrored, float shininess)

@@ -1,6 +1,6 @@
 #include "visibility/probe.h"
 
-#include <cmath>
+#include "core/frame.h"
 
 namespace lumel {
 namespace {
@@ -16,9 +16,8 @@ constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::t
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal)
 {
     constexpr float kTurn = 0.3f;  // so that pixels do not run along the edges of a box
-    const glm::vec3 other = std::abs(normal.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 across = glm::cross(other, normal);
-    const glm::vec3 t = glm::normalize(across + kTurn * glm::cross(normal, across));
+    const glm::mat3 frame = frame_about(normal);
+    const glm::vec3 t = glm::normalize(frame[0] + kTurn * frame[1]);
     return {position, t, glm::cross(normal, t), normal, 1u};
 }
 

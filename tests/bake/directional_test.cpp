@@ -8,6 +8,7 @@
 #include "../support/box_lumels.h"
 #include "../support/temporary_folder.h"
 #include "bake/bake.h"
+#include "core/frame.h"
 #include "core/parallel.h"
 #include "images/image_files.h"
 #include "nearfield/world_lumels.h"
@@ -65,13 +66,12 @@ std::vector<glm::vec3> of_lumel(const std::vector<std::vector<glm::vec3>>& coeff
 /// Normals tilted by so much [degrees] to eight sides.
 std::vector<glm::vec3> tilted(const glm::vec3& normal, float degrees)
 {
-    const glm::vec3 other = std::abs(normal.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 t = glm::normalize(glm::cross(other, normal)), b = glm::cross(normal, t);
+    const glm::mat3 frame = frame_about(normal);
     std::vector<glm::vec3> normals;
     for (int k = 0; k < 8; ++k) {
         const float angle = kPi / 4.0f * (float(k) + 0.3f), tilt = glm::radians(degrees);
-        normals.push_back(std::cos(tilt) * normal +
-                          std::sin(tilt) * (std::cos(angle) * t + std::sin(angle) * b));
+        normals.push_back(frame * glm::vec3(std::sin(tilt) * std::cos(angle),
+                                            std::sin(tilt) * std::sin(angle), std::cos(tilt)));
     }
     return normals;
 }
@@ -290,7 +290,7 @@ public:
                 sums[m] += light * std::max(glm::dot(way, normals[m]), 0.0f);
         };
         const glm::vec3 n = places_[i].normal;
-        const glm::mat3 frame = frame_of(n);
+        const glm::mat3 frame = frame_about(n);
         for (int k = 0; k < side * side; ++k) {
             const float z = (float(k / side) + u(random)) / float(side);
             const float angle = 2.0f * kPi * (float(k % side) + u(random)) / float(side);
@@ -316,13 +316,6 @@ public:
 
 private:
     static constexpr int kEmitterPoints = 8;  // of each emitting lumel
-
-    static glm::mat3 frame_of(const glm::vec3& n)
-    {
-        const glm::vec3 other = std::abs(n.x) < 0.5f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-        const glm::vec3 t = glm::normalize(glm::cross(other, n));
-        return {t, glm::cross(n, t), n};
-    }
 
     glm::vec3 reflected(const glm::vec3& from, const glm::vec3& way) const
     {
