@@ -115,18 +115,21 @@ gpu::Area face_area(Projection projection, const EyeViewLayout& layout, std::uin
     }
 }
 
+gpu::RasterState hemisphere_state(gpu::Spirv fragment, std::span<const gpu::Slot> slots)
+{
+    return {.vertex = kHemisphereVertexSpirv,
+            .control = kHemisphereControlSpirv,
+            .evaluation = kHemisphereEvaluationSpirv,
+            .fragment = fragment,
+            .slots = slots,
+            .param_bytes = sizeof(LookParams),
+            .streams = std::span(kStreams, 1)};
+}
+
 gpu::Raster make_opaque(const gpu::Device& device, Projection projection)
 {
     if (projection == Projection::hemisphere)
-        return {device,
-                "hemisphere",
-                {.vertex = kHemisphereVertexSpirv,
-                 .control = kHemisphereControlSpirv,
-                 .evaluation = kHemisphereEvaluationSpirv,
-                 .fragment = kHemisphereFragmentSpirv,
-                 .slots = kOpaqueSlots,
-                 .param_bytes = sizeof(LookParams),
-                 .streams = std::span(kStreams, 1)}};
+        return {device, "hemisphere", hemisphere_state(kHemisphereFragmentSpirv, kOpaqueSlots)};
     return {device,
             "hemicube",
             {.vertex = kHemicubeVertexSpirv,
@@ -138,15 +141,8 @@ gpu::Raster make_opaque(const gpu::Device& device, Projection projection)
 gpu::Raster make_cut_out(const gpu::Device& device, Projection projection)
 {
     if (projection == Projection::hemisphere)
-        return {device,
-                "hemisphere.cut_out",
-                {.vertex = kHemisphereVertexSpirv,
-                 .control = kHemisphereControlSpirv,
-                 .evaluation = kHemisphereEvaluationSpirv,
-                 .fragment = kHemisphereCutOutFragmentSpirv,
-                 .slots = kHemisphereCutOutSlots,
-                 .param_bytes = sizeof(LookParams),
-                 .streams = std::span(kStreams, 1)}};
+        return {device, "hemisphere.cut_out",
+                hemisphere_state(kHemisphereCutOutFragmentSpirv, kHemisphereCutOutSlots)};
     return {device,
             "hemicube.cut_out",
             {.vertex = kHemicubeCutOutVertexSpirv,
@@ -175,6 +171,8 @@ EyeViews::EyeViews(const gpu::Device& device, const World& world, Projection pro
     : world_(&world),
       projection_(projection),
       layout_(make_layout(device, world, projection, side, capacity)),
+      radius_(0.5f * float(layout_.side)),
+      chord_(longest_chord(radius_)),
       image_(device, gpu::Pixel::depth, layout_.columns * tile_size(projection_, layout_).width,
              rows_of(layout_, fitting(device, projection, layout_, capacity)) *
                  tile_size(projection_, layout_).height),
@@ -193,13 +191,12 @@ std::uint32_t EyeViews::faces_per_eye() const
 LookParams EyeViews::look_params(std::uint32_t eye, std::uint32_t face) const
 {
     const gpu::Area tile = tile_area(projection_, layout_, eye);
-    const float radius = 0.5f * float(layout_.side);
     return {.eye = eye,
             .face = face,
             .near = layout_.near,
             .corner = {tile.x, tile.y},
-            .radius = radius,
-            .chord = longest_chord(radius)};
+            .radius = radius_,
+            .chord = chord_};
 }
 
 void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,

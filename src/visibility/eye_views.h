@@ -62,6 +62,8 @@ private:
     Projection projection_;
     std::uint32_t capacity_;
     EyeViewLayout layout_;
+    float radius_;  ///< of a hemisphere's disc [pixels]
+    float chord_;   ///< longest_chord(radius_) [rad]
     gpu::Target image_;
     gpu::Sampler sampler_;
     gpu::Raster opaque_, cut_out_;
