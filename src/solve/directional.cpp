@@ -36,10 +36,6 @@ constexpr std::uint32_t kNearSpirv[] = {
 
 /// Shooters, whatever the solve took, and before a stop is heeded.
 constexpr std::uint64_t kFewestShots = 1024, kMostShots = 4096, kShotsBeforeStop = 256;
-/// Share of shooters spread by area whatever their power (dark rooms need it).
-constexpr float kDefensiveShare = 0.15f;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 
 constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,     gpu::Slot::array,   gpu::Slot::constants,

@@ -26,10 +26,10 @@ layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
 layout(binding = 8, scalar) buffer Band2 { vec3 band2[]; };
 layout(binding = 9, scalar) readonly buffer Pieces { Piece pieces[]; };
 
+#include "solve/radiosity.glsl"
 #include "world/lumel.glsl"
 #include "solve/directional.glsl"
 
-const float kPi = 3.14159265358979;
 // Pairs closer than this, in sizes of the larger, are looked at between so many points.
 const float kClose = 4.0;
 const uint kPoints = 8u;

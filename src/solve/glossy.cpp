@@ -58,8 +58,6 @@ constexpr std::uint64_t kRestarts[] = {8, 32};
 constexpr std::uint64_t kFirstStated = 2;
 /// Share of a frame's shooters spread by area: light may reach what was dark before.
 constexpr float kFrameByArea = 0.1f;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 
 constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,

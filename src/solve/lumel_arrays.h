@@ -1,13 +1,17 @@
 #pragma once
-// What every solver uploads of the lumels. Buried lumels neither shine nor reflect: their area and
+// What every solver takes of the lumels. Buried lumels neither shine nor reflect: their area and
 // emission are 0.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "atlas/atlas.h"
 
 namespace lumel {
+
+/// Lumels tried first when a kind of work on all of them is timed (see gpu::Pacer).
+inline constexpr std::uint32_t kProbeLumels = 4096;
 
 /// (ρ, A) [N]
 std::vector<glm::vec4> surfaces_of(const Lumels& lumels);

@@ -6,6 +6,9 @@
 
 namespace lumel {
 
+/// Share of shooters spread by area whatever their power (dark rooms need it).
+inline constexpr float kDefensiveShare = 0.15f;
+
 /// A tree of sums with the lumels' power as leaves. Read by power_pyramid.glsl.
 class PowerPyramid {
 public:

@@ -42,12 +42,9 @@ constexpr std::uint32_t kSelectSpirv[] = {
 constexpr std::uint32_t kReceiveSpirv[] = {
 #include "solve/stochastic.receive.comp.inc"
 };
-/// Share of shooters spread by area whatever their power (dark rooms need it).
-constexpr float kDefensiveShare = 0.15f;
+
 /// Shooters drawn from E, as a part of E's share of the power, and its bounds.
 constexpr double kEmissionShooters = 0.5, kLeastEmission = 1.0 / 16.0, kMostEmission = 0.5;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 
 constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
