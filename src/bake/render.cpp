@@ -1,7 +1,6 @@
 #include "bake/render.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 
@@ -61,11 +60,9 @@ View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
                                  : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
     View view = options.camera >= 0 ? view_of(scene.cameras[std::size_t(options.camera)])
                                     : choose_view(scene, rays);
-    if (options.height > 0)
-        view.aspect = float(options.width) / float(options.height);
-    else
-        options.height =
-            std::clamp(int(std::lround(float(options.width) / view.aspect)), 1, kLargestPicture);
+    if (options.height == 0)
+        options.height = picture_height(options.width, view.aspect, kLargestPicture);
+    view.aspect = float(options.width) / float(options.height);  // pixels are square
     return view;
 }
 

@@ -178,8 +178,9 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
                      const Image& irradiance, const View& view, int width)
 {
     const int most = int(device.max_image_side()) / kSupersample;
-    width = std::min({width, most, std::max(1, int(float(most) * view.aspect))});
-    const int height = std::clamp(int(std::lround(float(width) / view.aspect)), 1, most);
+    const float fitting = std::clamp(float(most) * view.aspect, 1.0f, float(most));
+    width = std::min(width, int(fitting));
+    const int height = picture_height(width, view.aspect, most);
     const auto wide = std::uint32_t(width * kSupersample),
                high = std::uint32_t(height * kSupersample);
     const Vertices vertices = gather(scene, atlas);

@@ -1,5 +1,6 @@
 #include "scene/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lumel {
@@ -14,6 +15,11 @@ Ray ray_through(const View& view, const glm::vec2& place)
         direction = glm::vec3(std::tan(0.5f * view.vertical_fov) * offset, -1.0f);
     return {glm::vec3(view.transform * glm::vec4(origin, 1.0f)),
             glm::normalize(glm::mat3(view.transform) * direction)};
+}
+
+int picture_height(int width, float aspect, int most)
+{
+    return int(std::clamp(std::round(float(width) / aspect), 1.0f, float(most)));
 }
 
 }  // namespace lumel

@@ -23,6 +23,9 @@ struct Ray {
 /// The ray through a place of the picture, (0, 0) at its top left and (1, 1) at its bottom right.
 Ray ray_through(const View& view, const glm::vec2& place);
 
+/// Height of a picture of that width and shape, 1 to `most` [pixels].
+int picture_height(int width, float aspect, int most);
+
 /// What a camera of the scene shows.
 inline View view_of(const Camera& camera)
 {

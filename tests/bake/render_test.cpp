@@ -98,5 +98,20 @@ TEST(Picture, OfTheSameSeedHasTheSameBytes)
               picture("specular-objects", options).values);
 }
 
+TEST(Picture, HasSquarePixelsWhateverTheShapeOfTheCamera)
+{
+    for (const float aspect : {1e-30f, 5.0f, 1e30f}) {
+        Scene scene = glossy_scene("glossy-floor");
+        scene.cameras.at(0).aspect = aspect;
+        RenderOptions options = small(1);
+        options.width = 8;
+        options.height = 0;
+        options.paths = 1;
+        const Image shaped = render(scene, options).image;
+        options.height = shaped.height;
+        EXPECT_EQ(render(scene, options).image.values, shaped.values) << aspect;
+    }
+}
+
 }  // namespace
 }  // namespace lumel
