@@ -26,10 +26,11 @@ DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
 {
+    const MethodInfo& method = method_of(options.solver.method);
+    checked_batch(method, options.solver.batch);
     Stages stages(progress);
     stages.begin("reading");
-    Scene scene =
-        read_scene(scene_path, method_of(options.solver.method).materials, options.lights);
+    Scene scene = read_scene(scene_path, method.materials, options.lights);
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);

@@ -18,7 +18,8 @@
 namespace lumel {
 namespace {
 
-constexpr int kLargestPicture = 16384;  ///< side [pixels]
+constexpr const char* kMethod = "glossy";  ///< of kMethods: the one that knows gloss
+constexpr int kLargestPicture = 16384;     ///< side [pixels]
 
 bool is_exr(const std::string& path)
 {
@@ -36,6 +37,8 @@ void check(const std::string& path, const RenderOptions& options)
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
+    if (options.paths == 0)
+        checked_batch(method_of(kMethod), options.bake.solver.batch);
 }
 
 void check_size(const gpu::Device& device, const RenderOptions& options)
@@ -202,7 +205,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
 
 Made make(Scene scene, RenderOptions options, Stages& stages)
 {
-    options.bake.solver.method = "glossy";
+    options.bake.solver.method = kMethod;
     return options.paths > 0 ? path_trace(scene, options, stages)
                              : shoot(std::move(scene), options, stages);
 }

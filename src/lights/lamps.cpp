@@ -24,8 +24,6 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Between the keys of one lamp's random numbers and the next's.
 constexpr std::uint32_t kLampKeys = 977;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 /// Least difference of a cone's cosines that counts as soft (KHR_lights_punctual).
 constexpr float kLeastConeStep = 0.001f;
 /// Pixels of all hemicubes of a batch, which bounds its memory to 32 MiB.

@@ -35,8 +35,6 @@ constexpr std::uint32_t kKeys = 8;
 
 /// Pixels of all views of a batch, which bounds its memory to 32 MiB.
 constexpr std::uint64_t kMostPixels = 8u << 20;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 
 /// A unit direction in even distribution over the cone of half angle `angle` about +z.
 glm::vec3 in_cone(const glm::vec2& at, float angle)

@@ -32,14 +32,13 @@ struct Ray {
     float spread = 1.0f;        ///< 2 / (1 + cos α)
 };
 
-/// Uniform in solid angle. `squared_sine`: sin² α.
-Ray draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine, const glm::vec2& at)
+/// Uniform in solid angle, as `disc` is over the unit disc. `squared_sine`: sin² α.
+Ray draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine, const glm::vec2& disc)
 {
     Ray ray{.direction = axis};
     if (squared_sine <= 0.0f)
         return ray;
     const float height = squared_sine / (1.0f + cosine);  // 1 - cos α
-    const glm::vec2 disc = square_to_disc(at);
     const float drop = height * glm::dot(disc, disc);
     ray.cosine = 1.0f - drop;
     ray.squared_sine = drop * (2.0f - drop);
@@ -60,23 +59,25 @@ Lamps::Lamps(const Scene& scene) : scene_(&scene)
                               .toward = glm::normalize(glm::vec3(light.transform[2]))});
 }
 
-LampSample Lamps::sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& at) const
+LampSample Lamps::sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const
 {
     const Lamp& chosen = lamps_[lamp];
-    return chosen.light->kind == PunctualLight::Kind::directional ? from_disc(chosen, at)
-                                                                  : from_ball(chosen, position, at);
+    return chosen.light->kind == PunctualLight::Kind::directional
+               ? from_disc(chosen, disc)
+               : from_ball(chosen, position, disc);
 }
 
-LampSample Lamps::from_disc(const Lamp& lamp, const glm::vec2& at) const
+LampSample Lamps::from_disc(const Lamp& lamp, const glm::vec2& disc) const
 {
     const float sine = std::sin(lamp.light->angle);
-    const Ray ray = draw_from_cone(lamp.toward, sine * sine, std::cos(lamp.light->angle), at);
+    const Ray ray = draw_from_cone(lamp.toward, sine * sine, std::cos(lamp.light->angle), disc);
     return {.direction = ray.direction,
             .distance = std::numeric_limits<float>::infinity(),
             .illuminance = lamp.light->intensity * ray.spread * lamp.light->color};
 }
 
-LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& at) const
+LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position,
+                            const glm::vec2& disc) const
 {
     const PunctualLight& light = *lamp.light;
     const glm::vec3 way = lamp.position - position;
@@ -86,7 +87,7 @@ LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position, const g
         return {};
     const float squared_sine = squared_radius / squared;
     const float far = std::sqrt(squared);
-    const Ray ray = draw_from_cone(way / far, squared_sine, std::sqrt(1.0f - squared_sine), at);
+    const Ray ray = draw_from_cone(way / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
     // Where the ray enters the ball.
     const float within = std::sqrt(std::max(0.0f, squared_radius - squared * ray.squared_sine));
     LampSample sample{.direction = ray.direction, .distance = far * ray.cosine - within};

@@ -24,8 +24,8 @@ public:
 
     std::size_t count() const { return lamps_.size(); }
 
-    /// Draws a direction, by a point of the unit square, of those that a lamp shines from.
-    LampSample sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& at) const;
+    /// Draws a direction, by a point of the unit disc, of those that a lamp shines from.
+    LampSample sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const;
 
 private:
     struct Lamp {
@@ -34,8 +34,8 @@ private:
         glm::vec3 toward{0.0f};    ///< unit, against the way it shines
     };
 
-    LampSample from_disc(const Lamp& lamp, const glm::vec2& at) const;
-    LampSample from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& at) const;
+    LampSample from_disc(const Lamp& lamp, const glm::vec2& disc) const;
+    LampSample from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& disc) const;
 
     const Scene* scene_;
     std::vector<Lamp> lamps_;  ///< those that shine

@@ -10,15 +10,18 @@
 #include <cmath>
 #include <vector>
 
+#include "reference/directions.h"
+
 namespace lumel {
 
 namespace {
 
-/// Rays towards lamps per bounce.
-constexpr std::size_t kLampRays = 1;
-/// A sky is drawn from if its mean squared radiance is this many times its squared mean. Evener
-/// ones are met by reflected directions as well as can be.
-constexpr double kUnevenSky = 4.0;
+/// Rays towards lamps per bounce. In rooms and streets of 4 to 200 lamps 1 to 4 cost about as much
+/// for the same error, and one for every lamp up to twice as much.
+constexpr std::size_t kLampRays = 2;
+/// A sky is drawn from if its mean squared radiance is this many times its squared mean. In streets
+/// that pays from 2 to 3 on; what is evener is met by reflected directions.
+constexpr double kUnevenSky = 2.5;
 
 /// Veach's power heuristic (β = 2) for a sample drawn with density `mine`. [VG95]
 float power_heuristic(float mine, float other)
@@ -97,7 +100,7 @@ glm::vec3 Lights::from_sky(const Stand& stand, const BounceSamples& samples) con
     return sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
-/// Works out what every lamp would bring, and asks who is in the way for one of them, chosen by
+/// Works out what every lamp would bring, and asks what is in the way of a few of them, chosen by
 /// that.
 glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) const
 {
@@ -108,10 +111,10 @@ glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) c
     };
     std::vector<Offer> offers;
     offers.reserve(lamps_.count());
-    const glm::vec2 at = samples.point(Draw::lamp);
+    const glm::vec2 disc = square_to_disc(samples.point(Draw::lamp));
     float total = 0.0f;
     for (std::size_t i = 0; i < lamps_.count(); ++i) {
-        const LampSample lamp = lamps_.sample(i, stand.position, at);
+        const LampSample lamp = lamps_.sample(i, stand.position, disc);
         const float cosine = cosine_above(stand, lamp.direction);
         if (!(cosine > 0.0f) || lamp.illuminance == glm::vec3(0.0f))
             continue;

@@ -82,13 +82,14 @@ glm::vec3 PathTracer::reflected(Stand stand, const PathSamples& path) const
         const float cosine = cosine_above(stand, direction);
         if (!(cosine > 0.0f))
             break;
+        RayHit hit;
+        const bool met = rays_.closest(stand.position, direction, 0.0f, kFar,
+                                       samples.bits(Draw::direction), hit);
         const Brdf::Response response = stand.brdf.respond(direction);
         if (!(response.density > 0.0f))
             break;
         throughput *= response.shape * (cosine / kPi / response.density);
-        RayHit hit;
-        if (!rays_.closest(stand.position, direction, 0.0f, kFar, samples.bits(Draw::direction),
-                           hit)) {
+        if (!met) {
             if (counts)
                 gathered += kPi * throughput * lights_.met_sky(direction, response.density);
             break;

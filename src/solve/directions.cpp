@@ -48,8 +48,6 @@ constexpr std::uint32_t kChunk = 1024;
 constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
 /// Pixels of all maps of a batch, which bounds their memory.
 constexpr std::uint64_t kMostPixels = 4u << 20;
-/// Units tried first when a kind of work is timed (see gpu::Pacer).
-constexpr std::uint32_t kProbeLumels = 4096;
 
 /// Evenly over the sphere.
 glm::vec3 on_sphere(const glm::vec2& at)

@@ -66,11 +66,6 @@ constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array};
 
-std::uint32_t batch_of(const SolverOptions& options)
-{
-    return std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostGlossyBatch);
-}
-
 }  // namespace
 
 GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection projection)
@@ -88,7 +83,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
                                        const SolverOptions& options)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
-      batch_(batch_of(options)),
+      batch_(checked_batch(method_of("glossy"), options.batch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),

@@ -48,6 +48,15 @@ const MethodInfo& method_of(const std::string& id)
     throw Error(ErrorKind::input, "--solver " + id, "no such method; there are: " + known);
 }
 
+std::uint32_t checked_batch(const MethodInfo& method, int batch)
+{
+    if (batch < 1 || std::uint32_t(batch) > method.most_batch)
+        throw Error(ErrorKind::input, "--batch " + std::to_string(batch),
+                    "must be from 1 to " + std::to_string(method.most_batch) +
+                        " shooters with the method " + method.id);
+    return std::uint32_t(batch);
+}
+
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options)

@@ -12,6 +12,8 @@
 #include "gpu/pacer.h"
 #include "nearfield/near_field.h"
 #include "reference/reference.h"
+#include "solve/glossy.shared.h"
+#include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
 #include "visibility/illumination_maps.h"
 #include "world/world.h"
@@ -29,7 +31,7 @@ struct SolverOptions {
     SampleRule rule = SampleRule::area;
     bool disc = true;  ///< of "stochastic" with Scheme::paper: shooters are discs, [BSS05] Eq. (8)
     std::uint32_t seed = 1;
-    int batch = 16;  ///< K, shooters per iteration
+    int batch = 16;  ///< K, shooters per iteration, 1 to MethodInfo::most_batch
     Projection projection = Projection::hemicube;
     int hemicube = 256;            ///< side of the front face [pixels], see EyeViews
     Layers layers = Layers::list;  ///< of illumination maps
@@ -71,6 +73,7 @@ struct MethodInfo {
     const char* advice;                                ///< when to use it
     MaterialModel materials = MaterialModel::diffuse;  ///< what it reads of them
     float near_radius = NearFieldOptions{}.radius;     ///< NearFieldOptions::radius that suits it
+    std::uint32_t most_batch = kMostBatch;             ///< K at most
 };
 
 inline constexpr MethodInfo kMethods[] = {
@@ -80,13 +83,16 @@ inline constexpr MethodInfo kMethods[] = {
      "light that metals and polished surfaces pass on; noisier than the default",
      // It multiplies by the near field in every iteration, and what close pairs exchange loses its
      // lobes: few pairs are better.
-     MaterialModel::glossy, 3.0f},
+     MaterialModel::glossy, 3.0f, kMostGlossyBatch},
     {"directions", "Global directions with stochastic depth buffering", "[TN11]",
      "open scenes of diffuse surfaces with few small emissive lights"},
 };
 
 /// The method of that name. Throws Error{input} if there is none.
 const MethodInfo& method_of(const std::string& id);
+
+/// The batch as K of that method. Throws Error{input} if it is not from 1 to most_batch.
+std::uint32_t checked_batch(const MethodInfo& method, int batch);
 
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);
@@ -95,8 +101,8 @@ NearFieldOptions near_field_options(const SolverOptions& options);
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options);
 
-/// Throws Error{input} if options.method is not in the table. `near` may be empty for methods
-/// and schemes without a near field.
+/// Throws Error{input} if options.method is not in the table or cannot take options.batch. `near`
+/// may be empty for methods and schemes without a near field.
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options);

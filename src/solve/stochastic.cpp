@@ -64,7 +64,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       receive_(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
                kReceiveGroup, std::uint32_t(options.projection)),
       views_(device, world, options.projection, std::uint32_t(options.hemicube),
-             std::clamp(std::uint32_t(std::max(options.batch, 1)), 1u, kMostBatch)),
+             checked_batch(method_of("stochastic"), options.batch)),
       batch_(views_.capacity()),
       eyes_(device, kMostBatch),
       shots_(device, kMostBatch),

@@ -12,6 +12,9 @@
 
 namespace lumel {
 
+/// Lumels tried first when a kind of work is timed (see gpu::Pacer).
+inline constexpr std::uint32_t kProbeLumels = 4096;
+
 /// One cut-out material's part of the occluders, with its alpha on the GPU.
 struct CutOutDraw {
     OccluderRange range;

@@ -163,6 +163,19 @@ TEST(Reference, SaysWhetherGlossCounts)
     }
 }
 
+TEST(Reference, SaysWhichPartOfTheLightItHas)
+{
+    const Workplace place;
+    for (const std::string only : {"direct", "indirect"}) {
+        const Outcome outcome =
+            run_lumel({"reference", own_scene("cornell-box.gltf"), place.path(only), "--spp", "1",
+                       "--size", "32", "--only", only, "--json"});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
+        EXPECT_EQ(report["settings"]["only"], only) << outcome.out;
+    }
+}
+
 TEST(Info, SaysWhatABakeWouldTakeAndWritesNothing)
 {
     const Outcome text = run_lumel({"info", own_scene("cornell-box.gltf"), "--size", "32"});

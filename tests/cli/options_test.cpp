@@ -35,6 +35,9 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"bake", scene, "out", "--seed", "-1"}, {"--seed"}},
         {{"bake", scene, "out", "--seed", "4294967296"}, {"--seed"}},
         {{"bake", scene, "out", "--solver", "magic"}, {"--solver", "magic"}},
+        {{"bake", scene, "out", "--batch", "257"}, {"--batch", "257"}},
+        {{"bake", scene, "out", "--solver", "glossy", "--batch", "129"}, {"--batch 129", "128"}},
+        {{"render", scene, "out.png", "--batch", "129"}, {"--batch 129", "128"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
         {{"bake", scene, "out", "--projection", "sphere"},
@@ -53,6 +56,7 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"info", scene, "--light-radius", "-1"}, {"--light-radius"}},
         {{"info", scene, "--ies", "lamp"}, {"--ies", "LIGHT=FILE"}},
         {{"info", scene, "--ies", "lamp=file.ies"}, {"--ies", "lamp"}},
+        {{"reference", scene, "out", "--only", "some"}, {"--only", "some", "indirect"}},
         {{"compare", "one.exr"}, {"B"}},
         {{"info"}, {"scene"}},
     };

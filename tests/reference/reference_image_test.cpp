@@ -8,6 +8,7 @@
 
 #include "../support/box_lumels.h"
 #include "../support/glossy_look.h"
+#include "../support/lamps.h"
 #include "../support/quadrature.h"
 #include "reference/closed_forms.h"
 #include "reference/reference.h"
@@ -197,6 +198,37 @@ TEST(ReferenceImage, ALampIsReflectedAsItsQuadratureSays)
                 EXPECT_NEAR(mean_of(image, 0), truth, 0.01 * truth)
                     << "n " << shininess << ", from x " << aside;
             }
+}
+
+TEST(ReferenceImage, AGlossyFloorReflectsALampAndTheSkyAsItsBrdfSays)
+{
+    // A sky with a bright texel, which rays are aimed at, and without.
+    const glm::vec3 place(-0.8f, 0.1f, 1.0f), toward = support::direction_of(0.7, 0.1);
+    const View view{.transform = look_at(1.5f * toward, glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}),
+                    .vertical_fov = 1e-3f,
+                    .aspect = 1.0f};
+    for (const float bright : {1.0f, 100.0f})
+        for (const float shininess : {1.0f, 10.0f, 100.0f}) {
+            const Reflectance look = grey(0.2f, 0.7f, shininess);
+            HandMade made = make_quads({{{-0.5f, -0.5f, 0.0f}}});
+            make_glossy(made.scene, 0, look);
+            made.scene.lights = {support::make_lamp(PunctualLight::Kind::point, 5.0f, place)};
+            made.scene.sky = {16, 8, std::vector<glm::vec3>(16 * 8, glm::vec3(1.0f))};
+            made.scene.sky.radiance[4 * 16 + 13] = glm::vec3(bright);
+            const Image image =
+                render(made.scene, view, {.width = 4, .height = 4, .samples_per_pixel = 4096});
+            const Brdf brdf(look, {0.0f, 0.0f, 1.0f}, toward);
+            const glm::vec3 way = glm::normalize(place);
+            const double from_lamp = double(support::value_of(brdf, way).x * 5.0f * way.z) /
+                                     double(glm::dot(place, place));
+            const double from_sky = support::over_hemisphere([&](const glm::vec3& incoming) {
+                return support::value_of(brdf, incoming).x * incoming.z *
+                       sky_radiance(made.scene.sky, incoming).x;
+            });
+            const double truth = from_lamp + from_sky;
+            EXPECT_NEAR(mean_of(image, 0), truth, 0.01 * truth)
+                << "n " << shininess << ", bright " << bright;
+        }
 }
 
 TEST(ReferenceImage, ThingsAreSeenWhereTheyAre)
