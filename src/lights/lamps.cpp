@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/frame.h"
 #include "core/lattice.h"
 #include "lights/lamps.shared.h"
 
@@ -60,10 +61,8 @@ Lamp lamp_of(const PunctualLight& light)
 /// Looks along `normal`, turned about it by `turn` [rad].
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::uint32_t random)
 {
-    const glm::vec3 other =
-        std::abs(normal.x) < 0.5f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 1.0f, 0.0f);
-    const glm::vec3 s = glm::normalize(glm::cross(other, normal)), t = glm::cross(normal, s);
-    const glm::vec3 tangent = std::cos(turn) * s + std::sin(turn) * t;
+    const glm::mat3 frame = frame_about(normal);
+    const glm::vec3 tangent = std::cos(turn) * frame[0] + std::sin(turn) * frame[1];
     return {position, tangent, glm::cross(normal, tangent), normal, random};
 }
 

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frame.h"
 #include "core/lattice.h"
 
 namespace lumel {
@@ -86,11 +87,8 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
 std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
                                         std::uint32_t seed)
 {
-    const glm::mat3 frame(light.transform);
-    const glm::vec3 toward = glm::normalize(frame[2]);  // it shines along -z
-    const glm::vec3 other =
-        std::abs(toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
-    const glm::vec3 s = glm::normalize(glm::cross(other, toward)), t = glm::cross(toward, s);
+    const glm::vec3 away = glm::normalize(glm::vec3(light.transform[2]));  // it shines along -z
+    const glm::mat3 frame = frame_about(away);
     // Even radiance over the disc makes this illuminance on a surface that faces its middle:
     // the mean cosine over a cone is sin²α / 2(1 - cosα).
     const float cosine = std::cos(light.angle);
@@ -99,7 +97,7 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
     std::vector<ParallelSource> sources;
     for (std::uint32_t i = 0; i < count; ++i) {
         const glm::vec3 d = in_cone(lattice_point(i, count, seed * kKeys + kDiscKey), light.angle);
-        sources.push_back({glm::normalize(d.x * s + d.y * t + d.z * toward), each});
+        sources.push_back({glm::normalize(frame * d), each});
     }
     return sources;
 }
