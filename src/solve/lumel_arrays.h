@@ -10,9 +10,6 @@
 
 namespace lumel {
 
-/// Lumels tried first when a kind of work on all of them is timed (see gpu::Pacer).
-inline constexpr std::uint32_t kProbeLumels = 4096;
-
 /// (ρ, A) [N]
 std::vector<glm::vec4> surfaces_of(const Lumels& lumels);
 

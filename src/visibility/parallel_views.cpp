@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/frame.h"
+
 namespace lumel {
 namespace {
 
@@ -96,10 +98,8 @@ std::uint32_t parallel_side(const gpu::Device& device, const World& world, const
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose)
 {
-    const glm::vec3 other =
-        std::abs(pose.toward.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
-    const glm::vec3 s = glm::normalize(glm::cross(other, pose.toward));
-    const glm::vec3 t = glm::cross(pose.toward, s);
+    const glm::mat3 frame = frame_about(pose.toward);
+    const glm::vec3 s = frame[0], t = frame[1];
     const glm::vec3 right = std::cos(pose.turn) * s + std::sin(pose.turn) * t;
     const glm::vec3 up = std::cos(pose.turn) * t - std::sin(pose.turn) * s;
 
