@@ -74,7 +74,6 @@ void Commands::begin()
     recording_ = true;
     stages_.clear();
     stage("other");
-    barrier();
 }
 
 bool Commands::has_room_for_stages() const
@@ -90,6 +89,9 @@ void Commands::stage(const char* name)
     vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
                          std::uint32_t(stages_.size()));
     stages_.emplace_back(name);
+    // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may be
+    // after the work that follows.
+    barrier();
 }
 
 // Everything before happens before, and is visible to, everything after. One barrier for all

@@ -66,6 +66,37 @@ TEST(Commands, RunInTheOrderRecorded)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+// Some drivers write timestamps late once something was drawn.
+TEST(Commands, TimeEachStageByItsOwnWork)
+{
+    const Device device;
+    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    constexpr std::uint32_t count = 4000000;
+    const Array<std::uint32_t> array(device, count);
+    const Target depth(device, Pixel::depth, 64, 64);
+    Commands commands(device);
+    const auto draw = [&] {
+        commands.begin_pass(nullptr, depth, {0, 0, 64, 64});
+        commands.end_pass();
+    };
+    const auto work = [&] { commands.dispatch(twice, {array}, TwiceParams{0, count, 1}, count); };
+    work();  // the driver compiles what it meets for the first time
+    draw();
+    commands.run();
+    commands.take_times();
+    commands.stage("drawing");
+    draw();
+    commands.stage("working");
+    work();
+    commands.stage("drawing again");
+    draw();
+    commands.run();
+    const StageTimes times = commands.take_times();
+    EXPECT_GT(times.at("working"), times.at("drawing"));
+    EXPECT_GT(times.at("working"), times.at("drawing again"));
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 TEST(Pacer, CutsWorkWithoutChangingItsResult)
 {
     const Device device;
