@@ -253,6 +253,12 @@ void add_stop_options(CLI::App& app, SolverOptions& solver)
     });
 }
 
+void add_directional_option(CLI::App& app, Directional& directional)
+{
+    add_choice(app, "--directional", directional, kDirectional,
+               "Also write where the light comes from, as spherical harmonics of order 1 or 2");
+}
+
 CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
@@ -272,8 +278,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
     add_choice(command, "--only", bake.options.parts, kParts,
                "Of the arriving light only what comes straight from its source, or only the rest");
-    add_choice(command, "--directional", bake.options.directional, kDirectional,
-               "Also write where the light comes from, as spherical harmonics of order 1 or 2");
+    add_directional_option(command, bake.options.directional);
     command.add_option("--preview-width", bake.options.preview_width, "Of preview.png; 0: none")
         ->type_name("N")
         ->capture_default_str()
@@ -373,6 +378,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info)
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
     add_view_options(command, info.options.solver);
+    add_directional_option(command, info.options.directional);
     command.add_flag("--json", info.json, "Print JSON");
     return command;
 }

@@ -8,6 +8,7 @@
 #include "bake/bake.h"
 #include "bake/prepare.h"
 #include "gpu/device.h"
+#include "solve/spherical_harmonics.h"
 #include "solve/stochastic.shared.h"
 #include "world/occluders.h"
 #include "world/world.shared.h"
@@ -21,19 +22,41 @@ using nlohmann::ordered_json;
 /// size is known only once it is built: about this many pairs a lumel.
 constexpr double kNearPairsPerLumel = 60.0;
 
+std::uint64_t view_memory(const SolverOptions& solver)
+{
+    return view_pixels(solver.projection, std::uint32_t(solver.hemicube)) * sizeof(float) *
+           std::uint64_t(solver.batch);
+}
+
+std::uint64_t near_field_memory(std::uint64_t lumels)
+{
+    return std::uint64_t(double(lumels) * kNearPairsPerLumel) * 2 * sizeof(float);
+}
+
+/// What gather_directional() holds beside the solver: sums of the bands, sources, and views and a
+/// near field of its own.
+std::uint64_t directional_memory(std::uint64_t lumels, const BakeOptions& options)
+{
+    if (options.directional == Directional::none)
+        return 0;
+    const auto coefficients = std::uint64_t(coefficient_count(int(options.directional)));
+    return lumels * ((coefficients + 1) * sizeof(glm::vec3) + sizeof(glm::vec4)) +
+           near_field_memory(lumels) + view_memory(options.solver);
+}
+
 std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
-                              const SolverOptions& solver)
+                              const BakeOptions& options)
 {
     const std::uint64_t lumels = world.lumels.lumels.size();
     constexpr std::uint64_t vectors_per_lumel = 15;  // the vec3 arrays of StochasticRadiosity
-    const std::uint64_t pixels = view_pixels(solver.projection, std::uint32_t(solver.hemicube));
     std::uint64_t bytes = lumels * (2 * sizeof(Lumel) + sizeof(glm::vec4) +
                                     vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float));
     bytes += world.lumels.pieces.size() * 2 * sizeof(Piece);
     bytes += occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t));
     bytes += occluders.indices.size() * sizeof(std::uint32_t);
-    bytes += pixels * sizeof(float) * std::uint64_t(solver.batch);
-    bytes += std::uint64_t(double(lumels) * kNearPairsPerLumel) * 2 * sizeof(float);
+    bytes += view_memory(options.solver);
+    bytes += near_field_memory(lumels);
+    bytes += directional_memory(lumels, options);
     return bytes;
 }
 
@@ -46,7 +69,7 @@ std::size_t triangle_count(const Scene& scene)
     return count;
 }
 
-ordered_json facts(const Prepared& world, const SolverOptions& solver)
+ordered_json facts(const Prepared& world, const BakeOptions& options)
 {
     const Scene& scene = world.scene;
     const Occluders occluders = find_occluders(scene);
@@ -87,7 +110,7 @@ ordered_json facts(const Prepared& world, const SolverOptions& solver)
     json["back_lumels"] = back;
     json["buried_lumels"] = buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    json["graphics_memory_bytes"] = graphics_memory(world, occluders, solver);
+    json["graphics_memory_bytes"] = graphics_memory(world, occluders, options);
     json["warnings"] = scene.warnings;
     json["notes"] = world.atlas.notes;
     return json;
@@ -142,7 +165,7 @@ std::string describe(const std::string& scene_path, const BakeOptions& options, 
 {
     const Prepared world(read_scene(scene_path, MaterialModel::diffuse, options.lights),
                          options.atlas);
-    const ordered_json all = facts(world, options.solver);
+    const ordered_json all = facts(world, options);
     return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
 }
 

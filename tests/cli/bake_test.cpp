@@ -186,6 +186,21 @@ TEST(Info, SaysWhatABakeWouldTakeAndWritesNothing)
     EXPECT_FALSE(nlohmann::json::parse(json.out, nullptr, false).is_discarded()) << json.out;
 }
 
+TEST(Info, CountsTheMemoryOfDirectionalLightmaps)
+{
+    const auto memory = [](std::vector<std::string> options) {
+        options.insert(options.begin(),
+                       {"info", own_scene("cornell-box.gltf"), "--size", "32", "--json"});
+        const Outcome outcome = run_lumel(options);
+        return nlohmann::json::parse(outcome.out, nullptr, false)
+            .value("graphics_memory_bytes", std::uint64_t(0));
+    };
+    const std::uint64_t plain = memory({}), sh1 = memory({"--directional", "sh1"});
+    EXPECT_GT(plain, 0u);
+    EXPECT_GT(sh1, plain);
+    EXPECT_GT(memory({"--directional", "sh2"}), sh1);
+}
+
 TEST(Devices, ListsAtLeastOneThatCanBeUsed)
 {
     const Outcome devices = run_lumel({"devices", "--json"});
