@@ -7,9 +7,14 @@
 const float kDepthSlack = 2e-4;
 // A curved receiver's neighbouring facets fall behind its plane by this much at most, relative.
 const float kPlaneSlack = 2e-3;
-// Planes that come nearer by more than this many pixel widths per pixel are seen edge-on: such a
-// plane meets many others, and being on it says nothing.
+// Half so many pixel widths may a plane be nearer at the pixel's centre than at the point, as a
+// part of z, before being on it there says little: a steep plane meets many others.
+const float kSlope = 2.0;
+// And before it says nothing.
 const float kMostSlope = 8.0;
+// What is drawn may be off by this much [pixels]: corners are rounded to 1/256, and interpolation
+// adds its own.
+const float kRounding = 1.0 / 128.0;
 
 // The facet beyond a convex edge falls behind the receiver's plane by this much at most, relative.
 const float kEdgeSlack = 0.016;
@@ -58,6 +63,49 @@ bool is_past_edge(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, fl
     return flat_ && in_front + step * dot(offset, way) <= plane * kDepthSlack;
 }
 
+// Does the receiver's plane show beside the pixel as well, on the way to or from the eye? Another
+// surface meets the plane in a line, and off that line leaves it.
+bool is_plane_beside(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, float toward_point,
+                     float plane)
+{
+    const float right = -dot(facing, centre_ray(layout_, f, f.pixel + vec2(1.0, 0.0)));
+    const float up = -dot(facing, centre_ray(layout_, f, f.pixel + vec2(0.0, 1.0)));
+    const float here = plane / layout_.near;
+    const vec2 way = abs(right - here) > abs(up - here) ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    bool shown = false;
+    for (float sign_ = -1.0; sign_ <= 1.0; sign_ += 2.0) {
+        const vec2 pixel = f.pixel + sign_ * way;
+        const float found = in_front_of_plane(layout_, f, pixel,
+                                              stored_depth(layout_, tile, f, pixel), facing,
+                                              toward_point);
+        shown = shown || (is_in_view(layout_, f, pixel) && abs(found) <= plane * kPlaneSlack);
+    }
+    return shown;
+}
+
+// Is a steep plane seen at all four pixel centres around the point? Over the pixels, the plane and
+// any flat occluder are affine in 1 / z. An occluder that covers the four and is nearer than the
+// plane at the point is nearer at one of them at least: none can hide the point alone.
+bool is_free_around(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, float toward_point)
+{
+    const vec2 corner = floor(f.at - 0.5);
+    float plane[4], most = -1e30, least = 1e30;
+    for (uint i = 0u; i < 4u; ++i) {
+        const vec2 pixel = corner + vec2(i & 1u, i >> 1u);
+        plane[i] = -dot(facing, centre_ray(layout_, f, pixel)) * layout_.near;
+        most = max(most, plane[i]);
+        least = min(least, plane[i]);
+    }
+    bool free = true;
+    for (uint i = 0u; i < 4u; ++i) {
+        const vec2 pixel = corner + vec2(i & 1u, i >> 1u);
+        const float slack = abs(plane[i]) * kDepthSlack + (most - least) * kRounding;
+        free = free && is_in_view(layout_, f, pixel) &&
+               stored_depth(layout_, tile, f, pixel) * toward_point <= plane[i] + slack;
+    }
+    return free;
+}
+
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
 // normal is `facing` (any length) in the eye's frame.
 //
@@ -67,10 +115,10 @@ bool is_past_edge(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, fl
 //
 //     z_plane = (facing · local) / (facing · q),      q = the ray to z = 1,
 //
-// and if that is what is stored, the pixel shows the receiver's own surface: it is seen, whatever
-// its slope. Otherwise the point's own z decides, as in any shadow map, but for points beside an
-// edge or a contact. Only equality counts for the plane: it may well run in front of an occluder
-// that hides the point itself.
+// and if that is what is stored, the pixel shows the receiver's own surface: it is seen. Otherwise
+// the point's own z decides, as in any shadow map, but for points beside an edge or a contact. Only
+// equality counts for the plane: it may well run in front of an occluder that hides the point
+// itself. At grazing angles one pixel is not enough to tell: its neighbours are asked as well.
 bool sees(EyeViewLayout layout_, uint tile, vec3 local, vec3 facing)
 {
     const ViewPoint f = project(layout_, local);
@@ -80,11 +128,14 @@ bool sees(EyeViewLayout layout_, uint tile, vec3 local, vec3 facing)
     const float toward_point = -dot(facing, local);
     const vec3 ray = centre_ray(layout_, f, f.pixel);
     const float toward_pixel = -dot(facing, ray);
-    if (toward_point < (1.0 - kMostSlope * half_width(layout_, ray)) * f.z * toward_pixel)
-        return false;  // steep
     const float plane = toward_pixel * layout_.near;
     const float in_front = toward_point * stored - plane;
+    const float width = half_width(layout_, ray);
+    if (toward_point < (1.0 - kMostSlope * width) * f.z * toward_pixel)
+        return in_front <= plane * kEdgeSlack &&  // else hidden at this pixel already
+               is_free_around(layout_, tile, f, facing, toward_point);
     if (in_front <= plane * kDepthSlack && in_front >= -plane * kPlaneSlack)
-        return true;
+        return toward_point >= (1.0 - kSlope * width) * f.z * toward_pixel ||
+               is_plane_beside(layout_, tile, f, facing, toward_point, plane);
     return is_past_edge(layout_, tile, f, facing, toward_point, in_front, plane);
 }

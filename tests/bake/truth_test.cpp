@@ -120,6 +120,43 @@ TEST(Plates, MeetingAtARightAngleMatchThePointFormFactor)
               0.01);
 }
 
+// A small lamp low above a long floor, which is drawn since something lies below it.
+TEST(GrazingLight, FromALowLampMatchesThePointFormFactor)
+{
+    constexpr float kLength = 3.0f, kWidth = 0.25f;
+    constexpr Span kLamp{0.03, 0.07};
+    support::Quad floor;
+    floor.albedo = glm::vec3(0.0f);
+    floor.edge_u = {kWidth, 0, 0};
+    floor.edge_v = {0, kLength, 0};
+    floor.res_u = 10;
+    floor.res_v = 120;
+    support::Quad below = floor;
+    below.corner.z = -0.5f;
+    below.res_u = below.res_v = 1;
+    support::Quad lamp;
+    lamp.albedo = glm::vec3(0.0f);
+    lamp.emission = glm::vec3(1.0f);
+    lamp.corner = {0, 0, float(kLamp.low)};
+    lamp.edge_u = {0, 0, float(kLamp.high - kLamp.low)};
+    lamp.edge_v = {kWidth, 0, 0};
+    lamp.res_v = 6;
+    const support::HandMade place = support::make_quads({floor, below, lamp});
+    const RayScene rays(place.scene);
+    const Solved solved = support::solve_scene(place.scene, rays, place.lumels,
+                                               {.max_shots = 4096, .target_error = 0.0});
+    double arrived[3] = {}, truth[3] = {};  // by metre of distance
+    for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
+        const glm::vec3 x = place.lumels.lumels[i].position;
+        const std::size_t metre = std::min(std::size_t(x.y), std::size_t(2));
+        arrived[metre] += double(solved.irradiance[i].g);
+        truth[metre] += point_to_perpendicular_rectangle({-double(x.x), double(kWidth - x.x)},
+                                                         kLamp, double(x.y));
+    }
+    for (std::size_t metre = 1; metre < 3; ++metre)  // cosines below 0.07
+        EXPECT_NEAR(arrived[metre] / truth[metre], 1.0, 0.01) << "from metre " << metre;
+}
+
 class SealedBox : public testing::TestWithParam<Projection> {};
 
 TEST_P(SealedBox, StaysExactlyDarkInside)

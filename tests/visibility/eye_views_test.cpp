@@ -121,6 +121,100 @@ TEST_P(Views, DrawnFaceByFaceSeeTheSame)
                      agreement(GetParam().projection, false).wrong);
 }
 
+/// Of the light that eyes low above an open floor send to it below a cosine of 0.1: the share seen.
+double grazing_light_seen(Projection projection)
+{
+    constexpr float kGrazing = 0.1f;
+    // Only what has something on both sides is drawn.
+    const support::HandMade place = support::make_quads(
+        {{.corner = {-1.0f, -1.0f, 0.0f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}},
+         {.corner = {-1.0f, -1.0f, -0.5f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}},
+         {.corner = {-1.0f, -1.0f, 1.0f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}}});
+    EXPECT_EQ(find_occluders(place.scene).indices.size() / 3, 2u);
+    const gpu::Device device;
+    const World world(device, place.scene, place.lumels);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    std::vector<Eye> eyes;
+    std::vector<Question> questions;
+    for (int i = 0; i < 24; ++i) {
+        const glm::vec3 way(1.0f, unit(random) - 0.5f, 0.4f * (unit(random) - 0.5f));
+        eyes.push_back(eye_at({0.0f, 0.0f, 0.005f + 0.1f * unit(random)}, glm::normalize(way)));
+    }
+    for (int i = 0; i < 20000; ++i)
+        questions.push_back(
+            {{4.0f * unit(random), 1.8f * unit(random) - 0.9f, 0.0f}, {0.0f, 0.0f, 1.0f}});
+    const auto answers = look_and_ask(device, world, eyes, questions, projection, false);
+    double light = 0.0, seen = 0.0;
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+        for (std::size_t q = 0; q < questions.size(); ++q) {
+            const glm::vec3 d = questions[q].position - eyes[e].position;
+            const float r = glm::length(d), toward = glm::dot(d, eyes[e].normal);
+            if (toward <= 0.0f || -d.z > kGrazing * r)
+                continue;
+            const double factor = double(toward * -d.z) / std::pow(double(r), 4.0);
+            light += factor;
+            seen += answers[e][q] ? factor : 0.0;
+        }
+    EXPECT_EQ(device.validation_messages(), "");
+    return seen / light;
+}
+
+// Between two pixels a plane that is met at a grazing angle comes nearer by a large part.
+TEST_P(Views, ShowAnOpenFloorAtAnyAngle)
+{
+    EXPECT_GT(grazing_light_seen(GetParam().projection), 0.99);
+}
+
+// Eyes outside that lie almost in the plane of an inner wall see it edge-on, through the outer one.
+TEST_P(Views, ShowNothingInsideAClosedBox)
+{
+    constexpr float kInner = 0.28f, kOuter = 0.3f;
+    std::vector<support::Quad> quads;
+    for (support::Quad wall : support::box_walls(glm::vec3(-kInner), glm::vec3(kInner), true)) {
+        wall.res_u = wall.res_v = 48;
+        quads.push_back(wall);
+    }
+    for (const support::Quad& wall :
+         support::box_walls(glm::vec3(-kOuter), glm::vec3(kOuter), false))
+        quads.push_back(wall);
+    for (const support::Quad& wall : support::box_walls(glm::vec3(-3.0f), glm::vec3(3.0f), true))
+        quads.push_back(wall);
+    const support::HandMade place = support::make_quads(quads);
+    const gpu::Device device;
+    const World world(device, place.scene, place.lumels);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    std::vector<Eye> eyes;
+    for (int i = 0; i < 120; ++i) {
+        const int axis = i % 3;
+        glm::vec3 place_of_eye, toward;
+        for (int c = 0; c < 3; ++c)
+            place_of_eye[c] = 2.0f * (unit(random) - 0.5f);
+        place_of_eye[axis] = (i % 2 == 0 ? -1.0f : 1.0f) * (kInner - 0.03f * unit(random));
+        place_of_eye[(axis + 1) % 3] = i % 4 < 2 ? -0.35f - 1.2f * unit(random) : kOuter + 0.05f;
+        for (int c = 0; c < 3; ++c)
+            toward[c] = 0.6f * (unit(random) - 0.5f) - place_of_eye[c];
+        eyes.push_back(eye_at(place_of_eye, glm::normalize(toward)));
+    }
+    std::vector<Question> questions;
+    for (std::size_t i = 0; i < place.first[6]; ++i)
+        questions.push_back({place.lumels.lumels[i].position, place.lumels.lumels[i].normal});
+    const auto answers = look_and_ask(device, world, eyes, questions, GetParam().projection, false);
+    std::size_t asked = 0, seen = 0;
+    for (std::size_t e = 0; e < eyes.size(); ++e)
+        for (std::size_t q = 0; q < questions.size(); ++q) {
+            const glm::vec3 d = questions[q].position - eyes[e].position;
+            if (glm::dot(d, eyes[e].normal) <= 0.0f || glm::dot(d, questions[q].facing) >= 0.0f)
+                continue;
+            ++asked;
+            seen += answers[e][q];
+        }
+    EXPECT_GT(asked, 100000u);
+    EXPECT_EQ(seen, 0u);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 /// The room with a screen across its middle: 4 x 4 fields, every other one with alpha 0.
 support::HandMade room_with_screen(AlphaMode mode)
 {
