@@ -65,22 +65,45 @@ Image picture_of(const ConvergenceSettings& settings, const SolverOptions& optio
                           choose_view(world.scene, world.rays), settings.width);
 }
 
-/// All exposed like the last.
-void write_steps(const ConvergenceSettings& settings, const SolverOptions& options,
-                 const std::vector<Step>& steps)
+std::string stem_of(const ConvergenceSettings& settings)
+{
+    return settings.folder + "/" + std::filesystem::path(settings.shared.scene).stem().string();
+}
+
+/// All exposed like the last. Returns the pictures.
+std::vector<Image> write_steps(const ConvergenceSettings& settings, const SolverOptions& options,
+                               const std::vector<Step>& steps)
 {
     std::filesystem::create_directories(settings.folder);
     const float map_exposure = choose_exposure(steps.back().map);
     const float picture_exposure = choose_exposure(steps.back().picture);
+    std::vector<Image> pictures;
     for (const Step& step : steps) {
         const auto path = [&](const char* what) {
-            return fmt::format("{}/{}-{}-{}-{:03}.png", settings.folder,
-                               std::filesystem::path(settings.shared.scene).stem().string(),
-                               word_for(options), what, step.iterations);
+            return fmt::format("{}-{}-{}-{:03}.png", stem_of(settings), word_for(options), what,
+                               step.iterations);
         };
         write_png(path("map"), tone_map(step.map, map_exposure));
-        write_png(path("picture"), tone_map(step.picture, picture_exposure));
+        pictures.push_back(tone_map(step.picture, picture_exposure));
+        write_png(path("picture"), pictures.back());
     }
+    return pictures;
+}
+
+/// Pictures of one size, a row for each scheme.
+Image contact_sheet(const std::vector<std::vector<Image>>& rows)
+{
+    const Image& first = rows.front().front();
+    Image sheet(first.width * int(rows.front().size()), first.height * int(rows.size()),
+                first.channels);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+        for (std::size_t column = 0; column < rows[row].size(); ++column) {
+            const Image& picture = rows[row][column];
+            for (int y = 0; y < picture.height; ++y)
+                std::copy_n(picture.at(0, y), picture.width * picture.channels,
+                            sheet.at(int(column) * picture.width, int(row) * picture.height + y));
+        }
+    return sheet;
 }
 
 void print_row(const SolverOptions& options, const SolverState& state, double cpu,
@@ -94,8 +117,10 @@ void print_row(const SolverOptions& options, const SolverState& state, double cp
     std::fflush(stdout);
 }
 
-void follow(const ConvergenceSettings& settings, const SolverOptions& options,
-            const gpu::Device& device, const Prepared& world, const std::optional<Image>& reference)
+/// Returns the pictures, none without a folder for them.
+std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptions& options,
+                          const gpu::Device& device, const Prepared& world,
+                          const std::optional<Image>& reference)
 {
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
@@ -124,8 +149,7 @@ void follow(const ConvergenceSettings& settings, const SolverOptions& options,
         step.picture = picture_of(settings, options, device, world, step);
         steps.push_back(std::move(step));
     }
-    if (!steps.empty())
-        write_steps(settings, options, steps);
+    return steps.empty() ? std::vector<Image>() : write_steps(settings, options, steps);
 }
 
 }  // namespace
@@ -140,8 +164,11 @@ void follow_convergence(const ConvergenceSettings& settings)
                "|---|---|---|---|---|---|---|\n",
                settings.shared.scene, settings.shared.solver.method, world.lumels.lumels.size(),
                world.atlas.width, device.info().name, device.info().driver);
-    follow(settings, papers_iteration(settings.shared.solver), device, world, reference);
-    follow(settings, settings.shared.solver, device, world, reference);
+    const std::vector<std::vector<Image>> rows{
+        follow(settings, papers_iteration(settings.shared.solver), device, world, reference),
+        follow(settings, settings.shared.solver, device, world, reference)};
+    if (!settings.folder.empty())
+        write_png(stem_of(settings) + "-pictures.png", contact_sheet(rows));
     if (!device.validation_messages().empty())
         throw Error(ErrorKind::device, "validation", device.validation_messages());
 }
