@@ -136,19 +136,21 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 }
 
 // The two differ in which pixels stand at the edges of shadows, and so in the shooters drawn, to
-// which the glossy solver's noise is sensitive.
+// which the glossy solver's noise is sensitive: with 4096 its level scatters by half a per cent.
 TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
 {
     for (const MethodInfo& method : kMethods) {
         const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
                              AtlasOptions{.size = 64});
-        SolverOptions options{.method = method.id, .max_shots = 4096, .target_error = 0.0};
+        const bool glossy = method.materials == MaterialModel::glossy;
+        SolverOptions options{
+            .method = method.id, .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
         const Solved cubes = support::solve_scene(world, options);
         options.projection = Projection::hemisphere;
         const Solved spheres = support::solve_scene(world, options);
         const LumelError apart =
             support::lumel_error(world.lumels, spheres.irradiance, cubes.irradiance, everywhere);
-        EXPECT_LE(apart.rmse, method.materials == MaterialModel::glossy ? 0.07 : 0.02);
+        EXPECT_LE(apart.rmse, glossy ? 0.07 : 0.02);
         EXPECT_LE(std::abs(apart.bias), 0.003) << method.id;
     }
 }
