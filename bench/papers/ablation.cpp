@@ -181,7 +181,13 @@ Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device&
     return spread;
 }
 
-/// Eq. (8): with r² + A/π below, and with r² alone.
+struct Partial {
+    const char* below;
+    bool disc;
+    std::uint32_t merge;
+};
+
+/// Eq. (8): with r² + A/π below, and with r² alone; A of a texel, and of merged ones.
 void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
 {
     Settings diffuse = settings.shared;
@@ -193,15 +199,17 @@ void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
                "|---|---|---|---|---|\n",
                world.lumels.lumels.size(), settings.iterations, settings.seeds);
     for (const SampleRule rule : {SampleRule::centre, SampleRule::area})
-        for (const bool disc : {false, true}) {
+        for (const Partial& partial : {Partial{"r²", false, 0}, Partial{"r² + A/π", true, 0},
+                                       Partial{"r² + A/π, 2 × 2 texels merged", true, 1},
+                                       Partial{"r² + A/π, 4 × 4 texels merged", true, 2}}) {
             SolverOptions options = papers_iteration(diffuse.solver);
             options.rule = rule;
-            options.disc = disc;
+            options.disc = partial.disc;
+            options.merge = partial.merge;
             const Spread spread = spread_of_irradiance(settings, device, world, resident, options);
             fmt::print("| {} | {} | {:.4g} | {:.4g} | {:.4g} |\n",
-                       rule == SampleRule::centre ? "centres" : "spread over lumels",
-                       disc ? "r² + A/π" : "r²", spread.mean(), spread.variance(),
-                       spread.largest());
+                       rule == SampleRule::centre ? "centres" : "spread over lumels", partial.below,
+                       spread.mean(), spread.variance(), spread.largest());
             std::fflush(stdout);
         }
 }

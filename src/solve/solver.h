@@ -30,6 +30,9 @@ struct SolverOptions {
     Scheme scheme = Scheme::phased;
     SampleRule rule = SampleRule::area;
     bool disc = true;  ///< of "stochastic" with Scheme::paper: shooters are discs, [BSS05] Eq. (8)
+    /// Of "stochastic" with Scheme::paper: squares of 2^merge texels a side shoot as one, as far as
+    /// they belong to one chart, [BSS05] section 5. 0: each texel alone.
+    std::uint32_t merge = 0;
     std::uint32_t seed = 1;
     int batch = 16;  ///< K, shooters per iteration, 1 to MethodInfo::most_batch
     Projection projection = Projection::hemicube;

@@ -56,6 +56,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
                                          const Lumels& lumels, const NearField& near,
                                          const SolverOptions& options)
     : options_(options),
+      atlas_width_(std::uint32_t(lumels.width)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
@@ -126,7 +127,9 @@ void StochasticRadiosity::select(std::uint32_t emission_shots)
                               .seed = options_.seed * 2 + h,
                               .random = paper_ ? 1u : 0u,
                               .disc = paper_ && options_.disc ? 1u : 0u,
-                              .centre = options_.rule == SampleRule::centre ? 1u : 0u};
+                              .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                              .merge = paper_ ? options_.merge : 0u,
+                              .width = atlas_width_};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(select_,
                           {world_->lumels(), world_->pieces(), iteration_.emission(),

@@ -29,6 +29,7 @@ private:
     std::uint32_t emission_shots_of_batch();
 
     SolverOptions options_;
+    std::uint32_t atlas_width_;  ///< [texels]
     bool paper_;
     float near_radius_;
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]

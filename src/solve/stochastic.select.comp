@@ -7,6 +7,10 @@
 
 // Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
 // point y uniform on lumel j, the hemicube turned at random about the normal.
+//
+// Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area
+// A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. Its point stays on the
+// texel drawn, so that it lies on the surface.
 
 layout(local_size_x = kSelectGroup) in;
 layout(push_constant, scalar) uniform Params { SelectParams p; };
@@ -21,6 +25,35 @@ layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
 
 #include "world/lumel.glsl"
 #include "solve/shooter.glsl"
+
+struct Merged {
+    vec3 power;    // Σ X_m A_m
+    float area;    // Σ A_m
+    float weight;  // Σ of what they are drawn by
+};
+
+bool is_merged_with(Lumel j, Lumel m)
+{
+    const uvec2 a = uvec2(j.texel % p.width, j.texel / p.width) >> p.merge;
+    const uvec2 b = uvec2(m.texel % p.width, m.texel / p.width) >> p.merge;
+    return a == b && j.chart == m.chart && (m.flags & kLumelBuried) == 0u;
+}
+
+// Lumels lie by chart and along a Morton curve: those of a square are neighbours.
+Merged merged_with(uint j)
+{
+    const Lumel lumel = lumels[j];
+    const uint reach = (1u << (2u * p.merge)) - 1u;
+    const uint last = min(j + reach, p.layout_.count[0] - 1u);
+    Merged sum = Merged(vec3(0.0), 0.0, 0.0);
+    for (uint m = j - min(j, reach); m <= last; ++m)
+        if (is_merged_with(lumel, lumels[m])) {
+            sum.power += source[m] * lumels[m].area;
+            sum.area += lumels[m].area;
+            sum.weight += source_power[p.layout_.first[0] + m];
+        }
+    return sum;
+}
 
 void main()
 {
@@ -48,8 +81,13 @@ void main()
     }
     eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)));
 
-    const vec3 radiosity = emits ? emission[j] : source[j];
-    const float scale = drawn.probability > 0.0 ? area / (kPi * drawn.probability) : 0.0;
-    shots[k] = Shot(radiosity * scale, lumel.position, lumel.size,
-                    p.disc != 0u ? area / kPi : 0.0, j);
+    Merged sent = Merged((emits ? emission[j] : source[j]) * area, area, 1.0);
+    float probability = drawn.probability;
+    if (p.merge > 0u && !emits && probability > 0.0) {
+        sent = merged_with(j);
+        probability *= sent.weight / source_power[layout_.first[0] + j];
+    }
+    const float scale = probability > 0.0 ? 1.0 / (kPi * probability) : 0.0;
+    shots[k] = Shot(sent.power * scale, lumel.position, lumel.size,
+                    p.disc != 0u ? sent.area / kPi : 0.0, j);
 }

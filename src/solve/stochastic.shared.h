@@ -29,6 +29,8 @@ struct SelectParams {
     uint random;          ///< 1: independent random numbers, as in the papers
     uint disc;            ///< 1: point-to-disc form factor
     uint centre;          ///< 1: shoot from the centroid
+    uint merge;           ///< squares of 2^merge texels a side are one shooter; 0: each its own
+    uint width;           ///< of the atlas [texels]
 };
 
 /// Push constants of stochastic.receive.comp.

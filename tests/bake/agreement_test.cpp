@@ -124,6 +124,33 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
     EXPECT_LT(late, 0.6 * early);
 }
 
+// Each texel's light is less noisy from seed to seed if the shooters are larger.
+TEST(CornellBox, MergedTexelsLeaveLessNoise)
+{
+    const Prepared small(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
+    const auto noise = [&](std::uint32_t merge) {
+        double square = 0.0;
+        std::vector<glm::vec3> before;
+        for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+            const Solved solved = support::solve_scene(small, {.scheme = Scheme::paper,
+                                                               .rule = SampleRule::centre,
+                                                               .merge = merge,
+                                                               .seed = seed,
+                                                               .batch = 1,
+                                                               .max_shots = 256,
+                                                               .target_error = 0.0});
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                const glm::vec3 apart = solved.irradiance[i] - before[i];
+                square += double(glm::dot(apart, apart));
+            }
+            before = solved.irradiance;
+        }
+        return square;
+    };
+    EXPECT_LT(noise(1), noise(0));
+    EXPECT_LT(noise(2), noise(1));
+}
+
 TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 {
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
