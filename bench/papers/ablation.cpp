@@ -57,7 +57,7 @@ Seen seen_by_camera(const AblationSettings& settings, const Prepared& world,
 {
     const View view = choose_view(world.scene, world.rays);
     const int height = std::max(1, int(std::lround(float(settings.width) / view.aspect)));
-    return look(view, settings.width, height, kSets, world.rays, surfaces);
+    return look(view, settings.width, height, kSets, world.rays, surfaces, {});
 }
 
 Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
