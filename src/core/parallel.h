@@ -11,4 +11,10 @@ namespace lumel {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t first, std::size_t last)>& body);
 
+/// The same for work that is watched, a step of at most `step` at a time: after each, go_on(done)
+/// is told how many are done, and returns false to stop. False: it did.
+bool parallel_steps(std::size_t count, std::size_t step, std::size_t grain,
+                    const std::function<void(std::size_t first, std::size_t last)>& body,
+                    const std::function<bool(std::size_t done)>& go_on);
+
 }  // namespace lumel

@@ -27,19 +27,18 @@ std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& e
     bool stopped = false;
     for (int done = 0; done < samples && !stopped; done += kSamplesPerPass) {
         const int until = std::min(done + kSamplesPerPass, samples);
-        for (std::size_t begin = 0; begin < count && !stopped; begin += kValuesPerPass) {
-            const std::size_t width = std::min(kValuesPerPass, count - begin);
-            parallel_for(width, kValuesPerTask, [&](std::size_t first, std::size_t last) {
-                for (std::size_t i = begin + first; i < begin + last; ++i) {
-                    for (int sample = done; sample < until; ++sample)
-                        sums[i] += glm::dvec4(estimate(i, std::uint32_t(sample)));
-                    taken[i] = until;
-                }
-            });
-            const double share =
-                (double(begin + width) / double(count) * (until - done) + done) / samples;
-            stopped = progress && !progress(share);
-        }
+        const auto take = [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                for (int sample = done; sample < until; ++sample)
+                    sums[i] += glm::dvec4(estimate(i, std::uint32_t(sample)));
+                taken[i] = until;
+            }
+        };
+        const auto tell = [&](std::size_t values) {
+            const double share = double(values) / double(count);
+            return !progress || progress((share * (until - done) + done) / samples);
+        };
+        stopped = !parallel_steps(count, kValuesPerPass, kValuesPerTask, take, tell);
     }
 
     std::vector<glm::vec4> means(count, glm::vec4(0.0f));
