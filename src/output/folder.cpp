@@ -21,6 +21,18 @@ fs::path normal(const std::string& target)
     return path.has_filename() ? path : path.parent_path();
 }
 
+// The folder of a file that can be put there.
+std::string folder_of(const std::string& target)
+{
+    std::error_code ignored;
+    const fs::path folder = fs::path(normal(target)).parent_path();
+    if (!fs::is_directory(folder, ignored))
+        throw Error(ErrorKind::output, target, "cannot be written: its folder does not exist");
+    if (fs::is_directory(target, ignored))
+        throw Error(ErrorKind::output, target, "is a folder; the output must be a file");
+    return folder.string();
+}
+
 // The folders from the root to `path` that do not exist yet, parents first.
 std::vector<fs::path> missing_folders(const fs::path& path)
 {
@@ -105,6 +117,17 @@ void OutputFolder::clean_up() noexcept
         fs::remove_all(staging_, ignored);
     for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
         fs::remove(*folder, ignored);
+}
+
+OutputFile::OutputFile(const std::string& target)
+    : name_(normal(target).filename().string()),
+      folder_(folder_of(target))
+{
+}
+
+std::string OutputFile::path() const
+{
+    return folder_.path(name_);
 }
 
 }  // namespace lumel

@@ -30,4 +30,20 @@ private:
     std::vector<std::string> made_;  // folders made for this, parents first
 };
 
+/// The same for one file, in a folder that exists.
+class OutputFile {
+public:
+    /// Throws Error{output} if `target` cannot be written.
+    explicit OutputFile(const std::string& target);
+
+    /// Where to write it; it is called as the target is.
+    std::string path() const;
+    /// Puts it in place in one step; an older one is replaced. Call once.
+    void commit() { folder_.commit(); }
+
+private:
+    std::string name_;
+    OutputFolder folder_;
+};
+
 }  // namespace lumel

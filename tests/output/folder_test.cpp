@@ -115,5 +115,37 @@ TEST(OutputFolder, APlaceThatCannotBeAFolderIsAnOutputErrorThatNamesIt)
     EXPECT_EQ(entries(place.path()), 1u);
 }
 
+TEST(OutputFile, AppearsAtCommitInThePlaceOfAnOlderOne)
+{
+    const test::TemporaryFolder place;
+    write(place / "a.txt", "older");
+    {
+        const OutputFile dropped(place / "a.txt");
+        write(dropped.path(), "half");
+    }
+    EXPECT_EQ(text_of(place / "a.txt"), "older");
+    OutputFile file(place / "a.txt");
+    write(file.path(), "newer");
+    EXPECT_EQ(text_of(place / "a.txt"), "older");
+    file.commit();
+    EXPECT_EQ(text_of(place / "a.txt"), "newer");
+}
+
+TEST(OutputFile, APlaceThatCannotBeAFileIsAnOutputErrorThatNamesItAndMakesNothing)
+{
+    const test::TemporaryFolder place;
+    fs::create_directory(place / "folder");
+    for (const std::string& target : {place / "no/a.txt", place / "folder", std::string()}) {
+        try {
+            const OutputFile file(target);
+            FAIL() << target << " was taken";
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::output);
+            EXPECT_NE(std::string(error.what()).find(target), std::string::npos);
+        }
+    }
+    EXPECT_EQ(entries(place.path()), 1u);
+}
+
 }  // namespace
 }  // namespace lumel
