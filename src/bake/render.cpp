@@ -9,6 +9,7 @@
 #include "bake/setting.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "output/folder.h"
 #include "picture/lobe_rays.h"
 #include "picture/picture.h"
 #include "preview/view.h"
@@ -31,14 +32,12 @@ void check(const std::string& path, const RenderOptions& options)
 {
     if (!is_exr(path) && !path.ends_with(".png"))
         throw Error(ErrorKind::input, path, "should end in .png or .exr");
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw Error(ErrorKind::output, path, "cannot be written: its folder does not exist");
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
     if (options.paths == 0)
         checked_batch(method_of(kMethod), options.bake.solver.batch);
+    const OutputFile can_be_written(path);
 }
 
 void check_size(const gpu::Device& device, const RenderOptions& options)
@@ -69,53 +68,49 @@ View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
     return view;
 }
 
-/// What the lobes add at the points seen [G] [cd/m²].
-struct Reflected {
-    std::vector<glm::vec3> radiance;
-    bool stopped = false;
-};
-
-/// By shooters. Every set of points meets some, even if the caller wants to stop.
-Reflected shoot_for(GlossyIllumination& solver, const Seen& seen, std::span<const float> brightness,
-                    const EyeSampling& sampling, Stages& stages)
+/// What the lobes add at the points seen [G] [cd/m²], by shooters. Every set of points meets some,
+/// even if the caller wants to stop.
+std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,
+                                 std::span<const float> brightness, const EyeSampling& sampling,
+                                 Stages& stages)
 {
-    Reflected reflected{std::vector<glm::vec3>(seen.glossy.size(), glm::vec3(0.0f)), false};
     if (sampling.shots == 0)
-        return reflected;
+        return std::vector<glm::vec3>(seen.glossy.size(), glm::vec3(0.0f));
     stages.begin("shooting for the eye");
     solver.look_at(seen.glossy, brightness, sampling);
     const std::uint64_t start = solver.state().shots;
     const std::uint64_t least = sampling.sets() * solver.batch();
-    for (std::uint64_t shot = 0; shot < sampling.shots && !(reflected.stopped && shot >= least);
+    bool go_on = true;
+    for (std::uint64_t shot = 0; shot < sampling.shots && (go_on || shot < least);
          shot = solver.state().shots - start) {
-        reflected.stopped |= !stages.tell(double(shot) / double(sampling.shots), shot);
+        go_on = stages.tell(double(shot) / double(sampling.shots), shot);
         solver.step();
     }
-    reflected.radiance = solver.eye_radiance();
-    return reflected;
+    return solver.eye_radiance();
 }
 
-/// By shooters and by rays.
-Reflected reflect(GlossyIllumination& solver, const Seen& seen, const Setting& setting,
-                  const Surfaces& surfaces, const LitScene& lit, const RenderOptions& options,
-                  Stages& stages)
+/// The same by shooters and by rays.
+std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, const Setting& setting,
+                               const Surfaces& surfaces, const LitScene& lit,
+                               const RenderOptions& options, Stages& stages)
 {
     // Whole iterations for every set of points.
-    const std::uint64_t round = options.sets * std::uint64_t(solver.batch());
+    const std::uint64_t round = seen.sets * std::uint64_t(solver.batch());
     const std::uint64_t shots =
         seen.glossy.empty() ? 0 : (options.shots + round - 1) / round * round;
     const EyeSampling sampling{seen.first, shots, options.rays};
     const std::vector<float> brightness = solver.brightness();
-    Reflected reflected = shoot_for(solver, seen, brightness, sampling, stages);
+    std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = options.bake.solver.seed};
     const std::vector<glm::vec3> along =
-        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, brightness, lobes);
+        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, brightness, lobes,
+                           [&](double fraction) { return stages.tell(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
-        reflected.radiance[g] += along[g];
+        reflected[g] += along[g];
     return reflected;
 }
 
@@ -131,14 +126,16 @@ Image unmultiplied(Image image)
 
 void write_picture(const std::string& path, const Image& image)
 {
+    OutputFile file(path);
     if (is_exr(path))
-        write_exr(path, image, Precision::float32,
+        write_exr(file.path(), image, Precision::float32,
                   {{"quantity", "radiance"},
                    {"unit", "cd/m2"},
                    {"colorSpace", "linear Rec. 709"},
                    {"software", "lumel " LUMEL_VERSION}});
     else
-        write_png(path, tone_map(unmultiplied(image)));
+        write_png(file.path(), tone_map(unmultiplied(image)));
+    file.commit();
 }
 
 /// A picture and the facts of it.
@@ -153,17 +150,14 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
     const RayScene rays(scene);
     const View view = view_for(scene, rays, options);
     stages.begin("path tracing");
-    bool stopped = false;
     const ReferenceImageOptions reference{.width = options.width,
                                           .height = options.height,
                                           .samples_per_pixel = options.paths,
                                           .seed = options.bake.solver.seed};
-    Image image = reference_image(scene, rays, view, reference, [&](double fraction) {
-        stopped = !stages.tell(fraction);
-        return !stopped;
-    });
+    Image image = reference_image(scene, rays, view, reference,
+                                  [&](double fraction) { return stages.tell(fraction); });
     stages.end();
-    return {std::move(image), path_traced_report(options, scene, stopped, stages)};
+    return {std::move(image), path_traced_report(options, scene, stages)};
 }
 
 Made shoot(Scene scene, RenderOptions options, Stages& stages)
@@ -180,24 +174,25 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
-    stages.begin("looking");
+    stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
     for (std::size_t i = 0; i < irradiance.size(); ++i)
         irradiance[i] += lamps[i];
     const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, map);
+    stages.begin("looking");
     const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces,
-                           world.scene.sky);
-    const Reflected lobes = reflect(solver, seen, setting, surfaces, lit, options, stages);
-    Image image = compose(seen, lit, lobes.radiance);
+                           world.scene.sky, [&](double fraction) { return stages.tell(fraction); });
+    Image image =
+        compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
     if (const std::string messages = device.validation_messages(); !messages.empty())
         throw Error(ErrorKind::device, "Vulkan validation", messages);
     const Results results{.shots = solver.state().shots,
                           .iterations = solver.state().iterations,
                           .error = solved.error,
-                          .interrupted = !run.finished || lobes.stopped,
+                          .interrupted = stages.stopped(),
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve)};
     return {std::move(image), picture_report(options, world, device, solver, results, stages)};

@@ -164,14 +164,13 @@ Report picture_report(const RenderOptions& options, const Prepared& world,
     return report;
 }
 
-Report path_traced_report(const RenderOptions& options, const Scene& scene, bool stopped,
-                          const Stages& stages)
+Report path_traced_report(const RenderOptions& options, const Scene& scene, const Stages& stages)
 {
     Report report = common(scene, stages);
     report.method = "reference";
     add_picture(report, options, {{"paths", std::to_string(options.paths)}});
     report.seed = options.bake.solver.seed;
-    report.interrupted = stopped;
+    report.interrupted = stages.stopped();
     return report;
 }
 

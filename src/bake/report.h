@@ -21,7 +21,6 @@ Report picture_report(const RenderOptions& options, const Prepared& world,
                       const Stages& stages);
 
 /// The facts of a path-traced picture. options.height: as the picture is.
-Report path_traced_report(const RenderOptions& options, const Scene& scene, bool stopped,
-                          const Stages& stages);
+Report path_traced_report(const RenderOptions& options, const Scene& scene, const Stages& stages);
 
 }  // namespace lumel

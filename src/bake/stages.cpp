@@ -24,8 +24,9 @@ void Stages::begin(const std::string& name)
 
 bool Stages::tell(double fraction, std::uint64_t shots, double error)
 {
-    return !*progress_ ||
-           (*progress_)({times_.back().name, fraction, shots, error, stage_seconds()});
+    if (*progress_ && !(*progress_)({times_.back().name, fraction, shots, error, stage_seconds()}))
+        stopped_ = true;
+    return !stopped_;
 }
 
 void Stages::end()

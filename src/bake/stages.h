@@ -16,8 +16,10 @@ public:
 
     /// Ends the stage before and begins this one.
     void begin(const std::string& name);
-    /// Tells how far the current stage is. False: the caller wants to stop.
+    /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
     bool tell(double fraction, std::uint64_t shots = 0, double error = -1.0);
+    /// True once the caller has wanted to stop.
+    bool stopped() const { return stopped_; }
     void end();
 
     const std::vector<StageTime>& times() const { return times_; }
@@ -28,7 +30,7 @@ private:
     const ProgressFunction* progress_;
     std::vector<StageTime> times_;
     double start_, stage_start_, stage_cpu_start_;
-    bool running_ = false;
+    bool running_ = false, stopped_ = false;
 };
 
 }  // namespace lumel

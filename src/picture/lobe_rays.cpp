@@ -26,6 +26,8 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr int kMostLobes = 16;
 /// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
+/// Points between two progress reports.
+constexpr std::size_t kPointsPerStep = 65536;
 
 class LobeRays {
 public:
@@ -128,20 +130,29 @@ private:
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
                                           std::span<const float> brightness,
-                                          const LobeRayOptions& options)
+                                          const LobeRayOptions& options,
+                                          const std::function<bool(double)>& progress)
 {
     const LobeRays lobes(rays, surfaces, lit, brightness, options);
     std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
-    if (options.rays == 0)
-        return radiance;
-    parallel_for(points.size(), kPointsPerTask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t e = first; e < last; ++e) {
-            const std::uint32_t stream = PathSamples::hash(options.seed, std::uint32_t(e));
-            for (std::uint32_t k = 0; k < options.rays; ++k)
-                radiance[e] += lobes.estimate(points[e], PathSamples(stream, k));
-            radiance[e] /= float(options.rays);
-        }
-    });
+    // One ray of every point at a time: weighed for as many as were asked for, fewer are as right.
+    std::uint32_t taken = 0;
+    for (bool stopped = false; taken < options.rays && !stopped; ++taken) {
+        const auto follow = [&](std::size_t first, std::size_t last) {
+            for (std::size_t e = first; e < last; ++e) {
+                const std::uint32_t stream = PathSamples::hash(options.seed, std::uint32_t(e));
+                radiance[e] += lobes.estimate(points[e], PathSamples(stream, taken));
+            }
+        };
+        const auto tell = [&](std::size_t done) {
+            const double share = double(done) / double(points.size());
+            stopped |= progress && !progress((taken + share) / options.rays);
+            return true;
+        };
+        parallel_steps(points.size(), kPointsPerStep, kPointsPerTask, follow, tell);
+    }
+    for (glm::vec3& sum : radiance)
+        sum /= float(std::max(taken, 1u));
     return radiance;
 }
 

@@ -3,6 +3,7 @@
 // reflects instead of by what y sends. Shooters (solve/eye_image.h) are good at wide lobes and
 // lamps, rays at narrow lobes.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,10 +20,13 @@ struct LobeRayOptions {
 };
 
 /// [P] cd/m² toward the eye, weighed against the shooters by the balance heuristic [VG95].
-/// brightness [N]: 𝓛(B_j) / Φ [1/m²], as the shooters were weighed with.
+/// brightness [N]: 𝓛(B_j) / Φ [1/m²], as the shooters were weighed with. `progress` is given the
+/// fraction done and returns false to stop, which leaves each point as many rays as the others, one
+/// at least.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
                                           std::span<const float> brightness,
-                                          const LobeRayOptions& options);
+                                          const LobeRayOptions& options,
+                                          const std::function<bool(double)>& progress = {});
 
 }  // namespace lumel

@@ -12,6 +12,8 @@ namespace {
 
 /// Rows of pixels worth a task.
 constexpr std::size_t kRowsPerTask = 4;
+/// Rows between two progress reports.
+constexpr std::size_t kRowsPerStep = 64;
 
 /// Place k of S within a pixel: each has a column and a row of its own.
 glm::vec2 place(std::uint32_t k, std::uint32_t sets)
@@ -23,56 +25,66 @@ glm::vec2 place(std::uint32_t k, std::uint32_t sets)
     return (glm::vec2(float(k), float(k * step % sets)) + 0.5f) / float(sets);
 }
 
-EyePoint eye_point(const Ray& ray, const RayHit& hit, const Shading& shading)
+/// What is behind a place of a pixel. `eye`: left alone where nothing is.
+SeenPoint see(const Ray& ray, std::uint32_t seed, const RayScene& rays, const Surfaces& surfaces,
+              const Sky& sky, EyePoint& eye)
 {
-    return {ray.origin + ray.direction * hit.distance,
-            shading.normal,
-            shading.geometric,
-            -ray.direction,
-            shading.reflectance.specular,
-            shading.reflectance.shininess};
+    SeenPoint point;
+    point.there = rays.closest(ray.origin, ray.direction, 0.0f, std::numeric_limits<float>::max(),
+                               seed, point.hit);
+    if (!point.there) {
+        point.sky = !sky.empty();
+        point.luminance = sky_radiance(sky, ray.direction);
+        return point;
+    }
+    const Shading shading = surfaces.shade(point.hit);
+    point.diffuse = shading.reflectance.diffuse;
+    point.luminance = shading.luminance;
+    eye = {ray.origin + ray.direction * point.hit.distance,
+           shading.normal,
+           shading.geometric,
+           -ray.direction,
+           shading.reflectance.specular,
+           shading.reflectance.shininess};
+    return point;
 }
 
 }  // namespace
 
 Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
-          const Surfaces& surfaces, const Sky& sky)
+          const Surfaces& surfaces, const Sky& sky, const std::function<bool(double)>& progress)
 {
-    Seen seen{width, height, sets, {}, {}, {}, {}};
-    const std::size_t pixels = std::size_t(width) * std::size_t(height);
+    Seen seen{width, height, 0, {}, {}, {}, {0}};
+    const auto columns = std::size_t(width), rows = std::size_t(height), pixels = columns * rows;
+    const glm::vec2 size{float(width), float(height)};
     seen.points.resize(pixels * sets);
     std::vector<EyePoint> eye_points(pixels);
-    for (std::uint32_t set = 0; set < sets; ++set) {
-        seen.first.push_back(std::uint32_t(seen.glossy.size()));
-        const glm::vec2 within = place(set, sets);
-        parallel_for(std::size_t(height), kRowsPerTask, [&](std::size_t top, std::size_t bottom) {
-            for (std::size_t i = top * std::size_t(width); i < bottom * std::size_t(width); ++i) {
-                const std::size_t row = i / std::size_t(width);
-                const glm::vec2 pixel(float(i % std::size_t(width)), float(row));
-                const Ray ray =
-                    ray_through(view, (pixel + within) / glm::vec2(float(width), float(height)));
-                SeenPoint& point = seen.points[set * pixels + i];
-                if (!rays.closest(ray.origin, ray.direction, 0.0f,
-                                  std::numeric_limits<float>::max(),
-                                  std::uint32_t(set * pixels + i), point.hit)) {
-                    point.sky = !sky.empty();
-                    point.luminance = sky_radiance(sky, ray.direction);
-                    continue;
-                }
-                const Shading shading = surfaces.shade(point.hit);
-                point.there = true;
-                point.diffuse = shading.reflectance.diffuse;
-                point.luminance = shading.luminance;
-                eye_points[i] = eye_point(ray, point.hit, shading);
+    for (; seen.sets < sets; ++seen.sets) {
+        const std::size_t start = seen.sets * pixels;
+        const auto look_at_rows = [&](std::size_t top, std::size_t bottom) {
+            const glm::vec2 within = place(seen.sets, sets);
+            for (std::size_t i = top * columns; i < bottom * columns; ++i) {
+                const std::size_t row = i / columns;
+                const glm::vec2 pixel(float(i % columns), float(row));
+                const Ray ray = ray_through(view, (pixel + within) / size);
+                seen.points[start + i] =
+                    see(ray, std::uint32_t(start + i), rays, surfaces, sky, eye_points[i]);
             }
-        });
+        };
+        const auto go_on = [&](std::size_t done) {
+            const double share = double(done) / double(rows);
+            return !progress || progress((seen.sets + share) / sets) || seen.sets == 0;
+        };
+        if (!parallel_steps(rows, kRowsPerStep, kRowsPerTask, look_at_rows, go_on))
+            break;
         for (std::size_t i = 0; i < pixels; ++i)
-            if (seen.points[set * pixels + i].there && eye_points[i].specular != glm::vec3(0.0f)) {
+            if (seen.points[start + i].there && eye_points[i].specular != glm::vec3(0.0f)) {
                 seen.glossy.push_back(eye_points[i]);
-                seen.index.push_back(std::uint32_t(set * pixels + i));
+                seen.index.push_back(std::uint32_t(start + i));
             }
+        seen.first.push_back(std::uint32_t(seen.glossy.size()));
     }
-    seen.first.push_back(std::uint32_t(seen.glossy.size()));
+    seen.points.resize(pixels * seen.sets);
     return seen;
 }
 

@@ -2,6 +2,7 @@
 // What an eye sees through the pixels of a picture.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "rays/ray_scene.h"
@@ -31,8 +32,10 @@ struct Seen {
     std::vector<std::uint32_t> first;  ///< [S + 1] where each set begins among the glossy
 };
 
-/// Follows a ray through S places of every pixel, S = 1 or more.
+/// Follows a ray through S = `sets` places of every pixel, 1 or more. `progress` is given the
+/// fraction done and returns false to stop, which leaves the sets that are whole, one at least.
 Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
-          const Surfaces& surfaces, const Sky& sky);
+          const Surfaces& surfaces, const Sky& sky,
+          const std::function<bool(double)>& progress = {});
 
 }  // namespace lumel

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../support/box_lumels.h"
 #include "solved.h"
 
 namespace lumel {
@@ -38,6 +39,15 @@ Image path_traced(const std::string& name, RenderOptions options, int paths)
 {
     options.paths = paths;
     return picture(name, options);
+}
+
+/// Of all pixels.
+glm::dvec4 mean(const Image& image)
+{
+    glm::dvec4 sum(0.0);
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        sum[int(i % 4)] += double(image.values[i]);
+    return sum * 4.0 / double(image.values.size());
 }
 
 TEST(Picture, OfARoomWithAPolishedFloorIsWhatPathsFind)
@@ -111,6 +121,105 @@ TEST(Picture, HasSquarePixelsWhateverTheShapeOfTheCamera)
         options.height = shaped.height;
         EXPECT_EQ(render(scene, options).image.values, shaped.values) << aspect;
     }
+}
+
+TEST(Picture, OfAnOrthographicCameraShowsNearAndFarInOneSize)
+{
+    // Squares of 1 m, 1 m and 5 m away, side by side in a view of 4 x 2 m.
+    Scene scene;
+    scene.model = MaterialModel::glossy;
+    const glm::vec3 emission(1.0f, 2.0f, 3.0f);
+    support::add_quad(scene, {.corner = {-1.5f, -0.5f, -1.0f}, .emission = emission});
+    support::add_quad(scene, {.corner = {0.5f, -0.5f, -5.0f}, .emission = emission});
+    scene.cameras = {{.aspect = 2.0f, .orthographic_height = 2.0f}};
+    RenderOptions options = small(64);
+    options.width = 32;
+    options.height = 0;
+    const Image image = render(scene, options).image;
+    ASSERT_EQ(image.height, 16);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const bool there = y >= 4 && y < 12 && x % 16 >= 4 && x % 16 < 12;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(image.at(x, y)[c], there ? emission[c] / support::kPi : 0.0f, 1e-4f);
+            EXPECT_NEAR(image.at(x, y)[3], there ? 1.0f : 0.0f, 1e-5f);
+        }
+}
+
+TEST(Picture, OfOnePixelIsTheMeanOfMany)
+{
+    RenderOptions options = small(2048);
+    options.width = options.height = 32;
+    const glm::dvec4 many = mean(picture("glossy-floor", options));
+    options.width = options.height = 1;
+    options.sets = 64;
+    const glm::dvec4 one = mean(picture("glossy-floor", options));
+    EXPECT_EQ(one.a, 1.0);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(one[c], many[c], 0.1 * many[c]);
+}
+
+TEST(Picture, OfNothingIsEmpty)
+{
+    Scene scene = glossy_scene("glossy-floor");
+    scene.cameras = {{.transform = {{1.0f, 0.0f, 0.0f, 0.0f},
+                                    {0.0f, 1.0f, 0.0f, 0.0f},
+                                    {0.0f, 0.0f, 1.0f, 0.0f},
+                                    {0.0f, 0.0f, -1.0f, 1.0f}}}};
+    for (const float value : render(scene, small(64)).image.values)
+        ASSERT_EQ(value, 0.0f);
+}
+
+TEST(Picture, OfASceneWithoutLightIsBlack)
+{
+    Scene scene = glossy_scene("glossy-floor");
+    for (Material& material : scene.materials)
+        material.emitted = glm::vec3(0.0f);
+    RenderOptions options = small(0);
+    options.bake.solver.target_error = 0.02;
+    const Image image = render(scene, options).image;
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        ASSERT_EQ(image.values[i], i % 4 == 3 ? 1.0f : 0.0f);
+}
+
+class PictureStoppedWhile : public testing::TestWithParam<const char*> {};
+
+TEST_P(PictureStoppedWhile, IsWholeAndSaysSo)
+{
+    RenderOptions options = small(512);
+    if (GetParam() == std::string("path tracing"))
+        options.paths = 64;
+    bool met = false;
+    const Rendered rendered =
+        render(glossy_scene("glossy-floor"), options, [&](const BakeProgress& progress) {
+            met |= progress.stage == GetParam();
+            return progress.stage != GetParam();
+        });
+    EXPECT_TRUE(met);
+    EXPECT_TRUE(rendered.summary.interrupted);
+    for (std::size_t i = 0; i < rendered.image.values.size(); ++i) {
+        ASSERT_TRUE(std::isfinite(rendered.image.values[i]));
+        if (i % 4 == 3)
+            ASSERT_EQ(rendered.image.values[i], 1.0f);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, PictureStoppedWhile,
+                         testing::Values("charts", "solving", "looking", "shooting for the eye",
+                                         "following lobes", "path tracing"));
+
+TEST(Picture, OfFewerRaysThanAskedForIsAsBright)
+{
+    RenderOptions options = small(1024);
+    options.shots = 0;
+    const Image whole = picture("glossy-floor", options);
+    const auto stop = [](const BakeProgress& progress) {
+        return progress.stage != "following lobes";
+    };
+    const Image stopped = render(glossy_scene("glossy-floor"), options, stop).image;
+    // Seeds 1 to 5 gave 0.04 to 0.2 %.
+    EXPECT_NE(stopped.values, whole.values);
+    EXPECT_LE(std::abs(compare_maps(stopped, whole, kBelowLamps).bias), 0.01);
 }
 
 }  // namespace

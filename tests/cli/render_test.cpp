@@ -1,21 +1,27 @@
 // Pictures from outside.
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "program.h"
 
 namespace lumel::test {
 namespace {
 
+std::vector<std::string> tiny_render(const std::string& picture,
+                                     const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments = {
+        "render", own_scene("glossy-cornell-box.gltf"), picture, "--size", "32", "--width", "32"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
 std::vector<std::string> small_render(const std::string& picture,
                                       const std::vector<std::string>& more)
 {
-    std::vector<std::string> arguments = {"render", own_scene("glossy-cornell-box.gltf"),
-                                          picture,  "--size",
-                                          "32",     "--width",
-                                          "32",     "--shots",
-                                          "64",     "--eye-shots",
-                                          "64"};
+    std::vector<std::string> arguments =
+        tiny_render(picture, {"--shots", "64", "--eye-shots", "64"});
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
 }
@@ -31,6 +37,40 @@ TEST(Render, WritesThePictureItsNameAsksFor)
     EXPECT_EQ(bytes_of(place.path("b.png")).substr(1, 3), "PNG");
 }
 
+TEST(Render, PrintsItsReportAsJson)
+{
+    const Workplace place;
+    for (const char* way : {"--lobe-rays", "--paths"}) {
+        const Outcome outcome = run_lumel(small_render(place.path("a.png"), {"--json", way, "4"}));
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
+        ASSERT_FALSE(report.is_discarded()) << outcome.out;
+        EXPECT_EQ(report["sizes"]["picture_width"], 32);
+        EXPECT_EQ(report["sizes"]["picture_height"], 32);
+        EXPECT_EQ(report["files"][0], "a.png");
+        EXPECT_EQ(report["solution"]["interrupted"], false);
+    }
+}
+
+TEST(Render, CtrlCWritesWhatThereIsAndExits130)
+{
+    const Workplace place;
+    // While solving, while shooting for the eye, while following lobes, and while tracing paths.
+    const std::string endless = "2000000000";
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--shots", endless},
+          {"--shots", "64", "--eye-shots", endless},
+          {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"},
+          {"--paths", "1000000"}}) {
+        const Outcome outcome =
+            run_lumel(tiny_render(place.path("a.png"), more), {.interrupt_after = 3.0});
+        EXPECT_EQ(outcome.code, 130) << outcome.err;
+        EXPECT_NE(outcome.out.find("stopped early"), std::string::npos);
+        EXPECT_EQ(place.listing(), std::vector<std::string>{"a.png"});
+        std::filesystem::remove(place.path("a.png"));
+    }
+}
+
 TEST(Render, RefusesWhatItCannotDo)
 {
     const Workplace place;
@@ -38,6 +78,7 @@ TEST(Render, RefusesWhatItCannotDo)
     expect_one_sentence(run_lumel(small_render(place.path("a.png"), {"--camera", "3"})), 2,
                         {"--camera 3", "0"});
     expect_one_sentence(run_lumel(small_render(place.path("no/a.png"), {})), 4, {"no/a.png"});
+    expect_one_sentence(run_lumel(small_render("/proc/a.png", {})), 4, {"/proc"});
     const std::string scene = own_scene("glossy-cornell-box.gltf");
     expect_one_sentence(run_lumel({"render", scene, place.path("a.png"), "--size", "32", "--width",
                                    "16384", "--height", "16384"}),
