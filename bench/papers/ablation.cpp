@@ -147,9 +147,10 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         options.target_error = 0.0;
         GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options);
         solve(solver, options);
-        const Image map = finish_map(sight.world.scene, sight.world.atlas, sight.world.lumels,
-                                     solver.irradiance());
-        const LitScene lit(sight.world.scene, sight.world.atlas, sight.world.lumels, map);
+        const Prepared& world = sight.world;
+        const SideMaps maps =
+            finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
+        const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
         if (i == 0) {  // the driver compiles shaders when they first run
             Way warm = ways.back();
             take(warm, sight, solver, lit, options.seed);

@@ -178,9 +178,9 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     std::vector<glm::vec3> irradiance = solver.irradiance();
     for (std::size_t i = 0; i < irradiance.size(); ++i)
         irradiance[i] += lamps[i];
-    const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+    const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
-    const LitScene lit(world.scene, world.atlas, world.lumels, map);
+    const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
     stages.begin("looking");
     const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces,
                            world.scene.sky, [&](double fraction) { return stages.tell(fraction); });

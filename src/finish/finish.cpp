@@ -1,5 +1,7 @@
 #include "finish/finish.h"
 
+#include <algorithm>
+
 namespace lumel {
 namespace {
 
@@ -14,12 +16,42 @@ Image layer_map(const std::vector<std::uint32_t>& shown, const Image& light,
     return map;
 }
 
+/// The map of one side. `other`: kLumelBack or 0, what marks lumels of the other one.
+Image side_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+               std::span<const glm::vec3> values, std::uint32_t other)
+{
+    std::vector<std::uint8_t> sides(lumels.coverage.size(), 0);
+    for (const Lumel& lumel : lumels.lumels)
+        ++sides[lumel.texel];
+    Lumels shown{.width = lumels.width, .height = lumels.height, .coverage = lumels.coverage};
+    std::vector<glm::vec3> shown_values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        if (sides[lumel.texel] > 1 && (lumel.flags & kLumelBack) == other)
+            continue;
+        shown.lumels.push_back(lumel);
+        shown_values.push_back(values[i]);
+    }
+    return finish_map(scene, atlas, shown, shown_values);
+}
+
 }  // namespace
 
 Image finish_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                  std::span<const glm::vec3> values)
 {
     return finish_maps(scene, atlas, lumels, values, {}).light;
+}
+
+SideMaps finish_sides(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                      std::span<const glm::vec3> values)
+{
+    const bool one_side = std::none_of(lumels.lumels.begin(), lumels.lumels.end(),
+                                       [](const Lumel& lumel) { return lumel.flags & kLumelBack; });
+    if (one_side)
+        return {finish_map(scene, atlas, lumels, values), {}};
+    return {side_map(scene, atlas, lumels, values, kLumelBack),
+            side_map(scene, atlas, lumels, values, 0u)};
 }
 
 FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& lumels,

@@ -14,6 +14,16 @@ namespace lumel {
 Image finish_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                  std::span<const glm::vec3> values);
 
+/// Maps of both sides of every surface.
+struct SideMaps {
+    Image front;
+    Image back;  ///< as `front` where a surface has one side; empty if all have one
+};
+
+/// finish_map for each side, instead of the brighter one.
+SideMaps finish_sides(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                      std::span<const glm::vec3> values);
+
 /// Finished maps of one solution.
 struct FinishedMaps {
     Image light;

@@ -5,10 +5,12 @@
 
 namespace lumel {
 
-LitScene::LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& map)
+LitScene::LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& front,
+                   const Image& back)
     : scene_(&scene),
       atlas_(&atlas),
-      map_(&map),
+      front_map_(&front),
+      back_map_(back.values.empty() ? &front : &back),
       first_surface_(scene.instances.size(), 0),
       front_(std::size_t(lumels.width) * std::size_t(lumels.height), kNone),
       back_(front_)
@@ -32,11 +34,12 @@ glm::vec2 LitScene::place(const RayHit& hit) const
 
 glm::vec3 LitScene::irradiance(const RayHit& hit) const
 {
+    const Image& map = hit.front ? *front_map_ : *back_map_;
     const glm::vec2 at = place(hit) - 0.5f;
     const glm::vec2 low = glm::floor(at), share = at - low;
     const auto texel = [&](float x, float y) {
-        const float* value = map_->at(std::clamp(int(x), 0, map_->width - 1),
-                                      std::clamp(int(y), 0, map_->height - 1));
+        const float* value =
+            map.at(std::clamp(int(x), 0, map.width - 1), std::clamp(int(y), 0, map.height - 1));
         return glm::vec3(value[0], value[1], value[2]);
     };
     return glm::mix(

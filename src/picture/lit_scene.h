@@ -13,10 +13,11 @@ namespace lumel {
 /// Looks up a scene's lightmap and lumels where a ray hit. What it is made of must outlive it.
 class LitScene {
 public:
-    /// map: the finished irradiance [lx].
-    LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& map);
+    /// The maps hold the finished irradiance [lx] of each side; `back` empty: as `front`.
+    LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& front,
+             const Image& back);
 
-    /// H [lx], bilinear.
+    /// H [lx] on the side that was hit, bilinear.
     glm::vec3 irradiance(const RayHit& hit) const;
 
     /// Radiance of the sky in a unit direction [cd/m²].
@@ -31,7 +32,7 @@ private:
 
     const Scene* scene_;
     const Atlas* atlas_;
-    const Image* map_;
+    const Image *front_map_, *back_map_;
     std::vector<std::size_t> first_surface_;   ///< [instances]
     std::vector<std::uint32_t> front_, back_;  ///< [height][width] lumel of each texel
 };

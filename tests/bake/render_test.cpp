@@ -146,6 +146,43 @@ TEST(Picture, OfAnOrthographicCameraShowsNearAndFarInOneSize)
         }
 }
 
+/// A camera at `eye` that looks along `back` times -1, in parallel.
+Camera parallel_camera(const glm::vec3& eye, const glm::vec3& back, const glm::vec3& up)
+{
+    return {.transform = {glm::vec4(glm::cross(up, back), 0.0f), glm::vec4(up, 0.0f),
+                          glm::vec4(back, 0.0f), glm::vec4(eye, 1.0f)},
+            .orthographic_height = 0.5f};
+}
+
+class PictureOfASheet : public testing::TestWithParam<bool> {};
+
+TEST_P(PictureOfASheet, LitFromAboveIsDarkFromBelow)
+{
+    const glm::vec3 x(1.0f, 0.0f, 0.0f), z(0.0f, 0.0f, 1.0f);
+    Scene scene;
+    scene.model = MaterialModel::glossy;
+    support::add_quad(scene, {.corner = {-0.5f, 1.0f, -0.5f},
+                              .edge_u = GetParam() ? z : x,
+                              .edge_v = GetParam() ? x : z,
+                              .double_sided = true});
+    support::add_quad(
+        scene,
+        {.corner = {-0.5f, 2.0f, -0.5f}, .edge_u = x, .edge_v = z, .emission = glm::vec3(10.0f)});
+    for (Material& material : scene.materials)
+        material.metallic = 0.0f;
+    RenderOptions options = small(256);
+    options.width = options.height = 16;
+    options.shots = 0;
+    scene.cameras = {parallel_camera({0.0f, 1.5f, 0.0f}, {0.0f, 1.0f, 0.0f}, -z)};
+    const glm::dvec4 above = mean(render(scene, options).image);
+    scene.cameras = {parallel_camera({0.0f, 0.5f, 0.0f}, {0.0f, -1.0f, 0.0f}, z)};
+    const glm::dvec4 below = mean(render(scene, options).image);
+    EXPECT_GT(above.r, 0.1);
+    EXPECT_EQ(below, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(FrontUp, PictureOfASheet, testing::Bool());
+
 TEST(Picture, OfOnePixelIsTheMeanOfMany)
 {
     RenderOptions options = small(2048);
