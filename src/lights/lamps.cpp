@@ -48,7 +48,7 @@ Lamp lamp_of(const PunctualLight& light)
               .cone_scale = 0.0f,
               .cone_offset = 1.0f,
               .profile = light.profile < 0 ? kNoProfile : std::uint32_t(light.profile),
-              .halves = has_halves(light) ? 2u : 1u,
+              .eyes_per_look = has_halves(light) ? 2u : 1u,
               .share = 1.0f};
     if (light.kind == PunctualLight::Kind::spot) {
         const float outer = std::cos(light.outer_cone);
@@ -63,7 +63,7 @@ Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::
 {
     const glm::mat3 frame = frame_about(normal);
     const glm::vec3 tangent = std::cos(turn) * frame[0] + std::sin(turn) * frame[1];
-    return {position, tangent, glm::cross(normal, tangent), normal, random};
+    return {position, tangent, glm::cross(normal, tangent), normal, random, kAllChannels};
 }
 
 glm::vec3 on_sphere(const glm::vec2& at)
@@ -95,6 +95,18 @@ std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options,
         }
     }
     return eyes;
+}
+
+/// Each eye once for each channel.
+std::vector<Eye> in_channels(const std::vector<Eye>& eyes)
+{
+    std::vector<Eye> all;
+    for (const Eye& eye : eyes)
+        for (std::uint32_t channel = 0; channel < kChannels; ++channel) {
+            all.push_back(eye);
+            all.back().channel = 1 + channel;
+        }
+    return all;
 }
 
 bool shines(const PunctualLight& light)
@@ -186,7 +198,11 @@ bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
         const auto key = options.seed + kLampKeys * std::uint32_t(lamps.size());
         eyes.push_back(eyes_of(lamp, options, key));
         lamps.push_back(lamp_of(lamp));
-        lamps.back().share = float(lamps.back().halves) / float(eyes.back().size());
+        if (world.has_coloured_glass()) {
+            eyes.back() = in_channels(eyes.back());
+            lamps.back().eyes_per_look *= kChannels;
+        }
+        lamps.back().share = float(lamps.back().eyes_per_look) / float(eyes.back().size());
     }
     if (lamps.empty())
         return true;

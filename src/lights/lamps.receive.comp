@@ -12,6 +12,7 @@
 //
 // What is known of V is summed up as light_sums.shared.h says. Light with nothing in its way is
 // taken at more points of the lumel than views are asked about: it may change much over a lumel.
+// Among coloured glass V differs from channel to channel, and each eye tells of one.
 
 layout(local_size_x = kLampGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
@@ -25,6 +26,7 @@ layout(binding = 6, scalar) buffer Sums { LightSums sums[]; };
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
 #include "visibility/pixels.glsl"
 #include "visibility/first_met.glsl"
 #include "visibility/piece_from.glsl"
@@ -120,14 +122,16 @@ void main()
     LightSums sum = sums[i];
     for (uint k = 0u; k < p.eyes; ++k) {
         const Eye eye = eyes[k];
-        // Two halves ask for the same points: each point is in view of one of them.
-        const uint index = (p.first_eye + k) / lamp.halves * kOpenPoints;
+        // Halves and channels ask for the same points: each point is in view of one of them.
+        const uint index = (p.first_eye + k) / lamp.eyes_per_look * kOpenPoints;
+        const vec3 channels = carried(eye.channel);
         vec3 here = vec3(0.0);
         LumelPoint point;
         for (uint n = 0u; n < kOpenPoints; ++n) {
             point = receiving_point(lumel, i, index + n, p.seed, p.centre != 0u);
-            here = open_light(lamp, eye, point);
-            sum.open += (is_whole_ball(lamp, point) ? light_of_centre(lamp, point) : here) /
+            here = channels * open_light(lamp, eye, point);
+            sum.open += channels *
+                        (is_whole_ball(lamp, point) ? light_of_centre(lamp, point) : here) /
                         float(kOpenPoints);
         }
         if (here == vec3(0.0))

@@ -10,16 +10,16 @@ LUMEL_CONST uint kNoProfile = 0xffffffffu;
 
 /// A point or spot light.
 struct Lamp {
-    vec3 position;      ///< [m]
-    float radius;       ///< [m], 0: a point
-    vec3 x, y, z;       ///< its unit axes in the world; it shines along -z
-    vec3 intensity;     ///< [cd]; a factor where there is a profile
-    float range;        ///< [m], 0: unlimited
-    float cone_scale;   ///< KHR_lights_punctual's lightAngleScale and lightAngleOffset;
-    float cone_offset;  ///< 0 and 1: no cone
-    uint profile;       ///< index into the profiles, or kNoProfile
-    uint halves;        ///< eyes that together see all around: 2 of a point light, else 1
-    float share;        ///< of the lamp's light that an eye, or two halves, stand for
+    vec3 position;       ///< [m]
+    float radius;        ///< [m], 0: a point
+    vec3 x, y, z;        ///< its unit axes in the world; it shines along -z
+    vec3 intensity;      ///< [cd]; a factor where there is a profile
+    float range;         ///< [m], 0: unlimited
+    float cone_scale;    ///< KHR_lights_punctual's lightAngleScale and lightAngleOffset;
+    float cone_offset;   ///< 0 and 1: no cone
+    uint profile;        ///< index into the profiles, or kNoProfile
+    uint eyes_per_look;  ///< that together see all around and in all channels
+    float share;         ///< of the lamp's light that a look stands for
 };
 
 LUMEL_CONST uint kOpenPoints = 4u;  ///< of a lumel that are asked for light with nothing in its way

@@ -47,14 +47,30 @@ glm::vec3 in_cone(const glm::vec2& at, float angle)
 }
 
 ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t count,
-                     const World& world, const ParallelLightOptions& options)
+                     std::uint32_t channel, const World& world, const ParallelLightOptions& options)
 {
     const std::uint32_t keys = options.seed * kKeys;
     const ParallelPose pose{.toward = source.toward,
                             .turn = 2.0f * kPi * lattice_point(index, count, keys + kTurnKey).y,
                             .offset = lattice_point(index, count, keys + kOffsetKey),
-                            .random = index + options.seed * 0x9e3779b9u};
+                            .random = index + options.seed * 0x9e3779b9u,
+                            .channel = channel};
     return fit_view(world.low(), world.high(), options.side, pose);
+}
+
+/// One view of each source, or where there is coloured glass three, alike but for their channel.
+std::vector<ParallelView> views_of(const std::vector<ParallelSource>& sources, const World& world,
+                                   const ParallelLightOptions& options)
+{
+    std::vector<ParallelView> views;
+    const auto count = std::uint32_t(sources.size());
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!world.has_coloured_glass())
+            views.push_back(view_of(sources[i], i, count, kAllChannels, world, options));
+        else
+            for (std::uint32_t c = 0; c < kChannels; ++c)
+                views.push_back(view_of(sources[i], i, count, 1 + c, world, options));
+    return views;
 }
 
 }  // namespace
@@ -109,10 +125,7 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
 {
     if (sources.empty())
         return true;
-    std::vector<ParallelView> views;
-    for (const ParallelSource& source : sources)
-        views.push_back(view_of(source, std::uint32_t(views.size()), std::uint32_t(sources.size()),
-                                world, options));
+    const std::vector<ParallelView> views = views_of(sources, world, options);
     const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
     const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
     const std::uint64_t fit = kMostPixels / (std::uint64_t(options.side) * options.side);
@@ -121,7 +134,8 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
     const gpu::Kernel receive(device, "parallel_light.receive", kReceiveSpirv, kReceiveSlots,
                               sizeof(ParallelReceiveParams), kParallelGroup);
 
-    const auto total = std::uint32_t(sources.size());
+    const auto total = std::uint32_t(views.size());
+    const auto views_per_source = std::uint32_t(views.size() / sources.size());
     bool going = true;
     for (std::uint32_t begin = 0; begin < total && going; begin += images.capacity()) {
         const std::uint32_t count = std::min(images.capacity(), total - begin);
@@ -133,6 +147,7 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
                                                           .last = last,
                                                           .first_view = begin,
                                                           .views = count,
+                                                          .views_per_source = views_per_source,
                                                           .seed = options.seed,
                                                           .centre = options.centre ? 1u : 0u};
                        commands.dispatch(receive,

@@ -7,6 +7,7 @@
 //
 //     H = Σ_k  illuminance_k · V_k · max(cosθ_k, 0).
 //
+// Among coloured glass V differs from channel to channel, and each view tells of one.
 // What is known of V is summed up as light_sums.shared.h says.
 
 layout(local_size_x = kParallelGroup) in;
@@ -20,6 +21,7 @@ layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
 #include "visibility/parallel.glsl"
 #include "visibility/first_met.glsl"
 #include "visibility/piece_along.glsl"
@@ -41,16 +43,16 @@ void main()
         return;
     LightSums sum = sums[i];
     for (uint k = 0u; k < p.views; ++k) {
-        const ParallelSource source = sources[p.first_view + k];
+        const ParallelView view = views[p.first_view + k];
+        const uint index = (p.first_view + k) / p.views_per_source;
+        const ParallelSource source = sources[index];
         // The point moves over the lumel from direction to direction.
-        const LumelPoint point =
-            receiving_point(lumel, i, p.first_view + k, p.seed, p.centre != 0u);
+        const LumelPoint point = receiving_point(lumel, i, index, p.seed, p.centre != 0u);
         const float cosine = dot(point.normal, source.toward);
         if (cosine <= 0.0 || dot(point.facing, source.toward) <= 0.0)
             continue;
-        const vec3 open = cosine * source.illuminance;
+        const vec3 open = cosine * source.illuminance * carried(view.channel);
         sum.open += open;
-        const ParallelView view = views[p.first_view + k];
         const PieceInView piece = piece_along(view, pieces[point.piece]);
         RayMet ray;
         if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))

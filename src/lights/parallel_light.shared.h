@@ -19,6 +19,7 @@ struct ParallelReceiveParams {
     uint last;
     uint first_view;  ///< views [first_view, first_view + views), drawn into tiles 0, 1, …
     uint views;
+    uint views_per_source;  ///< that follow one another
     uint seed;
     uint centre;  ///< 1: receive at the centroid
 };

@@ -60,8 +60,10 @@ public:
             if (cos_in <= 0.0f || glm::dot(x.facing, way) <= 0.0f)
                 break;
             throughput *= x.specular * (cos_in / std::max(cos_in, cos_eye));
-            if (!rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
-                               samples.bits(pair), hit)) {
+            const bool met = rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
+                                           samples.bits(pair), hit);
+            throughput *= hit.tint;
+            if (!met) {
                 sum += throughput * lit_.sky(way);  // shooters do not send it
                 break;
             }

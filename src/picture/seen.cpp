@@ -34,17 +34,17 @@ SeenPoint see(const Ray& ray, std::uint32_t seed, const RayScene& rays, const Su
                                seed, point.hit);
     if (!point.there) {
         point.sky = !sky.empty();
-        point.luminance = sky_radiance(sky, ray.direction);
+        point.luminance = point.hit.tint * sky_radiance(sky, ray.direction);
         return point;
     }
     const Shading shading = surfaces.shade(point.hit);
-    point.diffuse = shading.reflectance.diffuse;
-    point.luminance = shading.luminance;
+    point.diffuse = point.hit.tint * shading.reflectance.diffuse;
+    point.luminance = point.hit.tint * shading.luminance;
     eye = {ray.origin + ray.direction * point.hit.distance,
            shading.normal,
            shading.geometric,
            -ray.direction,
-           shading.reflectance.specular,
+           point.hit.tint * shading.reflectance.specular,
            shading.reflectance.shininess};
     return point;
 }

@@ -15,6 +15,7 @@ namespace lumel {
 /// A point of a surface behind a pixel.
 struct SeenPoint {
     RayHit hit;
+    // Of both, what passes the glass before the point:
     glm::vec3 diffuse{0.0f};    ///< ρ_d
     glm::vec3 luminance{0.0f};  ///< emitted [cd/m²]; of the sky where no surface is
     bool there = false;         ///< false: no surface is seen

@@ -25,10 +25,37 @@ struct Part {
     float winding = 1.0f;  ///< -1: the instance mirrors, the front is where vertices run clockwise
 };
 
+/// Coloured glass that a ray went through.
+struct PassedGlass {
+    std::uint32_t geometry = 0, triangle = 0;
+    float distance = 0.0f;
+    glm::vec3 tint{1.0f};
+};
+
 /// Embree's context of a query, with what a cut-out needs to decide.
 struct QueryContext {
     RTCIntersectContext embree;  // first, so that Embree's pointer is also ours
     std::uint32_t seed;
+    std::vector<PassedGlass> passed;  ///< in any order, and beyond the hit as well
+
+    /// Embree may ask about a triangle more than once.
+    void pass(const PassedGlass& glass)
+    {
+        const auto same = [&](const PassedGlass& other) {
+            return other.geometry == glass.geometry && other.triangle == glass.triangle;
+        };
+        if (std::none_of(passed.begin(), passed.end(), same))
+            passed.push_back(glass);
+    }
+
+    glm::vec3 tint_before(float distance) const
+    {
+        glm::vec3 tint(1.0f);
+        for (const PassedGlass& glass : passed)
+            if (glass.distance < distance)
+                tint *= glass.tint;
+        return tint;
+    }
 };
 
 /// A well-mixed number in [0, 1) for three integers.
@@ -41,8 +68,8 @@ float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     return float(state >> 8) * 0x1p-24f;
 }
 
-/// Opacity of a surface at a point of one of its triangles, 0…1.
-float opacity_at(const Part& part, std::uint32_t triangle, float u, float v)
+/// Look of a surface at a point of one of its triangles.
+MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float v)
 {
     const Primitive& source = *part.source;
     const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
@@ -54,7 +81,7 @@ float opacity_at(const Part& part, std::uint32_t triangle, float u, float v)
         if (!source.texcoords[set].empty())
             texcoord[set] = blend(source.texcoords[set]);
     const glm::vec4 color = source.colors.empty() ? glm::vec4(1.0f) : blend(source.colors);
-    return sample_material(*part.scene, source.material, texcoord, color).opacity;
+    return sample_material(*part.scene, source.material, texcoord, color);
 }
 
 /// Embree's question at each candidate hit: does it count?
@@ -64,19 +91,23 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
         return;
     const Part& part = *static_cast<const Part*>(candidate->geometryUserPtr);
     const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
-    const float opacity = opacity_at(part, triangle, RTCHitN_u(candidate->hit, candidate->N, 0),
-                                     RTCHitN_v(candidate->hit, candidate->N, 0));
-    if (opacity >= 1.0f)
+    const MaterialSample look = look_at(part, triangle, RTCHitN_u(candidate->hit, candidate->N, 0),
+                                        RTCHitN_v(candidate->hit, candidate->N, 0));
+    if (look.opacity >= 1.0f)
         return;
-    const std::uint32_t seed = reinterpret_cast<const QueryContext*>(candidate->context)->seed;
+    auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
     const std::uint32_t geometry = RTCHitN_geomID(candidate->hit, candidate->N, 0);
-    if (hash_to_unit(seed, geometry, triangle) >= opacity)
-        candidate->valid[0] = 0;
+    if (hash_to_unit(context.seed, geometry, triangle) < look.opacity)
+        return;
+    candidate->valid[0] = 0;
+    if (look.tint != glm::vec3(1.0f))
+        context.pass(
+            {geometry, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), look.tint});
 }
 
 QueryContext query_context(std::uint32_t seed)
 {
-    QueryContext context;
+    QueryContext context{};
     rtcInitIntersectContext(&context.embree);
     context.seed = seed;
     return context;
@@ -97,12 +128,13 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near,
     return ray;
 }
 
-/// True if the ray meets nothing.
-bool is_clear(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
+/// The tint of what passes along the ray; 0 if it meets something.
+glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
     QueryContext context = query_context(seed);
     rtcOccluded1(tree, &context.embree, &ray);
-    return ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
+    const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
+    return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
 }
 
 }  // namespace
@@ -200,20 +232,32 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
-                    std::uint32_t seed) const
+glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
+                            std::uint32_t seed) const
 {
     const glm::vec3 way = to - from;
     const float distance = glm::length(way);
     if (distance <= 2.0f * offset)
-        return true;
-    return is_clear(data_->tree, make_ray(from, way / distance, offset, distance - offset), seed);
+        return glm::vec3(1.0f);
+    return tint_along(data_->tree, make_ray(from, way / distance, offset, distance - offset), seed);
+}
+
+glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,
+                                std::uint32_t seed) const
+{
+    constexpr float kFar = std::numeric_limits<float>::max();
+    return tint_along(data_->tree, make_ray(from, direction, 0.0f, kFar), seed);
+}
+
+bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
+                    std::uint32_t seed) const
+{
+    return passing(from, to, offset, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const
 {
-    constexpr float kFar = std::numeric_limits<float>::max();
-    return is_clear(data_->tree, make_ray(from, direction, 0.0f, kFar), seed);
+    return passing_out(from, direction, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
@@ -225,6 +269,7 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(seed);
     rtcIntersect1(data_->tree, &context.embree, &query);
+    hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
 

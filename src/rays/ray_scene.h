@@ -20,12 +20,15 @@ struct RayHit {
     float distance = 0.0f;        ///< [m], direction must be unit length
     glm::vec3 normal{0.0f};  ///< geometric, unit, world, outward by winding (flipped by mirroring)
     bool front = true;       ///< the ray came from the side the normal points to
+    /// Product of the tints of all glass that the ray passed, also where it then met nothing.
+    glm::vec3 tint{1.0f};
 };
 
 /// All triangles of a scene in world space. Safe to query from many threads at once.
 /// Reads materials and textures while it is queried, so the scene must outlive it, unmoved.
-/// MASK surfaces are cut out exactly; BLEND surfaces are hit with probability alpha, drawn from
-/// a hash of `seed` and the triangle, so a query with the same seed has the same answer.
+/// MASK surfaces are cut out exactly; BLEND surfaces and glass are hit with the probability of
+/// their opacity, drawn from a hash of `seed` and the triangle, so a query with the same seed has
+/// the same answer. What passes glass has its tint.
 class RayScene {
 public:
     /// Throws Error{device} if Embree cannot build its tree (out of memory).
@@ -39,6 +42,13 @@ public:
 
     /// True if nothing lies along a unit direction, however far.
     bool sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const;
+
+    /// What of light gets from one point to the other, or out along a unit direction: 0 if
+    /// something is hit on the way, else the product of the tints.
+    glm::vec3 passing(const glm::vec3& from, const glm::vec3& to, float offset,
+                      std::uint32_t seed) const;
+    glm::vec3 passing_out(const glm::vec3& from, const glm::vec3& direction,
+                          std::uint32_t seed) const;
 
     /// First hit along a unit direction with distance in (near, far), or false.
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,

@@ -80,24 +80,29 @@ glm::vec3 Lights::from_emitter(const Stand& stand, const BounceSamples& samples)
 
     const glm::vec3 lifted =
         emitter.position + (cos_front > 0.0f ? lift_ : -lift_) * emitter.normal;
-    if (!rays_.sees(stand.position, lifted, 0.0f, samples.bits(Draw::emitter)))
-        return glm::vec3(0.0f);
+    const glm::vec3 passing =
+        rays_.passing(stand.position, lifted, 0.0f, samples.bits(Draw::emitter));
+    if (passing == glm::vec3(0.0f))
+        return passing;
     const float density = emitter.density * squared / cos_there;  // per solid angle
     const Brdf::Response response = stand.brdf.respond(direction);
     const float weight = power_heuristic(density, response.density);
-    return emitter.luminance * (response.shape * (cos_here / density * weight));
+    return passing * emitter.luminance * (response.shape * (cos_here / density * weight));
 }
 
 glm::vec3 Lights::from_sky(const Stand& stand, const BounceSamples& samples) const
 {
     const SkySample sky = sky_sampler_->sample(samples.point(Draw::sky));
     const float cosine = cosine_above(stand, sky.direction);
-    if (!(cosine > 0.0f) || !(sky.density > 0.0f) ||
-        !rays_.sees_out(stand.position, sky.direction, samples.bits(Draw::sky)))
+    if (!(cosine > 0.0f) || !(sky.density > 0.0f))
         return glm::vec3(0.0f);
+    const glm::vec3 passing =
+        rays_.passing_out(stand.position, sky.direction, samples.bits(Draw::sky));
+    if (passing == glm::vec3(0.0f))
+        return passing;
     const Brdf::Response response = stand.brdf.respond(sky.direction);
     const float weight = power_heuristic(sky.density, response.density);
-    return sky.radiance * (response.shape * (cosine / sky.density * weight));
+    return passing * sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
 /// Works out what every lamp would bring, and asks what is in the way of a few of them, chosen by
@@ -123,27 +128,25 @@ glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) c
         total += sum(light);
         offers.push_back({lamp, light, total});
     }
-    const auto arrives = [&](const LampSample& lamp) {
+    const auto passing = [&](const LampSample& lamp) {
         const std::uint32_t seed = samples.bits(Draw::lamp);
         return std::isinf(lamp.distance)
-                   ? rays_.sees_out(stand.position, lamp.direction, seed)
-                   : rays_.sees(stand.position, stand.position + lamp.distance * lamp.direction,
-                                0.0f, seed);
+                   ? rays_.passing_out(stand.position, lamp.direction, seed)
+                   : rays_.passing(stand.position, stand.position + lamp.distance * lamp.direction,
+                                   0.0f, seed);
     };
 
     glm::vec3 arriving(0.0f);
     if (offers.size() <= kLampRays) {
         for (const Offer& offer : offers)
-            if (arrives(offer.lamp))
-                arriving += offer.light;
+            arriving += passing(offer.lamp) * offer.light;
         return arriving;
     }
     const float step = total / float(kLampRays);
     float mark = samples.point(Draw::lamp_choice).x * step;
     for (const Offer& offer : offers)
         for (; mark < offer.running; mark += step)
-            if (arrives(offer.lamp))
-                arriving += offer.light * (step / sum(offer.light));
+            arriving += passing(offer.lamp) * offer.light * (step / sum(offer.light));
     return arriving;
 }
 

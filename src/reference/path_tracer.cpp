@@ -88,7 +88,7 @@ glm::vec3 PathTracer::reflected(Stand stand, const PathSamples& path) const
         const Brdf::Response response = stand.brdf.respond(direction);
         if (!(response.density > 0.0f))
             break;
-        throughput *= response.shape * (cosine / kPi / response.density);
+        throughput *= hit.tint * (response.shape * (cosine / kPi / response.density));
         if (!met) {
             if (counts)
                 gathered += kPi * throughput * lights_.met_sky(direction, response.density);
@@ -111,13 +111,15 @@ std::optional<glm::vec3> PathTracer::radiance(const glm::vec3& origin, const glm
                                               const PathSamples& samples) const
 {
     RayHit hit;
-    if (!rays_.closest(origin, direction, 0.0f, kFar, samples.bits(kStartPair), hit))
-        return lights_.background(direction);
+    if (!rays_.closest(origin, direction, 0.0f, kFar, samples.bits(kStartPair), hit)) {
+        const std::optional<glm::vec3> sky = lights_.background(direction);
+        return sky ? hit.tint * *sky : sky;
+    }
     const Shading shading = surfaces_.shade(hit);
     const Stand stand = land(origin, direction, hit.distance, shading);
     if (stand.brdf.reflectance() == glm::vec3(0.0f))
-        return shading.luminance;
-    return shading.luminance + reflected(stand, samples) / kPi;
+        return hit.tint * shading.luminance;
+    return hit.tint * (shading.luminance + reflected(stand, samples) / kPi);
 }
 
 }  // namespace lumel

@@ -42,10 +42,19 @@ private:
         read_emission(view, material);
         read_alpha(view, material);
         material.double_sided = view.boolean_or("doubleSided", false);
-        const auto transmission = view.extension("KHR_materials_transmission");
-        if (in_use_ && transmission && transmission->number_or("transmissionFactor", 0.0f) > 0.0f)
-            ++list_.transmissive;
+        read_transmission(view, material);
         return material;
+    }
+
+    void read_transmission(const JsonView& view, Material& material)
+    {
+        const auto extension = view.extension("KHR_materials_transmission");
+        if (!extension)
+            return;
+        const float factor = extension->number_or("transmissionFactor", 0.0f);
+        material.transmission = std::clamp(factor, 0.0f, 1.0f);
+        if (in_use_ && material.transmission > 0.0f && extension->find("transmissionTexture"))
+            ++list_.transmission_textures;
     }
 
     /// Metals and dielectrics alike reflect their base colour, here diffusely.

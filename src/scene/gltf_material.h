@@ -11,10 +11,10 @@ namespace lumel {
 /// All materials of the file, and the images that those in use need.
 struct MaterialList {
     std::vector<Material> materials;
-    std::vector<std::size_t> images;   ///< index in the file, by index into Scene::textures
-    std::size_t transmissive = 0;      ///< materials in use that let light through
-    std::size_t missing_textures = 0;  ///< textures in use that have no image
-    bool clamped = false;              ///< a base colour left 0…1
+    std::vector<std::size_t> images;        ///< index in the file, by index into Scene::textures
+    std::size_t transmission_textures = 0;  ///< not read, of materials in use
+    std::size_t missing_textures = 0;       ///< textures in use that have no image
+    bool clamped = false;                   ///< a base colour left 0…1
 };
 
 /// `used[i]`: whether material i is on a surface; only then its images are asked for.

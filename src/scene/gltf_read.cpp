@@ -158,8 +158,8 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
     warn(scene, notes.unmapped_primitives, "primitive", "primitives",
          "with a texture but without its texture coordinates: the texture's corner is used");
     warn(scene, looks.missing_textures, "texture", "textures", "without an image taken as white");
-    warn(scene, looks.transmissive, "transmissive material", "transmissive materials",
-         "treated as opaque");
+    warn(scene, looks.transmission_textures, "transmission texture", "transmission textures",
+         "taken as white");
     if (looks.clamped)
         scene.warnings.push_back("base colours outside 0 to 1 were clamped");
 }

@@ -68,26 +68,35 @@ glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::v
     return glm::mix(top, bottom, y.fraction);
 }
 
+/// Of the surface, as its alpha says.
+float share_there(const Material& look, float alpha)
+{
+    switch (look.alpha_mode) {
+    case AlphaMode::mask:
+        return alpha >= look.alpha_cutoff ? 1.0f : 0.0f;
+    case AlphaMode::blend:
+        return std::clamp(alpha, 0.0f, 1.0f);
+    default:
+        return 1.0f;
+    }
+}
+
 }  // namespace
 
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
                                const glm::vec4& vertex_color)
 {
     const Material& look = scene.materials[std::size_t(material)];
-    const glm::vec4 base =
-        look.base_color * vertex_color * sample_texture(scene, look.base_color_texture, texcoord);
+    const glm::vec4 texel = sample_texture(scene, look.base_color_texture, texcoord);
+    const glm::vec4 base = look.base_color * vertex_color * texel;
     MaterialSample sample;
     sample.albedo = glm::clamp(glm::vec3(base), 0.0f, 1.0f);
-    switch (look.alpha_mode) {
-    case AlphaMode::opaque:
-        sample.opacity = 1.0f;
-        break;
-    case AlphaMode::mask:
-        sample.opacity = base.a >= look.alpha_cutoff ? 1.0f : 0.0f;
-        break;
-    case AlphaMode::blend:
-        sample.opacity = std::clamp(base.a, 0.0f, 1.0f);
-        break;
+    const float there = share_there(look, base.a);
+    sample.opacity = there * (1.0f - look.transmission);
+    sample.tint = glm::vec3(1.0f);
+    if (const float glass = there * look.transmission; glass > 0.0f) {
+        const glm::vec3 color = glm::clamp(glm::vec3(look.base_color * texel), 0.0f, 1.0f);
+        sample.tint = (1.0f - there + glass * color) / (1.0f - there + glass);
     }
     // glTF's metals reflect their base colour as a mirror does; what others reflect so is missing
     // from their diffuse light.
@@ -114,9 +123,18 @@ float shininess_of(double roughness)
 
 bool may_be_transparent(const Material& material, const Primitive& primitive)
 {
+    if (material.transmission > 0.0f)
+        return true;
     return material.alpha_mode != AlphaMode::opaque &&
            (material.base_color.a < 1.0f || material.base_color_texture.texture >= 0 ||
             !primitive.colors.empty());
+}
+
+bool is_coloured_glass(const Material& material)
+{
+    const glm::vec4& color = material.base_color;
+    return material.transmission > 0.0f &&
+           (material.base_color_texture.texture >= 0 || color.r != color.g || color.g != color.b);
 }
 
 bool is_uniform(const Material& material)

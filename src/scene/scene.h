@@ -45,6 +45,9 @@ struct Material {
     TextureUse emissive_texture;            ///< sRGB, multiplies emitted
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< for AlphaMode::mask
+    /// Of what is there, the share that is glass: light passes straight, times the base colour
+    /// (without the vertices'). The rest is as if it were not glass.
+    float transmission = 0.0f;
     bool double_sided = false;
 };
 
@@ -146,7 +149,8 @@ struct MaterialSample {
     glm::vec3 diffuse;   ///< ρ_d, where gloss counts
     glm::vec3 specular;  ///< ρ_s; ρ_d + ρ_s ≤ 1
     float roughness;     ///< glTF's, 0…1
-    float opacity;       ///< opaque: 1; mask: 0 or 1; blend: alpha 0…1
+    float opacity;       ///< (opaque: 1; mask: 0 or 1; blend: alpha 0…1) × (1 - transmission)
+    glm::vec3 tint;      ///< 0…1, of what passes: 1 - opacity of the light does, times this
     glm::vec3 emitted;   ///< luminance [cd/m²], linear
 };
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
@@ -156,8 +160,11 @@ MaterialSample sample_material(const Scene& scene, int material, const glm::vec2
 /// 1…kMostShininess: mirrors are blurred.
 float shininess_of(double roughness);
 
-/// True if some of the primitive's surface may let light through: it is cut out or blended.
+/// True if some of the primitive's surface may let light through: it is cut out, blended or glass.
 bool may_be_transparent(const Material& material, const Primitive& primitive);
+
+/// True if light of one colour may pass the material more than that of another.
+bool is_coloured_glass(const Material& material);
 
 /// True where the material's look does not vary over a surface (no textures are read).
 bool is_uniform(const Material& material);

@@ -85,6 +85,7 @@ void add_material(Hash& hash, const Material& material)
     add_texture_use(hash, material.emissive_texture);
     hash.add(static_cast<int>(material.alpha_mode));
     hash.add(material.alpha_cutoff);
+    hash.add(material.transmission);
     hash.add(static_cast<int>(material.double_sided));
 }
 

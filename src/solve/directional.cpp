@@ -135,7 +135,8 @@ private:
                                   .source_index = std::uint32_t(sent_),
                                   .seed = ~options_.seed,  // no shooter of the solve again
                                   .disc = near_radius_ > 0.0f ? 0u : 1u,
-                                  .centre = options_.rule == SampleRule::centre ? 1u : 0u};
+                                  .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                                  .channels = world_->has_coloured_glass() ? 1u : 0u};
         pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
             commands.dispatch(select_,
                               {world_->lumels(), world_->pieces(), source_, source_,

@@ -114,11 +114,13 @@ GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::ui
         const PathSamples samples(stream, i);
         const glm::vec3 toward = on_sphere(samples.stratified(kDirectionPair));
         const float turn = 2.0f * std::numbers::pi_v<float> * samples.random(kTurnPair).x;
-        views.push_back(fit_view(world_->low(), world_->high(), maps_.layout().side,
-                                 {.toward = toward,
-                                  .turn = turn,
-                                  .offset = samples.random(kOffsetPair),
-                                  .random = samples.bits(kTurnPair)}));
+        views.push_back(
+            fit_view(world_->low(), world_->high(), maps_.layout().side,
+                     {.toward = toward,
+                      .turn = turn,
+                      .offset = samples.random(kOffsetPair),
+                      .random = samples.bits(kTurnPair),
+                      .channel = world_->has_coloured_glass() ? 1 + i % kChannels : kAllChannels}));
         directions.push_back(
             {toward, with_sky ? sky_radiance(world_->sky(), toward) : glm::vec3(0.0f)});
     }

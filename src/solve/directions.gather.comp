@@ -15,6 +15,8 @@
 // plane is rejected, and the nearest of the rest is taken. A list holds every surface on the ray
 // through a pixel's centre, so there the receiving point is moved to where such a ray meets the
 // lumel (first_met.glsl), and what is seen is exact.
+//
+// Among coloured glass directions take the colour channels in turn.
 
 layout(local_size_x = kGatherGroup) in;
 layout(constant_id = 0) const uint kLayers = kStochasticLayers;
@@ -34,6 +36,7 @@ layout(binding = 11, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] su
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
 #include "visibility/parallel.glsl"
 #include "visibility/first_met.glsl"
 #include "visibility/piece_along.glsl"
@@ -118,11 +121,13 @@ void main()
         const ParallelView view = views[p.first_view + k];
         const Seen seen = kLayers == kListedLayers ? see_exactly(view, k, point)
                                                    : see_by_chance(view, k, point);
-        const float weight = 4.0 * cosine * seen.weight;
+        const vec3 weight = 4.0 * cosine * seen.weight * carried_in_turn(view.channel);
         if (seen.surface == 0u) {
             of_emission += weight * kPi * direction.sky;
             continue;
         }
+        if (seen.surface == kAbsorbing)
+            continue;
         const uint j = lumel_of[seen.surface - 1u];
         if (j == kNoLumel)
             continue;

@@ -166,7 +166,8 @@ void GlossyIllumination::select()
                                     .before = state_.iterations > 0 ? batch_ : 0u,
                                     .index = next_shot_,
                                     .seed = options_.seed,
-                                    .random = paper_ ? 1u : 0u};
+                                    .random = paper_ ? 1u : 0u,
+                                    .channels = world_->has_coloured_glass() ? 1u : 0u};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(kernels_.select,
                           {world_->lumels(), world_->pieces(), gloss_, diffuse_, last_,

@@ -25,6 +25,7 @@ layout(binding = 10, scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; }
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"
 #include "solve/shooter.glsl"
+#include "visibility/channel.glsl"
 
 // What shooter k's light gives the lobe: the luminance of ρ_s I_k a(ω_k).
 float lobe_power(uint j, uint k, LumelPoint y)
@@ -51,13 +52,16 @@ void main()
     const Gloss g = gloss[j];
     const LumelPoint y = point_on(lumel, u.y, u.z);
     const uint random = hash(hash(index ^ hash(p.seed)) + 1u);
-    eyes[k] = make_eye(y.position, y.normal, random);
+    const uint channel = channel_in_turn(index, p.channels != 0u);
+    eyes[k] = make_eye(y.position, y.normal, random, channel);
 
     float lobes = 0.0;
     for (uint e = 0u; e < p.before; ++e)
         lobes += lobe_power(j, e, y);
-    const float scale =
-        drawn.probability > 0.0 ? lumel.area / (drawn.probability * float(p.shots)) : 0.0;
+    const vec3 scale =
+        drawn.probability > 0.0
+            ? carried_in_turn(channel) * (lumel.area / (drawn.probability * float(p.shots)))
+            : vec3(0.0);
     GlossyShot shot = GlossyShot(diffuse[j] * scale / kPi, lumel.position, lumel.size, 0u,
                                  g.shininess, lumel.area / kPi, j);
     if (lobes > 0.0)

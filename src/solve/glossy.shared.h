@@ -39,7 +39,8 @@ struct GlossySelectParams {
     uint before;  ///< K of the iteration before, 0: none
     uint index;   ///< shooters before this iteration
     uint seed;
-    uint random;  ///< 1: independent random numbers
+    uint random;    ///< 1: independent random numbers
+    uint channels;  ///< 1: shooters take the colour channels in turn
 };
 
 /// Push constants of glossy.receive.comp.

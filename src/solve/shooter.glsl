@@ -1,4 +1,4 @@
-// Where shooters stand and look.
+// Where shooters stand and look. Needs visibility/eye_views.shared.h.
 
 #include "solve/low_discrepancy.glsl"
 
@@ -14,12 +14,12 @@ vec3 draw_point(uint index, uint stream, uint seed_, bool random)
 }
 
 // Frame about the normal, turned by a random angle.
-Eye make_eye(vec3 position, vec3 normal, uint random)
+Eye make_eye(vec3 position, vec3 normal, uint random, uint channel)
 {
     const vec3 other = abs(normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);
     const vec3 t0 = normalize(cross(other, normal));
     const vec3 b0 = cross(normal, t0);
     const float angle = unit_float(random) * 0.5 * kPi;  // a hemicube repeats every quarter turn
     const vec3 t = cos(angle) * t0 + sin(angle) * b0;
-    return Eye(position, t, cross(normal, t), normal, random);
+    return Eye(position, t, cross(normal, t), normal, random, channel);
 }

@@ -129,7 +129,8 @@ void StochasticRadiosity::select(std::uint32_t emission_shots)
                               .disc = paper_ && options_.disc ? 1u : 0u,
                               .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                               .merge = paper_ ? options_.merge : 0u,
-                              .width = atlas_width_};
+                              .width = atlas_width_,
+                              .channels = world_->has_coloured_glass() ? 1u : 0u};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(select_,
                           {world_->lumels(), world_->pieces(), iteration_.emission(),

@@ -11,6 +11,9 @@
 // Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area
 // A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. Its point stays on the
 // texel drawn, so that it lies on the surface.
+//
+// Among coloured glass what a shooter reaches differs from channel to channel: each takes one, with
+// three times the power in it.
 
 layout(local_size_x = kSelectGroup) in;
 layout(push_constant, scalar) uniform Params { SelectParams p; };
@@ -25,6 +28,7 @@ layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
 
 #include "world/lumel.glsl"
 #include "solve/shooter.glsl"
+#include "visibility/channel.glsl"
 
 struct Merged {
     vec3 power;    // Σ X_m A_m
@@ -79,7 +83,9 @@ void main()
         y.position = lumel.position;
         y.normal = lumel.normal;
     }
-    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)));
+    const uint channel = channel_in_turn(index, p.channels != 0u);
+    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)),
+                       channel);
 
     Merged sent = Merged((emits ? emission[j] : source[j]) * area, area, 1.0);
     float probability = drawn.probability;
@@ -88,6 +94,6 @@ void main()
         probability *= sent.weight / source_power[layout_.first[0] + j];
     }
     const float scale = probability > 0.0 ? 1.0 / (kPi * probability) : 0.0;
-    shots[k] = Shot(sent.power * scale, lumel.position, lumel.size,
+    shots[k] = Shot(sent.power * carried_in_turn(channel) * scale, lumel.position, lumel.size,
                     p.disc != 0u ? sent.area / kPi : 0.0, j);
 }

@@ -31,6 +31,7 @@ struct SelectParams {
     uint centre;          ///< 1: shoot from the centroid
     uint merge;           ///< squares of 2^merge texels a side are one shooter; 0: each its own
     uint width;           ///< of the atlas [texels]
+    uint channels;        ///< 1: shooters take the colour channels in turn
 };
 
 /// Push constants of stochastic.receive.comp.

@@ -205,30 +205,30 @@ void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
     const gpu::Buffer& looks = world_->looks().buffer();
-    const auto draw_all = [&](float cutoff, const gpu::Range& range) {
+    const auto draw_all = [&](const Passage& passage, const gpu::Range& range) {
         for (std::uint32_t i = first; i < last; ++i) {
             const std::uint32_t eye = i / faces_per_eye(), face = i % faces_per_eye();
             commands.viewport(face_area(projection_, layout_, eye, face));
             LookParams params = look_params(eye, face);
-            params.cutoff = cutoff;
+            params.passage = passage;
             params.first_index = range.first;
             commands.draw(params, range);
         }
     };
     if (world_->opaque().inner_count > 0) {
         commands.use(opaque_, {eyes}, {{&vertices}, &indices});
-        draw_all(0.0f, {world_->opaque().first_index, world_->opaque().inner_count});
+        draw_all({}, {world_->opaque().first_index, world_->opaque().inner_count});
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
         if (cut_out.range.inner_count == 0)
             continue;
-        const gpu::Binding alpha{*cut_out.alpha, *cut_out.sampler};
+        const gpu::Binding color{*cut_out.color, *cut_out.sampler};
         if (is_hemisphere())
-            commands.use(cut_out_, {eyes, alpha, vertices, looks, indices},
+            commands.use(cut_out_, {eyes, color, vertices, looks, indices},
                          {{&vertices}, &indices});
         else
-            commands.use(cut_out_, {eyes, alpha}, {{&vertices, &looks}, &indices});
-        draw_all(cut_out.cutoff, {cut_out.range.first_index, cut_out.range.inner_count});
+            commands.use(cut_out_, {eyes, color}, {{&vertices, &looks}, &indices});
+        draw_all(cut_out.passage, {cut_out.range.first_index, cut_out.range.inner_count});
     }
 }
 

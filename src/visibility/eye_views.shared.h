@@ -1,6 +1,6 @@
 #ifndef LUMEL_VISIBILITY_EYE_VIEWS_SHARED_H
 #define LUMEL_VISIBILITY_EYE_VIEWS_SHARED_H
-#include "core/shared.h"
+#include "world/passage.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kHemicube = 0u;
@@ -14,7 +14,8 @@ struct Eye {
     vec3 tangent;    ///< t
     vec3 bitangent;  ///< b
     vec3 normal;     ///< n, the axis of the hemisphere
-    uint random;     ///< seeds the chance by which blended surfaces block
+    uint random;     ///< seeds the chance by which surfaces with alpha block
+    uint channel;    ///< that is looked in, see passage.shared.h
 };
 
 /// How views lie in the depth image, one tile an eye.
@@ -33,7 +34,7 @@ struct LookParams {
     uint eye;          ///< index into the eyes
     uint face;         ///< of a hemicube, 0…4
     float near;        ///< [m]
-    float cutoff;      ///< cut-outs: opaque where alpha ≥ cutoff; < 0: by chance
+    Passage passage;   ///< of cut-outs
     uint first_index;  ///< of the indices drawn
     // Of a hemisphere:
     uvec2 corner;  ///< of the tile [pixels]

@@ -12,7 +12,10 @@ layout(location = 0) in vec3 look;
 
 void main()
 {
-    const float alpha = textureLod(base_color, look.xy, 0.0).a * look.z;
-    if (!blocks(alpha, p.cutoff, gl_FragCoord.xy, gl_FragCoord.z, eyes[p.eye].random))
+    const Eye eye = eyes[p.eye];
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(p.passage, base, eye.channel);
+    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, eye.random);
+    if (chance >= opacity.blocked)
         discard;
 }

@@ -43,8 +43,10 @@ void main()
         discard;
     const vec3 way = mat3(eye.tangent, eye.bitangent, eye.normal) * ray;
     const vec3 look = look_at(eye.position + way / nearness);
-    const float alpha = textureLod(base_color, look.xy, 0.0).a * look.z;
-    if (!blocks(alpha, p.cutoff, gl_FragCoord.xy, depth, eye.random))
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(p.passage, base, eye.channel);
+    const float chance = chance_at(gl_FragCoord.xy, depth, eye.random);
+    if (chance >= opacity.blocked)
         discard;
     gl_FragDepth = depth;
 }

@@ -17,9 +17,13 @@ layout(location = 0) in vec2 place;
 
 void main()
 {
-    const float alpha = textureLod(base_color, look.xy, 0.0).a * look.z;
-    if (!blocks(alpha, p.cutoff, gl_FragCoord.xy, gl_FragCoord.z, views[p.view].random))
+    const ParallelView view = views[p.view];
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(p.passage, base, view.channel);
+    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
+    if (chance >= opacity.blocked)
         discard;
+    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
     const uint index = atomicAdd(total.count, 1u);
     if (index >= total.capacity)
         return;
@@ -27,6 +31,5 @@ void main()
     const uvec2 corner = uvec2(p.tile % p.layout_.columns, p.tile / p.layout_.columns) * side;
     const uvec2 pixel = uvec2(gl_FragCoord.xy) - corner;
     const uint head = (p.tile * side + pixel.y) * side + pixel.x;
-    fragments[index] =
-        Fragment(surface_at(p, place), gl_FragCoord.z, atomicExchange(heads[head], index));
+    fragments[index] = Fragment(surface, gl_FragCoord.z, atomicExchange(heads[head], index));
 }

@@ -15,12 +15,16 @@ layout(location = 0) out uvec2 fragment;
 
 void main()
 {
-    const float alpha = textureLod(base_color, look.xy, 0.0).a * look.z;
-    if (!blocks(alpha, p.cutoff, gl_FragCoord.xy, gl_FragCoord.z, views[p.view].random))
+    const ParallelView view = views[p.view];
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(p.passage, base, view.channel);
+    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
+    if (chance >= opacity.blocked)
         discard;
-    fragment = uvec2(surface_at(p, place), floatBitsToUint(gl_FragCoord.z));
+    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
+    fragment = uvec2(surface, floatBitsToUint(gl_FragCoord.z));
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
     const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
     // 0 is the cleared depth, which is behind everything.
-    gl_FragDepth = 1.0 - unit_float(hash(here ^ views[p.view].random));
+    gl_FragDepth = 1.0 - unit_float(hash(here ^ view.random));
 }

@@ -105,8 +105,8 @@ void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelVi
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& places = world_->places().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
-    const auto draw_range = [&](const OccluderRange& range, float cutoff) {
-        commands.draw(IlluminationParams{layout_, view, tile, width_, height_, cutoff},
+    const auto draw_range = [&](const OccluderRange& range, const Passage& passage) {
+        commands.draw(IlluminationParams{layout_, view, tile, width_, height_, passage},
                       {range.first_index, range.index_count});
     };
     commands.begin_pass(lists() ? nullptr : &image_, depth_, tile_area(layout_, tile));
@@ -116,16 +116,16 @@ void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelVi
                          {{&vertices, &places}, &indices});
         else
             commands.use(opaque_, {views}, {{&vertices, &places}, &indices});
-        draw_range(world_->opaque(), 0.0f);
+        draw_range(world_->opaque(), {});
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        const gpu::Binding alpha{*cut_out.alpha, *cut_out.sampler};
+        const gpu::Binding color{*cut_out.color, *cut_out.sampler};
         const gpu::Mesh mesh{{&vertices, &places, &world_->looks().buffer()}, &indices};
         if (lists())
-            commands.use(cut_out_, {views, alpha, heads_, fragments_, count_}, mesh);
+            commands.use(cut_out_, {views, color, heads_, fragments_, count_}, mesh);
         else
-            commands.use(cut_out_, {views, alpha}, mesh);
-        draw_range(cut_out.range, cut_out.cutoff);
+            commands.use(cut_out_, {views, color}, mesh);
+        draw_range(cut_out.range, cut_out.passage);
     }
     commands.end_pass();
 }

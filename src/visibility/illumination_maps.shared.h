@@ -8,9 +8,11 @@ LUMEL_CONST uint kListedLayers = 1u;      ///< all of them, in a linked list
 
 LUMEL_CONST uint kEndOfList = 0xffffffffu;
 
+LUMEL_CONST uint kAbsorbing = 0xffffffffu;  ///< surface of glass that light ends in
+
 /// A surface at a pixel of an illumination map.
 struct Fragment {
-    uint surface;    ///< 1 + 2 × texel of the atlas + (1: its back); 0: nothing
+    uint surface;    ///< 1 + 2 × texel of the atlas + (1: its back); 0: nothing; kAbsorbing
     float nearness;  ///< along the direction, as ParallelView has it
     uint next;       ///< index of the next of this pixel, or kEndOfList
 };
@@ -28,7 +30,7 @@ struct IlluminationParams {
     uint tile;   ///< that it is drawn into
     uint width;  ///< of the atlas [texels]
     uint height;
-    float cutoff;  ///< cut-outs: opaque where alpha ≥ cutoff; < 0: by chance
+    Passage passage;  ///< of cut-outs
 };
 
 LUMEL_SHARED_END

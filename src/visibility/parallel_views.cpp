@@ -114,7 +114,8 @@ ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t
             .toward = depth_scale * pose.toward,
             .shift = centre - scale * glm::vec2(x.middle(), y.middle()),
             .depth_shift = kDepthBorder - depth_scale * z.low,
-            .random = pose.random};
+            .random = pose.random,
+            .channel = pose.channel};
 }
 
 ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std::uint32_t side,
@@ -144,19 +145,19 @@ void ParallelViews::draw(gpu::Commands& commands, const gpu::Array<ParallelView>
 {
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
-    const auto draw_range = [&](const OccluderRange& range, float cutoff) {
-        commands.draw(ParallelLookParams{layout_, view, cutoff},
+    const auto draw_range = [&](const OccluderRange& range, const Passage& passage) {
+        commands.draw(ParallelLookParams{layout_, view, passage},
                       {range.first_index, range.index_count});
     };
     commands.begin_pass(nullptr, image_, tile_area(layout_, tile));
     if (world_->opaque().index_count > 0) {
         commands.use(opaque_, {views}, {{&vertices}, &indices});
-        draw_range(world_->opaque(), 0.0f);
+        draw_range(world_->opaque(), {});
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        commands.use(cut_out_, {views, {*cut_out.alpha, *cut_out.sampler}},
+        commands.use(cut_out_, {views, {*cut_out.color, *cut_out.sampler}},
                      {{&vertices, &world_->looks().buffer()}, &indices});
-        draw_range(cut_out.range, cut_out.cutoff);
+        draw_range(cut_out.range, cut_out.passage);
     }
     commands.end_pass();
 }

@@ -11,10 +11,11 @@ namespace lumel {
 
 /// Where a parallel view stands in the space of all that show the world from one direction.
 struct ParallelPose {
-    glm::vec3 toward{0.0f, 1.0f, 0.0f};  ///< unit, from the scene to the light
-    float turn = 0.0f;                   ///< of the picture about `toward` [rad]
-    glm::vec2 offset{0.5f};              ///< of its pixels, 0…1
-    std::uint32_t random = 0;            ///< seeds the chance by which blended surfaces block
+    glm::vec3 toward{0.0f, 1.0f, 0.0f};    ///< unit, from the scene to the light
+    float turn = 0.0f;                     ///< of the picture about `toward` [rad]
+    glm::vec2 offset{0.5f};                ///< of its pixels, 0…1
+    std::uint32_t random = 0;              ///< seeds the chance by which surfaces with alpha block
+    std::uint32_t channel = kAllChannels;  ///< that is looked in
 };
 
 /// The view that shows a whole box, as large as fits a tile of side × side pixels.

@@ -1,6 +1,6 @@
 #ifndef LUMEL_VISIBILITY_PARALLEL_VIEWS_SHARED_H
 #define LUMEL_VISIBILITY_PARALLEL_VIEWS_SHARED_H
-#include "core/shared.h"
+#include "world/passage.shared.h"
 LUMEL_SHARED_BEGIN
 
 /// A parallel projection of the world onto a square tile of pixels. A point x falls on
@@ -12,7 +12,8 @@ struct ParallelView {
     vec3 toward;        ///< against the rays [1 / m]
     vec2 shift;         ///< [pixels]
     float depth_shift;  ///< [1]
-    uint random;        ///< seeds the chance by which blended surfaces block
+    uint random;        ///< seeds the chance by which surfaces with alpha block
+    uint channel;       ///< that is looked in, see passage.shared.h
 };
 
 /// How the tiles lie in the image.
@@ -25,7 +26,7 @@ struct ParallelLayout {
 struct ParallelLookParams {
     ParallelLayout layout_;
     uint view;
-    float cutoff;  ///< cut-outs: opaque where alpha ≥ cutoff; < 0: by chance
+    Passage passage;  ///< of cut-outs
 };
 
 LUMEL_SHARED_END

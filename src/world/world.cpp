@@ -23,16 +23,29 @@ gpu::Address address_of(Wrap wrap)
 gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const TextureUse& use)
 {
     if (use.texture < 0) {
-        gpu::Target white(device, gpu::Pixel::rgba8, 1, 1);
+        gpu::Target white(device, gpu::Pixel::srgba8, 1, 1);
         const std::uint32_t texel = 0xffffffffu;
         white.upload(&texel);
         return white;
     }
     const Texture& texture = scene.textures[use.texture];
-    gpu::Target target(device, gpu::Pixel::rgba8, std::uint32_t(texture.width),
+    gpu::Target target(device, gpu::Pixel::srgba8, std::uint32_t(texture.width),
                        std::uint32_t(texture.height));
     target.upload(texture.rgba.data());
     return target;
+}
+
+/// As Passage has it; opaque surfaces are there whatever their alpha.
+float cutoff_of(const Material& material)
+{
+    switch (material.alpha_mode) {
+    case AlphaMode::mask:
+        return material.alpha_cutoff;
+    case AlphaMode::blend:
+        return -1.0f;
+    default:
+        return 0.0f;
+    }
 }
 
 CutOutDraw make_draw(const gpu::Device& device, const Scene& scene, const CutOut& cut_out)
@@ -41,10 +54,12 @@ CutOutDraw make_draw(const gpu::Device& device, const Scene& scene, const CutOut
     const TextureUse& use = material.base_color_texture;
     CutOutDraw draw;
     draw.range = cut_out.range;
-    draw.alpha = std::make_unique<gpu::Target>(upload_texture(device, scene, use));
+    draw.color = std::make_unique<gpu::Target>(upload_texture(device, scene, use));
     draw.sampler = std::make_unique<gpu::Sampler>(device, gpu::Filter::linear,
                                                   address_of(use.wrap_s), address_of(use.wrap_t));
-    draw.cutoff = material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff : -1.0f;
+    draw.passage = {.cutoff = cutoff_of(material),
+                    .transmission = material.transmission,
+                    .color = glm::vec3(material.base_color)};
     return draw;
 }
 
@@ -106,8 +121,10 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
     sky_ = scene.sky;
     low_ = box.low;
     high_ = box.high;
-    for (const CutOut& cut_out : occluders.cut_outs)
+    for (const CutOut& cut_out : occluders.cut_outs) {
         cut_outs_.push_back(make_draw(device, scene, cut_out));
+        coloured_glass_ |= is_coloured_glass(scene.materials[cut_out.material]);
+    }
     std::vector<glm::mat4> transforms;
     for (const Instance& instance : scene.instances)
         transforms.push_back(instance.transform);

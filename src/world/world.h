@@ -8,6 +8,7 @@
 #include "atlas/atlas.h"
 #include "gpu/commands.h"
 #include "world/occluders.h"
+#include "world/passage.shared.h"
 #include "world/world.shared.h"
 
 namespace lumel {
@@ -15,12 +16,12 @@ namespace lumel {
 /// Lumels tried first when a kind of work is timed (see gpu::Pacer).
 inline constexpr std::uint32_t kProbeLumels = 4096;
 
-/// One cut-out material's part of the occluders, with its alpha on the GPU.
+/// One cut-out material's part of the occluders, with its base colour on the GPU.
 struct CutOutDraw {
     OccluderRange range;
-    std::unique_ptr<gpu::Target> alpha;
+    std::unique_ptr<gpu::Target> color;
     std::unique_ptr<gpu::Sampler> sampler;
-    float cutoff = 0.5f;  ///< MASK: opaque where alpha ≥ cutoff; BLEND: < 0, opaque by chance
+    Passage passage{};
 };
 
 /// Local data stays; placed data (in the world) follows the instances' transforms.
@@ -38,6 +39,8 @@ public:
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
+    /// True if there is coloured glass: views that carry one channel each are needed.
+    bool has_coloured_glass() const { return coloured_glass_; }
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
     glm::vec3 high() const { return high_; }
     const Sky& sky() const { return sky_; }
@@ -60,6 +63,7 @@ private:
     gpu::Array<std::uint32_t> indices_;
     OccluderRange opaque_;
     std::vector<CutOutDraw> cut_outs_;
+    bool coloured_glass_ = false;
     gpu::Kernel place_lumels_, place_vertices_;
     glm::vec3 low_{0.0f}, high_{0.0f};
     Sky sky_;

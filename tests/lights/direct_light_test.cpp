@@ -6,6 +6,7 @@
 
 #include "../support/box_lumels.h"
 #include "nearfield/near_field.h"
+#include "reference/reference.h"
 
 namespace lumel {
 namespace {
@@ -242,6 +243,90 @@ TEST(PointLight, OutsideTheRoomIsKeptOutByItsWalls)
     for (const glm::vec3& h : lit(room))
         ASSERT_EQ(h, glm::vec3(0.0f));
 }
+
+/// A light of 1000 over a white floor, and panes one above the other that hide all of it.
+support::HandMade floor_under(const std::vector<Material>& panes, PunctualLight::Kind kind)
+{
+    std::vector<support::Quad> quads{floor_of(1.0f, 32)};
+    for (std::size_t i = 0; i < panes.size(); ++i) {
+        quads.push_back(floor_of(3.0f, 1));
+        quads.back().corner.y = 0.5f + 0.25f * float(i);
+    }
+    support::HandMade scene = support::make_quads(quads);
+    for (std::size_t i = 0; i < panes.size(); ++i)
+        scene.scene.materials[1 + i] = panes[i];
+    PunctualLight light;
+    light.kind = kind;
+    light.intensity = 1000.0f;
+    light.radius = kind == PunctualLight::Kind::point ? 0.05f : 0.0f;  // looked from 128 points
+    light.transform = shining({std::sqrt(3.0f), -1.0f, 0.0f}, {0.0f, 2.0f, 0.0f});
+    scene.scene.lights.push_back(light);
+    return scene;
+}
+
+Material glass(const glm::vec3& color)
+{
+    Material material;
+    material.base_color = glm::vec4(color, 1.0f);
+    material.transmission = 1.0f;
+    return material;
+}
+
+glm::dvec3 mean_on_floor(const support::HandMade& scene, const std::vector<glm::vec3>& irradiance)
+{
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < scene.first[1]; ++i)
+        sum += glm::dvec3(irradiance[i]);
+    return sum / double(scene.first[1]);
+}
+
+void expect_tint(const glm::dvec3& value, double open, const glm::dvec3& tint)
+{
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(value[c], open * tint[c], 0.01 * open * tint[c]) << "channel " << c;
+}
+
+struct Panes {
+    std::vector<Material> panes;
+    glm::dvec3 tint;
+};
+
+Material half_there()
+{
+    Material grey;
+    grey.alpha_mode = AlphaMode::blend;
+    grey.base_color = {0.2f, 0.9f, 0.4f, 0.5f};
+    return grey;
+}
+
+class ColouredLight : public testing::TestWithParam<Panes> {};
+
+TEST_P(ColouredLight, OfTheSunFallsThroughPanes)
+{
+    const auto& [panes, tint] = GetParam();
+    const support::HandMade scene = floor_under(panes, PunctualLight::Kind::directional);
+    const double open = 500.0;  // at 60°
+    expect_tint(mean_on_floor(scene, lit(scene, {.sun_directions = 128})), open, tint);
+    expect_tint(
+        mean_on_floor(scene, reference_irradiance(scene.scene, RayScene(scene.scene), scene.lumels,
+                                                  {.samples_per_lumel = 64, .max_bounces = 0})),
+        open, tint);
+}
+
+TEST_P(ColouredLight, OfALampFallsThroughPanes)
+{
+    const auto& [panes, tint] = GetParam();
+    const support::HandMade open = floor_under({}, PunctualLight::Kind::point);
+    const support::HandMade scene = floor_under(panes, PunctualLight::Kind::point);
+    expect_tint(mean_on_floor(scene, lit(scene)), mean_on_floor(open, lit(open)).r, tint);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, ColouredLight,
+    testing::Values(Panes{{glass({1.0f, 0.25f, 0.0f})}, {1.0, 0.25, 0.0}},
+                    Panes{{half_there()}, {0.5, 0.5, 0.5}},
+                    Panes{{glass({1.0f, 0.8f, 0.5f}), glass({0.5f, 1.0f, 0.8f})}, {0.5, 0.8, 0.4}},
+                    Panes{{glass({1.0f, 1.0f, 0.6f}), half_there()}, {0.5, 0.5, 0.3}}));
 
 }  // namespace
 }  // namespace lumel

@@ -167,6 +167,34 @@ TEST(RayScene, HitsBlendedSurfacesAsOftenAsAlphaSays)
     EXPECT_NEAR(seen, 0.7 * kQueries, 4.0 * deviation);
 }
 
+TEST(RayScene, GlassTintsWhatPasses)
+{
+    support::Quad pane;
+    pane.albedo = {1.0f, 0.5f, 0.25f};
+    support::Quad wall = pane, beyond = pane;
+    wall.corner.z = -1.0f;
+    beyond.corner.z = -2.0f;
+    Scene scene = support::make_quads({pane, wall, beyond}).scene;
+    scene.materials[0].transmission = scene.materials[2].transmission = 1.0f;
+    const RayScene rays(scene);
+    const glm::vec3 above(0.4f, 0.3f, 1.0f), down(0.0f, 0.0f, -1.0f);
+    EXPECT_EQ(rays.passing(above, {0.4f, 0.3f, -0.5f}, 0.0f, 1), pane.albedo);
+    EXPECT_EQ(rays.passing(above, {0.4f, 0.3f, 0.5f}, 0.0f, 1), glm::vec3(1.0f));
+    EXPECT_EQ(rays.passing_out(above, down, 1), glm::vec3(0.0f)) << "there is a wall";
+
+    RayHit hit;
+    ASSERT_TRUE(rays.closest(above, down, 0.0f, kFar, 1, hit));
+    EXPECT_FLOAT_EQ(hit.distance, 2.0f);
+    EXPECT_EQ(hit.tint, pane.albedo) << "glass behind the wall has no say";
+
+    scene.materials[1].transmission = 1.0f;
+    const glm::vec3 thrice = pane.albedo * pane.albedo * pane.albedo;
+    const RayScene all_glass(scene);
+    EXPECT_EQ(all_glass.passing_out(above, down, 1), thrice);
+    EXPECT_FALSE(all_glass.closest(above, down, 0.0f, kFar, 1, hit));
+    EXPECT_EQ(hit.tint, thrice);
+}
+
 TEST(RayScene, KnowsItsBounds)
 {
     Scene scene;

@@ -250,13 +250,44 @@ TEST(Materials, ATexturedMeshWithoutTexcoordsIsReadWithAWarning)
     EXPECT_TRUE(warns(builder.read(), "texture coordinates"));
 }
 
-TEST(Materials, TransmissionIsTakenAsOpaqueWithAWarning)
+TEST(Materials, TransmissionLetsTheBaseColourThrough)
+{
+    const auto scene_of = [](const char* mode, float alpha, const Json& transmission) {
+        return with_material({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.5, 0, alpha}}}},
+                              {"alphaMode", mode},
+                              {"extensions", {{"KHR_materials_transmission", transmission}}}})
+            .read();
+    };
+    const auto passing = [&](const char* mode, float alpha, float factor) {
+        const Scene scene = scene_of(mode, alpha, {{"transmissionFactor", factor}});
+        const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
+        return (1.0f - sample.opacity) * sample.tint;
+    };
+    const auto expect = [](const glm::vec3& value, const glm::vec3& truth) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(value[c], truth[c], 1e-6f);
+    };
+    expect(passing("OPAQUE", 0.3f, 0.0f), {0.0f, 0.0f, 0.0f});
+    expect(passing("OPAQUE", 0.3f, 1.0f), {1.0f, 0.5f, 0.0f});
+    expect(passing("OPAQUE", 0.3f, 0.8f), {0.8f, 0.4f, 0.0f});
+    expect(passing("MASK", 0.3f, 0.8f), {1.0f, 1.0f, 1.0f});
+    expect(passing("BLEND", 0.25f, 0.0f), {0.75f, 0.75f, 0.75f});
+    expect(passing("BLEND", 0.25f, 0.8f), {0.95f, 0.85f, 0.75f});
+
+    const Scene scene = scene_of("OPAQUE", 1.0f, {{"transmissionFactor", 1}});
+    EXPECT_TRUE(may_be_transparent(scene.materials[0], scene.meshes[0].primitives[0]));
+    EXPECT_TRUE(is_coloured_glass(scene.materials[0]));
+    EXPECT_EQ(scene.warnings, std::vector<std::string>{});
+}
+
+TEST(Materials, ATransmissionTextureIsNotReadWhichIsSaid)
 {
     const Scene scene =
-        with_material(
-            {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}})
+        with_material({{"extensions",
+                        {{"KHR_materials_transmission",
+                          {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}}}}})
             .read();
-    EXPECT_TRUE(warns(scene, "treated as opaque"));
+    EXPECT_TRUE(warns(scene, "transmission texture"));
 }
 
 TEST(Materials, TexturesThatNeedAnotherFormatAreRefusedByName)
