@@ -76,7 +76,8 @@ const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
                                           {"hemisphere", Projection::hemisphere}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
-const Choices<Layers> kLayers = {{"list", Layers::list}, {"stochastic", Layers::stochastic}};
+const Choices<Layers> kLayers = {
+    {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
 const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
@@ -121,8 +122,9 @@ void add_view_options(CLI::App& app, SolverOptions& solver)
 void add_map_options(CLI::App& app, SolverOptions& solver)
 {
     add_choice(app, "--layers", solver.layers, kLayers,
-               "What --solver directions keeps of surfaces behind one another: all of them (list, "
-               "the default), or one a pixel by chance (stochastic)");
+               "What --solver directions keeps of surfaces behind one another: all of them, at "
+               "once (list, the default) or one after another (peel), or one a pixel by chance "
+               "(stochastic)");
     add_choice(app, "--lookups", solver.lookups, kLookups,
                "Side of the square of pixels looked up among stochastic layers (default: 3)");
     app.add_option("--map-side", solver.map_side,

@@ -14,6 +14,13 @@ const char* text_of(SampleRule rule)
     return rule == SampleRule::area ? "area" : "centre";
 }
 
+const char* text_of(Layers layers)
+{
+    if (layers == Layers::list)
+        return "list";
+    return layers == Layers::peel ? "peel" : "stochastic";
+}
+
 const char* text_of(Directional directional)
 {
     return directional == Directional::none ? "none"
@@ -65,7 +72,7 @@ Settings settings_of(const BakeOptions& options)
     return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
             {"sampling", text_of(solver.rule)},
             {"batch", std::to_string(solver.batch)},
-            {"layers", solver.layers == Layers::list ? "list" : "stochastic"},
+            {"layers", text_of(solver.layers)},
             {"lookups", std::to_string(solver.lookups)},
             {"map-side", std::to_string(solver.map_side)},
             {"projection", solver.projection == Projection::hemisphere ? "hemisphere" : "hemicube"},

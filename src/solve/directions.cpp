@@ -16,7 +16,8 @@
 // - A running average instead of leaky integration, in phases (iteration.cpp): a baked map is to
 //   converge. With Scheme::paper the source follows the average after every batch.
 // - Maps name lumels, not colours, so that emission and reflected light are gathered apart.
-// - Layers::list keeps every surface of a pixel, and is exact.
+// - Layers::list keeps every surface of a pixel, and Layers::peel has one after the other
+//   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact.
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 
@@ -37,10 +38,10 @@ constexpr std::uint32_t kGatherSpirv[] = {
 #include "solve/directions.gather.comp.inc"
 };
 
-constexpr gpu::Slot kGatherSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                      gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
-                                      gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                      gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array};
+constexpr gpu::Slot kGatherSlots[] = {
+    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
+    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
+    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
 
 /// Directions that are made at a time.
 constexpr std::uint32_t kChunk = 1024;
@@ -98,6 +99,9 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
       gather_(device, "directions.gather", kGatherSpirv, kGatherSlots, sizeof(GatherParams),
               kGatherGroup, std::uint32_t(options.layers)),
       lumel_of_(device, view(lumels_by_side(lumels))),
+      seen_(device,
+            options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
+      news_(device, 1),
       iteration_(device, lumels, NearField{}, options, batch_),
       pacer_(device)
 {
@@ -146,14 +150,38 @@ void GlobalDirections::step()
     iteration_.take_figures(pacer_);
     const Chunk& chunk = chunk_of(iteration_.half(), iteration_.emission_index());
     const std::uint32_t first = iteration_.emission_index() - chunk.first;
-    maps_.look_along(pacer_, chunk.views, first, batch_);
+    if (options_.layers == Layers::peel)
+        peel(chunk, first);
+    else
+        maps_.look_along(pacer_, chunk.views, first, batch_);
     gather(chunk, first);
     iteration_.finish_batch(pacer_, batch_, iteration_.sends_reflected() ? batch_ : 0);
 }
 
-void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view)
+/// Layer after layer, until one shows no lumel anything new: those behind it then cannot either.
+/// As many as were needed before are drawn without asking.
+void GlobalDirections::peel(const Chunk& chunk, std::uint32_t first_view)
 {
-    pacer_.work("gather", iteration_.lumels(), kProbeLumels,
+    bool more = true;
+    for (std::uint32_t layer = 0; more; ++layer) {
+        maps_.look_along(pacer_, chunk.views, first_view, batch_, layer);
+        pacer_.work("clear news", 1, 1,
+                    [this](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+                        commands.fill(news_.buffer());
+                    });
+        gather(chunk, first_view, layer, true);
+        if (layer + 1 < layers_)
+            continue;
+        layers_ = layer + 1;
+        pacer_.finish();
+        more = news_.download()[0] != 0;
+    }
+}
+
+void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std::uint32_t layer,
+                              bool keep)
+{
+    pacer_.work(keep ? "keep" : "gather", iteration_.lumels(), kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                     const GatherParams params{
                         .layout_ = maps_.layout(),
@@ -167,20 +195,24 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view)
                         .seed = options_.seed,
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                         .neighbours = std::uint32_t(options_.lookups / 2),
-                        .with_source = iteration_.sends_reflected() ? 1u : 0u};
+                        .with_source = iteration_.sends_reflected() ? 1u : 0u,
+                        .layer = layer,
+                        .keep = keep ? 1u : 0u};
                     commands.dispatch(gather_,
                                       {world_->lumels(),
                                        world_->pieces(),
                                        chunk.views,
                                        chunk.directions,
-                                       {maps_.image(), maps_.sampler()},
+                                       {maps_.image(layer), maps_.sampler()},
                                        maps_.heads(),
                                        maps_.fragments(),
                                        lumel_of_,
                                        iteration_.emission(),
                                        iteration_.source(),
                                        iteration_.direct(),
-                                       iteration_.indirect()},
+                                       iteration_.indirect(),
+                                       seen_,
+                                       news_},
                                       params, last - first);
                 });
 }
@@ -191,7 +223,7 @@ std::vector<glm::vec3> GlobalDirections::irradiance()
     if (options_.layers == Layers::list && maps_.kept() < 1.0)
         throw Error(ErrorKind::device, "--layers list",
                     "more surfaces lie behind one another than there is memory for; use --layers "
-                    "stochastic");
+                    "peel or stochastic");
     return irradiance;
 }
 

@@ -14,7 +14,8 @@
 // Of stochastic layers, (2 neighbours + 1)² pixels are looked up, what lies below the receiver's
 // plane is rejected, and the nearest of the rest is taken. A list holds every surface on the ray
 // through a pixel's centre, so there the receiving point is moved to where such a ray meets the
-// lumel (first_met.glsl), and what is seen is exact.
+// lumel (first_met.glsl), and what is seen is exact. So it is of peeled layers: they come nearer to
+// the lumel one by one, and the last one above it is kept.
 //
 // Among coloured glass directions take the colour channels in turn.
 
@@ -33,6 +34,8 @@ layout(binding = 8, scalar) readonly buffer Emission { vec3 emission[]; };
 layout(binding = 9, scalar) readonly buffer Source { vec3 source[]; };
 layout(binding = 10, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
 layout(binding = 11, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+layout(binding = 12, scalar) buffer Kept { uint kept[]; };           // [K][N] peeled: seen so far
+layout(binding = 13, scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
@@ -81,25 +84,48 @@ Seen see_by_chance(ParallelView view, uint tile, LumelPoint point)
     return seen;
 }
 
-Seen see_exactly(ParallelView view, uint tile, LumelPoint point)
+uint nearest_listed(PieceInView piece, RayMet ray, uint tile)
 {
-    const PieceInView piece = piece_along(view, pieces[point.piece]);
-    RayMet ray;
-    if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
-        return Seen(0u, 0.0);
     const uint side = p.layout_.side;
     uint next = heads[(tile * side + uint(ray.pixel.y)) * side + uint(ray.pixel.x)];
-    Seen seen = Seen(0u, 1.0 / ray.chance);
+    uint surface = 0u;
     float first = 2.0;
     while (next != kEndOfList) {
         const Fragment fragment = fragments[next];
         if (fragment.nearness < first && !is_first(piece, ray, fragment.nearness)) {
             first = fragment.nearness;
-            seen.surface = fragment.surface;
+            surface = fragment.surface;
         }
         next = fragment.next;
     }
-    return seen;
+    return surface;
+}
+
+uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
+{
+    const uint at = tile * p.count + i;
+    if (p.keep == 0u)
+        return kept[at];
+    const uvec2 corner = uvec2(tile % p.layout_.columns, tile / p.layout_.columns) * p.layout_.side;
+    const uvec2 fragment =
+        texelFetch(illumination_map, ivec2(corner) + ivec2(ray.pixel), 0).xy;
+    if (fragment.x != 0u && !is_first(piece, ray, uintBitsToFloat(fragment.y))) {
+        kept[at] = fragment.x;
+        atomicMax(news, 1u);
+    } else if (p.layer == 0u)
+        kept[at] = 0u;
+    return fragment.x;
+}
+
+Seen see_exactly(ParallelView view, uint tile, LumelPoint point, uint i)
+{
+    const PieceInView piece = piece_along(view, pieces[point.piece]);
+    RayMet ray;
+    if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
+        return Seen(0u, 0.0);
+    return Seen(kLayers == kListedLayers ? nearest_listed(piece, ray, tile)
+                                         : nearest_peeled(piece, ray, tile, i),
+                1.0 / ray.chance);
 }
 
 void main()
@@ -119,8 +145,10 @@ void main()
         if (cosine <= 0.0 || dot(point.facing, direction.toward) <= 0.0)
             continue;
         const ParallelView view = views[p.first_view + k];
-        const Seen seen = kLayers == kListedLayers ? see_exactly(view, k, point)
-                                                   : see_by_chance(view, k, point);
+        const Seen seen = kLayers == kStochasticLayers ? see_by_chance(view, k, point)
+                                                       : see_exactly(view, k, point, i);
+        if (p.keep != 0u)
+            continue;
         const vec3 weight = 4.0 * cosine * seen.weight * carried_in_turn(view.channel);
         if (seen.surface == 0u) {
             of_emission += weight * kPi * direction.sky;
@@ -135,6 +163,8 @@ void main()
         if (p.with_source != 0u)
             of_source += weight * source[j];
     }
+    if (p.keep != 0u)
+        return;
     const uint at = p.half_ * p.count + i;
     direct[at] += of_emission;
     indirect[at] += of_source;

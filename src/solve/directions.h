@@ -35,7 +35,9 @@ private:
 
     const Chunk& chunk_of(std::uint32_t half, std::uint32_t index);
     Chunk make_chunk(std::uint32_t half, std::uint32_t first) const;
-    void gather(const Chunk& chunk, std::uint32_t first_view);
+    void peel(const Chunk& chunk, std::uint32_t first_view);
+    void gather(const Chunk& chunk, std::uint32_t first_view, std::uint32_t layer = 0,
+                bool keep = false);
 
     SolverOptions options_;
     const gpu::Device* device_;
@@ -44,6 +46,9 @@ private:
     std::uint32_t batch_;  ///< K, a power of two
     gpu::Kernel gather_;
     gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2] lumel of each side, or kNoLumel
+    gpu::Array<std::uint32_t> seen_;      ///< [K][N] peeled: the surface that each lumel sees
+    gpu::Array<std::uint32_t> news_;      ///< [1] peeled: 1 once a layer shows something new
+    std::uint32_t layers_ = 1;            ///< peeled at most so far
     std::array<std::deque<Chunk>, 2> chunks_;
     Iteration iteration_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends

@@ -27,6 +27,8 @@ struct GatherParams {
     uint centre;       ///< 1: receive at the centroid
     uint neighbours;   ///< lookups to each side of a pixel: 0, 1 or 2
     uint with_source;  ///< 0: the source is still 0
+    uint layer;        ///< peeled: how many layers are in front of the map's
+    uint keep;         ///< peeled: 1: only keep what the layer shows; 0: add what was kept
 };
 
 LUMEL_SHARED_END

@@ -7,3 +7,9 @@ uint surface_at(IlluminationParams p, vec2 place)
     const uvec2 texel = min(uvec2(max(place, vec2(0.0))), uvec2(p.width, p.height) - 1u);
     return 1u + 2u * (texel.y * p.width + texel.x) + (gl_FrontFacing ? 0u : 1u);
 }
+
+// Peeling: is the fragment behind what the pass before kept of the pixel?
+bool lies_behind(IlluminationParams p, uvec2 before)
+{
+    return p.layer == 0u || (before.x != 0u && gl_FragCoord.z < uintBitsToFloat(before.y));
+}

@@ -1,6 +1,7 @@
 #include "visibility/illumination_maps.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace lumel {
 namespace {
@@ -24,11 +25,35 @@ constexpr std::uint32_t kListCutOutSpirv[] = {
 #include "visibility/illumination.list.cut_out.frag.inc"
 };
 
+constexpr std::uint32_t kPeelSpirv[] = {
+#include "visibility/illumination.peel.frag.inc"
+};
+constexpr std::uint32_t kPeelCutOutSpirv[] = {
+#include "visibility/illumination.peel.cut_out.frag.inc"
+};
+
 constexpr gpu::VertexStream kStreams[] = {{3}, {2}, {3}};
-constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-                                gpu::Slot::array};
-constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
-                                      gpu::Slot::array, gpu::Slot::array};
+
+/// What the layers are drawn with: each slot list is of opaque surfaces; cut-outs have a texture
+/// after the first.
+struct Drawing {
+    gpu::Spirv opaque, cut_out;
+    std::vector<gpu::Slot> slots;
+};
+
+Drawing drawing_of(Layers layers)
+{
+    using enum gpu::Slot;
+    switch (layers) {
+    case Layers::list:
+        return {kListSpirv, kListCutOutSpirv, {array, array, array, array}};
+    case Layers::peel:
+        return {kPeelSpirv, kPeelCutOutSpirv, {array, texture}};
+    case Layers::stochastic:
+        break;
+    }
+    return {kStochasticSpirv, kStochasticCutOutSpirv, {array}};
+}
 
 /// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
 /// map, several times.
@@ -38,16 +63,14 @@ gpu::Raster make_raster(const gpu::Device& device, Layers layers, bool cut_out)
 {
     const bool lists = layers == Layers::list;
     const std::size_t streams = cut_out ? 3 : 2;
-    const gpu::Spirv fragment =
-        lists ? (cut_out ? gpu::Spirv(kListCutOutSpirv) : gpu::Spirv(kListSpirv))
-              : (cut_out ? gpu::Spirv(kStochasticCutOutSpirv) : gpu::Spirv(kStochasticSpirv));
-    const std::span<const gpu::Slot> slots =
-        cut_out ? std::span<const gpu::Slot>(kCutOutSlots) : std::span<const gpu::Slot>(kSlots);
+    Drawing drawing = drawing_of(layers);
+    if (cut_out)
+        drawing.slots.insert(drawing.slots.begin() + 1, gpu::Slot::texture);
     return {device,
             cut_out ? "illumination.cut_out" : "illumination",
             {.vertex = cut_out ? gpu::Spirv(kCutOutVertexSpirv) : gpu::Spirv(kVertexSpirv),
-             .fragment = fragment,
-             .slots = lists ? slots : slots.first(cut_out ? 2 : 1),
+             .fragment = cut_out ? drawing.cut_out : drawing.opaque,
+             .slots = drawing.slots,
              .param_bytes = sizeof(IlluminationParams),
              .streams = std::span(kStreams, streams),
              .color = !lists,
@@ -63,7 +86,7 @@ std::uint32_t listable(const gpu::Device& device, Layers layers, std::uint32_t s
         return capacity;
     if (!device.can_list_fragments())
         throw Error(ErrorKind::device, device.info().name,
-                    "cannot keep lists of fragments; use --layers stochastic");
+                    "cannot keep lists of fragments; use --layers peel or stochastic");
     const std::uint64_t bytes = std::uint64_t(side) * side * kFragmentsPerPixel * sizeof(Fragment);
     return std::uint32_t(std::clamp<std::uint64_t>(device.max_array_bytes() / bytes, 1, capacity));
 }
@@ -87,6 +110,8 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
       height_(height),
       image_(device, gpu::Pixel::rg32u, lists() ? 1 : layout_.columns * side,
              lists() ? 1 : tile_rows(layout_, capacity_) * side),
+      odd_image_(device, gpu::Pixel::rg32u, peels() ? image_.width() : 1,
+                 peels() ? image_.height() : 1),
       depth_(device, gpu::Pixel::depth, layout_.columns * side,
              tile_rows(layout_, capacity_) * side),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
@@ -100,20 +125,25 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
 }
 
 void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
-                            std::uint32_t view, std::uint32_t tile)
+                            const IlluminationParams& params)
 {
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& places = world_->places().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
     const auto draw_range = [&](const OccluderRange& range, const Passage& passage) {
-        commands.draw(IlluminationParams{layout_, view, tile, width_, height_, passage},
-                      {range.first_index, range.index_count});
+        IlluminationParams of_range = params;
+        of_range.passage = passage;
+        commands.draw(of_range, {range.first_index, range.index_count});
     };
-    commands.begin_pass(lists() ? nullptr : &image_, depth_, tile_area(layout_, tile));
+    const gpu::Binding before{image(params.layer + 1), sampler_};
+    commands.begin_pass(lists() ? nullptr : &image(params.layer), depth_,
+                        tile_area(layout_, params.tile));
     if (world_->opaque().index_count > 0) {
         if (lists())
             commands.use(opaque_, {views, heads_, fragments_, count_},
                          {{&vertices, &places}, &indices});
+        else if (peels())
+            commands.use(opaque_, {views, before}, {{&vertices, &places}, &indices});
         else
             commands.use(opaque_, {views}, {{&vertices, &places}, &indices});
         draw_range(world_->opaque(), {});
@@ -123,6 +153,8 @@ void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelVi
         const gpu::Mesh mesh{{&vertices, &places, &world_->looks().buffer()}, &indices};
         if (lists())
             commands.use(cut_out_, {views, color, heads_, fragments_, count_}, mesh);
+        else if (peels())
+            commands.use(cut_out_, {views, color, before}, mesh);
         else
             commands.use(cut_out_, {views, color}, mesh);
         draw_range(cut_out.range, cut_out.passage);
@@ -131,7 +163,7 @@ void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelVi
 }
 
 void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views,
-                                  std::uint32_t first, std::uint32_t count)
+                                  std::uint32_t first, std::uint32_t count, std::uint32_t layer)
 {
     if (lists())
         pacer.work("clear lists", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -141,7 +173,13 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
     pacer.work("look along", count, 1,
                [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
                    for (std::uint32_t tile = begin; tile < end; ++tile)
-                       draw(commands, views, first + tile, tile);
+                       draw(commands, views,
+                            {.layout_ = layout_,
+                             .view = first + tile,
+                             .tile = tile,
+                             .width = width_,
+                             .height = height_,
+                             .layer = layer});
                });
 }
 

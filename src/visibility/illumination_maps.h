@@ -15,6 +15,7 @@ namespace lumel {
 enum class Layers : std::uint32_t {
     stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
     list = kListedLayers,            ///< every surface, in a list for each pixel
+    peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
 };
 
 /// Maps of `capacity` directions, side by side. Fragments name lumels, by side and texel, not
@@ -30,28 +31,35 @@ public:
 
     std::uint32_t capacity() const { return capacity_; }
     const ParallelLayout& layout() const { return layout_; }
-    const gpu::Target& image() const { return image_; }  ///< stochastic: (surface, nearness)
+    /// Stochastic: (surface, nearness). Peeled: of that layer, or of the one two before.
+    const gpu::Target& image(std::uint32_t layer = 0) const
+    {
+        return layer % 2 == 0 ? image_ : odd_image_;
+    }
     const gpu::Sampler& sampler() const { return sampler_; }
     const gpu::Array<std::uint32_t>& heads() const { return heads_; }     ///< of lists
     const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< of lists
 
-    /// Draws views [first, first + count) into tiles 0, 1, …
+    /// Draws views [first, first + count) into tiles 0, 1, … With Layers::peel: what lies behind
+    /// the layer before, which was the last to be drawn; layer 0 is what the direction's light
+    /// meets first.
     void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
-                    std::uint32_t count);
+                    std::uint32_t count, std::uint32_t layer = 0);
 
     /// Share of all fragments drawn last that lists had room for. Waits for the device.
     double kept() const;
 
 private:
-    void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views, std::uint32_t view,
-              std::uint32_t tile);
+    void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
+              const IlluminationParams& params);
     bool lists() const { return layers_ == Layers::list; }
+    bool peels() const { return layers_ == Layers::peel; }
 
     const World* world_;
     Layers layers_;
     ParallelLayout layout_;
     std::uint32_t capacity_, width_, height_;
-    gpu::Target image_, depth_;
+    gpu::Target image_, odd_image_, depth_;
     gpu::Sampler sampler_;
     gpu::Array<std::uint32_t> heads_;
     gpu::Array<Fragment> fragments_;

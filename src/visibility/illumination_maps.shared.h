@@ -5,6 +5,7 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kStochasticLayers = 0u;  ///< one surface a pixel, by chance [TN11]
 LUMEL_CONST uint kListedLayers = 1u;      ///< all of them, in a linked list
+LUMEL_CONST uint kPeeledLayers = 2u;      ///< all of them, one after another
 
 LUMEL_CONST uint kEndOfList = 0xffffffffu;
 
@@ -30,6 +31,7 @@ struct IlluminationParams {
     uint tile;   ///< that it is drawn into
     uint width;  ///< of the atlas [texels]
     uint height;
+    uint layer;   ///< peeled: how many surfaces of a pixel are taken off
     Passage passage;  ///< of cut-outs
 };
 

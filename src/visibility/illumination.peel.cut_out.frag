@@ -1,0 +1,28 @@
+#version 460
+#include "visibility/illumination_maps.shared.h"
+#include "core/hash.glsl"
+#include "visibility/alpha.glsl"
+#include "visibility/illumination.glsl"
+
+// illumination.peel.frag for surfaces with alpha.
+
+layout(push_constant, scalar) uniform Params { IlluminationParams p; };
+layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(binding = 1) uniform sampler2D base_color;
+layout(binding = 2) uniform usampler2D before;
+layout(location = 1) in vec3 look;
+layout(location = 0) in vec2 place;
+layout(location = 0) out uvec2 fragment;
+
+void main()
+{
+    const ParallelView view = views[p.view];
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(p.passage, base, view.channel);
+    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
+    if (chance >= opacity.blocked ||
+        !lies_behind(p, texelFetch(before, ivec2(gl_FragCoord.xy), 0).xy))
+        discard;
+    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
+    fragment = uvec2(surface, floatBitsToUint(gl_FragCoord.z));
+}
