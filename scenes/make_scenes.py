@@ -227,6 +227,70 @@ def sealed_box():
     return gltf
 
 
+def planes():
+    """Five red and two white two-sided planes, after figure 8 of the stochastic depth buffering
+    paper: the lower white one keeps red light from the one on top."""
+    gltf = Gltf()
+    red = gltf.material("red", (0.8, 0.05, 0.05), double_sided=True)
+    white = gltf.material("white", 0.8, double_sided=True)
+    side, gap = 1.0, 0.2
+    stack = [(f"red {k + 1}", red) for k in range(5)] + [("lower white", white), ("top", white)]
+    for k, (name, material) in enumerate(stack):
+        y = k * gap
+        shape = Shape()
+        shape.quad(material, [(0, y, side), (side, y, side), (side, y, 0), (0, y, 0)])
+        gltf.object(name, shape)
+    gltf.camera("camera", [1.9, 1.25, 2.7], [0.5, 0.6, 0.5], 0.75, 1.0)
+    return gltf
+
+
+def on_slab(objects, aspect):
+    """A scene of shapes in their places on a thick square slab whose top is at height 0."""
+    gltf = Gltf()
+    stone = gltf.material("stone", (0.7, 0.68, 0.65))
+    shape = Shape()
+    shape.box(stone, (-2.0, -0.4, -2.0), (2.0, 0.0, 2.0))
+    gltf.object("slab", shape)
+    objects(gltf)
+    gltf.camera("camera", [3.6, 2.9, 4.6], [0.0, 0.15, 0.0], 0.7, aspect)
+    return gltf
+
+
+def four_cubes():
+    """48 triangles, after figure 9 (a) of the same paper."""
+
+    def cubes(gltf):
+        for name, albedo, (x, z), side, turn in (
+            ("orange cube", (0.75, 0.35, 0.1), (-0.8, -0.5), 1.2, 0.3),
+            ("blue cube", (0.15, 0.3, 0.7), (0.9, -0.6), 0.9, 0.9),
+            ("white cube", (0.75, 0.75, 0.75), (0.3, 0.9), 0.6, 0.5),
+        ):
+            shape = Shape()
+            h = side / 2
+            shape.box(gltf.material(name, albedo), (-h, 0.0, -h), (h, side, h))
+            gltf.node(name, gltf.mesh(name, shape), (x, 0.0, z), turn)
+
+    return on_slab(cubes, 1.5)
+
+
+def three_balls():
+    """3276 triangles, after figure 9 (b) of the same paper."""
+
+    def balls(gltf):
+        radius, rings = 0.7, 18
+        angles = [math.pi * k / rings for k in range(1, rings)]
+        between = [(radius * math.sin(a), radius - radius * math.cos(a)) for a in angles]
+        shape = Shape()
+        yellow = gltf.material("yellow", (0.8, 0.6, 0.15))
+        profile = [(0.0, 0.0), *between, (0.0, 2 * radius)]
+        shape.lathe(yellow, (0, 0, 0), profile, segments=32, smooth=True)
+        ball = gltf.mesh("ball", shape)
+        for k, (x, z) in enumerate([(-0.9, -0.5), (0.85, -0.7), (0.1, 0.85)]):
+            gltf.node(f"ball {k + 1}", ball, (x, 0.0, z))
+
+    return on_slab(balls, 1.5)
+
+
 def main():
     folder = os.path.dirname(os.path.abspath(__file__))
     scenes = {
@@ -241,6 +305,9 @@ def main():
         "plates-perpendicular": plates(perpendicular=True),
         "sealed-box": sealed_box(),
         "room": room(),
+        "planes": planes(),
+        "four-cubes": four_cubes(),
+        "three-balls": three_balls(),
     }
     for name, gltf in scenes.items():
         gltf.write(os.path.join(folder, f"{name}.gltf"))
