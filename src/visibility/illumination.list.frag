@@ -14,8 +14,10 @@ layout(location = 0) in vec2 place;
 void main()
 {
     const uint index = atomicAdd(total.count, 1u);
-    if (index >= total.capacity)
+    if (index >= total.capacity) {
+        atomicMax(total.most, index + 1u);
         return;
+    }
     const uint side = p.layout_.side;
     const uvec2 corner = uvec2(p.tile % p.layout_.columns, p.tile / p.layout_.columns) * side;
     const uvec2 pixel = uvec2(gl_FragCoord.xy) - corner;

@@ -58,6 +58,8 @@ Drawing drawing_of(Layers layers)
 /// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
 /// map, several times.
 constexpr std::uint64_t kFragmentsPerPixel = 4;
+/// And at least so many (48 MiB): few maps do not even out what single views need.
+constexpr std::uint64_t kLeastFragments = 4u << 20;
 
 gpu::Raster make_raster(const gpu::Device& device, Layers layers, bool cut_out)
 {
@@ -91,10 +93,15 @@ std::uint32_t listable(const gpu::Device& device, Layers layers, std::uint32_t s
     return std::uint32_t(std::clamp<std::uint64_t>(device.max_array_bytes() / bytes, 1, capacity));
 }
 
-FragmentCount room_for(Layers layers, const ParallelLayout& layout, std::uint32_t capacity)
+FragmentCount room_for(const gpu::Device& device, Layers layers, const ParallelLayout& layout,
+                       std::uint32_t capacity)
 {
+    if (layers != Layers::list)
+        return {};
     const std::uint64_t pixels = std::uint64_t(layout.side) * layout.side * capacity;
-    return {0, layers == Layers::list ? std::uint32_t(pixels * kFragmentsPerPixel) : 0};
+    return {.capacity = std::uint32_t(
+                std::min(std::max(pixels * kFragmentsPerPixel, kLeastFragments),
+                         device.max_array_bytes() / std::uint64_t(sizeof(Fragment))))};
 }
 
 }  // namespace
@@ -116,9 +123,9 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
              tile_rows(layout_, capacity_) * side),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       heads_(device, lists() ? std::size_t(side) * side * capacity_ : 0),
-      fragments_(device, room_for(layers, layout_, capacity_).capacity),
-      none_(device, std::array{room_for(layers, layout_, capacity_)}),
-      count_(device, 1),
+      fragments_(device, room_for(device, layers, layout_, capacity_).capacity),
+      none_(device, std::array{0u}),
+      count_(device, std::array{room_for(device, layers, layout_, capacity_)}),
       opaque_(make_raster(device, layers, false)),
       cut_out_(make_raster(device, layers, true))
 {
@@ -168,7 +175,7 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
     if (lists())
         pacer.work("clear lists", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
             commands.fill(heads_.buffer(), kEndOfList);
-            commands.copy(none_.buffer(), count_.buffer(), sizeof(FragmentCount));
+            commands.copy(none_.buffer(), count_.buffer(), sizeof(FragmentCount::count));
         });
     pacer.work("look along", count, 1,
                [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
@@ -186,7 +193,7 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
 double IlluminationMaps::kept() const
 {
     const FragmentCount count = count_.download()[0];
-    return count.count <= count.capacity ? 1.0 : double(count.capacity) / double(count.count);
+    return count.most <= count.capacity ? 1.0 : double(count.capacity) / double(count.most);
 }
 
 }  // namespace lumel

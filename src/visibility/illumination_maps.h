@@ -46,7 +46,8 @@ public:
     void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
                     std::uint32_t count, std::uint32_t layer = 0);
 
-    /// Share of all fragments drawn last that lists had room for. Waits for the device.
+    /// Share of its fragments that lists had room for in the worst of all calls so far. Waits for
+    /// the device.
     double kept() const;
 
 private:
@@ -63,7 +64,8 @@ private:
     gpu::Sampler sampler_;
     gpu::Array<std::uint32_t> heads_;
     gpu::Array<Fragment> fragments_;
-    gpu::Array<FragmentCount> none_, count_;  ///< no fragments yet; those written
+    gpu::Array<std::uint32_t> none_;  ///< a count of no fragments
+    gpu::Array<FragmentCount> count_;
     gpu::Raster opaque_, cut_out_;
 };
 

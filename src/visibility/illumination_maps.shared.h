@@ -18,10 +18,11 @@ struct Fragment {
     uint next;       ///< index of the next of this pixel, or kEndOfList
 };
 
-/// How many fragments were written, and how many there is room for.
+/// Fragments of the lists.
 struct FragmentCount {
-    uint count;
-    uint capacity;
+    uint count;     ///< asked for by the batch
+    uint most;      ///< the same of the largest batch that did not fit
+    uint capacity;  ///< there is room for
 };
 
 /// Push constants of the shaders that draw illumination maps.
