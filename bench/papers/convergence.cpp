@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "bake/render.h"
+#include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/reference.h"
@@ -88,22 +89,6 @@ std::vector<Image> write_steps(const ConvergenceSettings& settings, const Solver
         write_png(path("picture"), pictures.back());
     }
     return pictures;
-}
-
-/// Pictures of one size, a row for each scheme.
-Image contact_sheet(const std::vector<std::vector<Image>>& rows)
-{
-    const Image& first = rows.front().front();
-    Image sheet(first.width * int(rows.front().size()), first.height * int(rows.size()),
-                first.channels);
-    for (std::size_t row = 0; row < rows.size(); ++row)
-        for (std::size_t column = 0; column < rows[row].size(); ++column) {
-            const Image& picture = rows[row][column];
-            for (int y = 0; y < picture.height; ++y)
-                std::copy_n(picture.at(0, y), picture.width * picture.channels,
-                            sheet.at(int(column) * picture.width, int(row) * picture.height + y));
-        }
-    return sheet;
 }
 
 void print_row(const SolverOptions& options, const SolverState& state, double cpu,

@@ -51,4 +51,26 @@ struct AblationSettings {
 /// [BSS05] section 5: variance with and without its remedies.
 void ablate(const AblationSettings& settings);
 
+struct LayersSettings {
+    Settings shared;
+    int directions = 5000;
+    std::vector<int> overdraws{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20};  ///< planes in the stack
+    int views = 4;  ///< that the chance is taken from
+};
+
+/// [TN11] figures 7 and 8: the chance that a surface is found, and the red light that leaks where
+/// it is not.
+void measure_layers(const LayersSettings& settings);
+
+struct DirectionsSettings {
+    Settings shared;     ///< the map's side is that of the lightmap
+    int directions = 0;  ///< for each scene; 0: as many as the paper
+    std::string sky;     ///< file; empty: a clear sky
+    std::string folder;  ///< for the picture; empty: none is made
+    int width = 320;     ///< of each scene's picture [pixels]
+};
+
+/// [TN11] figure 9: its scenes, and the time per direction.
+void show_directions(const DirectionsSettings& settings);
+
 }  // namespace lumel::bench

@@ -3,6 +3,7 @@
 //   [BJ04]  A. Barsi, G. Jakab. Stream Processing in Global Illumination. CESCG 2004.
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on
 //           the GPU. 2005.
+//   [TN11]  A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include <cstdio>
 #include <string>
@@ -14,6 +15,9 @@
 
 namespace lumel::bench {
 namespace {
+
+/// Side of the illumination maps, and of most lightmaps, in [TN11] section 7.
+constexpr int kPapersMap = 512;
 
 CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& title,
                      Settings& shared)
@@ -104,18 +108,53 @@ void add_ablation(CLI::App& app, AblationSettings& settings)
     figure->callback([&settings] { ablate(settings); });
 }
 
+void add_layers(CLI::App& app, LayersSettings& settings)
+{
+    settings.shared.scene = "scenes/planes.gltf";
+    settings.shared.solver.map_side = kPapersMap;
+    CLI::App* figure = add_figure(app, "layers", "What stochastic layers miss", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
+    add_number(figure, "--map-side", settings.shared.solver.map_side,
+               "of the illumination map [pixels]");
+    add_number(figure, "--directions", settings.directions, "that light is gathered from");
+    add_list(figure, "--overdraw", settings.overdraws, "planes behind one another");
+    add_number(figure, "--views", settings.views, "that the chance is taken from");
+    figure->callback([&settings] { measure_layers(settings); });
+}
+
+void add_directions(CLI::App& app, DirectionsSettings& settings)
+{
+    settings.shared.size = kPapersMap;
+    settings.shared.solver.map_side = kPapersMap;
+    CLI::App* figure = app.add_subcommand("directions", "Scenes lit by global directions");
+    figure->add_option("--device", settings.shared.device, "as lumel devices lists");
+    figure->add_option("--seed", settings.shared.solver.seed, "the first")->capture_default_str();
+    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
+    add_number(figure, "--map-side", settings.shared.solver.map_side,
+               "of the illumination map [pixels]");
+    add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
+    figure->add_option("--sky", settings.sky, "file; else a clear sky");
+    figure->add_option("-o,--out", settings.folder, "folder for the picture");
+    add_number(figure, "--width", settings.width, "of each scene's picture [pixels]");
+    figure->callback([&settings] { show_directions(settings); });
+}
+
 int run(int argc, char** argv)
 {
     IterationSettings iterations;
     SelectionSettings selection;
     ConvergenceSettings convergence;
     AblationSettings ablation;
+    LayersSettings layers;
+    DirectionsSettings directions;
     CLI::App app("The papers' figures, made again");
     app.require_subcommand(1);
     add_iterations(app, iterations);
     add_selection(app, selection);
     add_convergence(app, convergence);
     add_ablation(app, ablation);
+    add_layers(app, layers);
+    add_directions(app, directions);
     CLI11_PARSE(app, argc, argv);
     return 0;
 }

@@ -1,0 +1,13 @@
+#pragma once
+// Pictures side by side.
+
+#include <vector>
+
+#include "core/image.h"
+
+namespace lumel::bench {
+
+/// Pictures of one size in rows, of which the first is the longest.
+Image contact_sheet(const std::vector<std::vector<Image>>& rows);
+
+}  // namespace lumel::bench

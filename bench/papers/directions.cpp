@@ -1,0 +1,172 @@
+// [TN11] figure 9: example scenes, with the directions and maps of the paper.
+
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/core.h>
+
+#include "bench/papers/contact_sheet.h"
+#include "bench/papers/figures.h"
+#include "bench/papers/iteration_cost.h"
+#include "bench/papers/landscape.h"
+#include "bench/stopwatch.h"
+#include "finish/finish.h"
+#include "images/image_files.h"
+#include "preview/preview.h"
+#include "reference/metrics.h"
+#include "scene/clear_sky.h"
+
+namespace lumel::bench {
+namespace {
+
+/// 135,200 triangles.
+constexpr int kLandscapeCells = 260;
+/// Where the sun, which itself gives no light here, stands in the clear sky.
+constexpr SunPosition kSun{.azimuth = 2.2, .elevation = 0.7};
+/// Of all pictures, so that they fit one sheet: width / height.
+constexpr float kAspect = 1.25f;
+constexpr std::size_t kPicturesInRow = 3;
+/// Of that which puts the bright end below white: skies make all of a scene bright.
+constexpr float kExposure = 0.5f;
+/// 3 × 3, "which we found gave an adequate visual quality for the majority of the scenes".
+constexpr int kLookups = 3;
+
+enum class Light { sky, own };
+
+/// A scene of the figure.
+struct Example {
+    const char* name;
+    const char* path;  ///< empty: the landscape
+    int directions;
+    Light light;
+};
+
+constexpr Example kExamples[] = {
+    {"four cubes", "scenes/four-cubes.gltf", 5120, Light::sky},
+    {"three balls", "scenes/three-balls.gltf", 5120, Light::sky},
+    {"Cornell box under a sky", "scenes/cornell-box.gltf", 4068, Light::sky},
+    {"Cornell box with its lamp", "scenes/cornell-box.gltf", 42624, Light::own},
+    {"landscape", "", 3764, Light::sky}};
+
+Scene scene_of(const Example& example, const std::string& sky_file)
+{
+    Scene scene = *example.path ? read_gltf(example.path) : landscape(kLandscapeCells);
+    if (example.light == Light::sky) {
+        for (Material& material : scene.materials)
+            material.emitted = glm::vec3(0.0f);
+        if (sky_file.empty())
+            scene.sky = clear_sky(kSun);
+        else
+            add_lights(scene, {.sky_file = sky_file});
+    }
+    return scene;
+}
+
+/// What came of the directions.
+struct Gathered {
+    Image map;  ///< irradiance [lx]
+    std::uint64_t directions = 0;
+    gpu::StageTimes stages;  ///< [ms]
+    Stopwatch watch;
+};
+
+Gathered gather(const gpu::Device& device, const Prepared& world, const SolverOptions& options)
+{
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    const auto solver =
+        make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+    Gathered gathered;
+    gathered.watch.start();
+    solve(*solver, options);
+    const std::vector<glm::vec3> irradiance = solver->irradiance();
+    gathered.watch.stop();
+    gathered.map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+    gathered.directions = solver->state().shots;
+    gathered.stages = solver->times();
+    return gathered;
+}
+
+SolverOptions options_for(const DirectionsSettings& settings, const Example& example)
+{
+    SolverOptions options = papers_iteration(settings.shared.solver);
+    options.method = "directions";
+    options.layers = Layers::stochastic;
+    options.lookups = kLookups;
+    options.max_shots =
+        std::uint64_t(settings.directions > 0 ? settings.directions : example.directions);
+    options.target_error = 0.0;
+    return options;
+}
+
+/// The same directions with exact layers: what is left is the error of the stochastic ones.
+MapError error_of_layers(const gpu::Device& device, const Prepared& world, SolverOptions options,
+                         const Gathered& stochastic)
+{
+    options.layers = Layers::list;
+    return compare_maps(stochastic.map, gather(device, world, options).map);
+}
+
+Image picture_of(const gpu::Device& device, const Prepared& world, const Image& map, int width)
+{
+    View view = choose_view(world.scene, world.rays);
+    view.aspect = kAspect;
+    const Image picture = render_preview(device, world.scene, world.atlas, map, view, width);
+    return tone_map(picture, kExposure * choose_exposure(picture));
+}
+
+void print_row(const Example& example, const Prepared& world, const Gathered& gathered,
+               const MapError& error)
+{
+    const auto directions = double(gathered.directions);
+    const auto ms = [&](const char* stage) {
+        return sum_of(gathered.stages, {stage}) / directions;
+    };
+    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:+.1f} |\n",
+               example.name, find_occluders(world.scene).indices.size() / 3,
+               world.lumels.lumels.size(), gathered.directions,
+               1e3 * gathered.watch.wall / directions, 1e3 * gathered.watch.cpu / directions,
+               ms("look along"), ms("gather"), 100.0 * error.relative_rmse, 100.0 * error.bias);
+    std::fflush(stdout);
+}
+
+/// Returns the picture, if one is to be made.
+std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& device,
+                        const Example& example)
+{
+    const Prepared world(scene_of(example, settings.sky),
+                         AtlasOptions{.size = settings.shared.size});
+    const SolverOptions options = options_for(settings, example);
+    const Gathered gathered = gather(device, world, options);
+    print_row(example, world, gathered, error_of_layers(device, world, options, gathered));
+    if (settings.folder.empty())
+        return {};
+    return {picture_of(device, world, gathered.map, settings.width)};
+}
+
+}  // namespace
+
+void show_directions(const DirectionsSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    fmt::print("lightmaps of {}², illumination maps of {}², {} × {} lookups, {} ({})\n\n"
+               "| scene | triangles | lumels | directions | wall ms per direction | cpu ms "
+               "| draw | gather | RMSE against list, % | bias, % |\n"
+               "|---|---|---|---|---|---|---|---|---|---|\n",
+               settings.shared.size, settings.shared.solver.map_side, kLookups, kLookups,
+               device.info().name, device.info().driver);
+    std::vector<std::vector<Image>> rows(1);
+    for (const Example& example : kExamples) {
+        if (rows.back().size() == kPicturesInRow)
+            rows.emplace_back();
+        for (Image& picture : show(settings, device, example))
+            rows.back().push_back(std::move(picture));
+    }
+    if (!settings.folder.empty()) {
+        std::filesystem::create_directories(settings.folder);
+        write_png(settings.folder + "/directions.png", contact_sheet(rows));
+    }
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench

@@ -1,0 +1,235 @@
+// [TN11] figures 7 and 8: the chance that a surface is among the lookups, and how much red light
+// a stack of planes leaks onto one that can see no red.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <fmt/core.h>
+
+#include "bench/papers/figures.h"
+#include "bench/papers/iteration_cost.h"
+#include "bench/stopwatch.h"
+#include "reference/samples.h"
+#include "scene/light_options.h"
+
+namespace lumel::bench {
+namespace {
+
+/// Distance of the planes of a stack, whose sides are 1 m [m].
+constexpr float kGap = 0.1f;
+/// Side of the atlas of a stack of planes [texels].
+constexpr int kStackAtlas = 64;
+/// Lookups to each side of a pixel: 9 and 25 in all, as in figure 7.
+constexpr int kReaches[] = {1, 2};
+
+struct Variant {
+    const char* name;
+    Layers layers;
+    int lookups;
+};
+
+constexpr Variant kVariants[] = {{"stochastic, 1 × 1", Layers::stochastic, 1},
+                                 {"stochastic, 3 × 3", Layers::stochastic, 3},
+                                 {"stochastic, 5 × 5", Layers::stochastic, 5},
+                                 {"list", Layers::list, 1},
+                                 {"peel", Layers::peel, 1}};
+
+/// One plane, as often as asked for, behind one another.
+Scene stack_of(int planes)
+{
+    Scene scene;
+    scene.path = "stack of planes";
+    Material white{.name = "white"};
+    white.double_sided = true;
+    Primitive plane;
+    plane.positions = {{0, 0, 1}, {1, 0, 1}, {1, 0, 0}, {0, 0, 0}};
+    plane.indices = {0, 1, 2, 0, 2, 3};
+    scene.materials = {white};
+    scene.meshes = {{"plane", {plane}}};
+    for (int k = 0; k < planes; ++k) {
+        Instance instance{.name = "plane"};
+        instance.transform[3].y = float(k) * kGap;
+        scene.instances.push_back(instance);
+    }
+    return scene;
+}
+
+/// An illumination map of planes: which of them each pixel shows, -1: none.
+struct PlaneMap {
+    int side = 0;
+    std::vector<int> planes;
+
+    int at(int x, int y) const
+    {
+        return planes[std::size_t(y) * std::size_t(side) + std::size_t(x)];
+    }
+};
+
+/// Part of the pixels around which `reach` to each side show a plane; mean over planes. Pixels
+/// whose neighbourhood leaves the stack do not count.
+double share_found(const PlaneMap& map, int planes, int reach)
+{
+    std::size_t found = 0, pixels = 0;
+    for (int y = reach; y < map.side - reach; ++y)
+        for (int x = reach; x < map.side - reach; ++x) {
+            std::vector<bool> seen(std::size_t(planes), false);
+            bool inside = true;
+            for (int v = y - reach; v <= y + reach; ++v)
+                for (int u = x - reach; u <= x + reach; ++u) {
+                    const int plane = map.at(u, v);
+                    inside = inside && plane >= 0;
+                    if (plane >= 0)
+                        seen[std::size_t(plane)] = true;
+                }
+            if (!inside)
+                continue;
+            ++pixels;
+            found += std::size_t(std::count(seen.begin(), seen.end(), true));
+        }
+    return double(found) / (double(pixels) * double(planes));
+}
+
+PlaneMap read_map(const IlluminationMaps& maps, const Lumels& lumels)
+{
+    std::vector<int> plane_of(std::size_t(lumels.width) * std::size_t(lumels.height), -1);
+    for (const Lumel& lumel : lumels.lumels)
+        plane_of[lumel.texel] = int(lumel.instance);
+    const gpu::Target& image = maps.image();
+    std::vector<glm::uvec2> pixels(std::size_t(image.width()) * image.height());
+    image.download(pixels.data());
+    PlaneMap map{int(maps.layout().side), {}};
+    for (const glm::uvec2& pixel : pixels)  // one tile: the image is the map
+        map.planes.push_back(pixel.x == 0 ? -1 : plane_of[(pixel.x - 1) / 2]);
+    return map;
+}
+
+/// Views straight down on the planes, turned and shifted by chance.
+std::vector<ParallelView> views_from_above(const World& world, int side, int count,
+                                           std::uint32_t seed)
+{
+    std::vector<ParallelView> views;
+    for (int i = 0; i < count; ++i) {
+        const PathSamples samples(seed, std::uint32_t(i));
+        views.push_back(fit_view(world.low(), world.high(), std::uint32_t(side),
+                                 {.turn = 2.0f * std::numbers::pi_v<float> * samples.random(0).x,
+                                  .offset = samples.random(1),
+                                  .random = samples.bits(0)}));
+    }
+    return views;
+}
+
+/// For each reach, the share found in maps of so many planes.
+std::vector<double> measure_chances(const LayersSettings& settings, const gpu::Device& device,
+                                    int planes)
+{
+    const Prepared world(stack_of(planes), AtlasOptions{.size = kStackAtlas});
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    IlluminationMaps maps(device, resident, Layers::stochastic,
+                          std::uint32_t(settings.shared.solver.map_side), 1,
+                          std::uint32_t(world.lumels.width), std::uint32_t(world.lumels.height));
+    const std::vector<ParallelView> poses = views_from_above(
+        resident, settings.shared.solver.map_side, settings.views, settings.shared.solver.seed);
+    const gpu::Array<ParallelView> views(device, std::span<const ParallelView>(poses));
+    gpu::Pacer pacer(device);
+    std::vector<double> shares(std::size(kReaches), 0.0);
+    for (std::uint32_t i = 0; i < std::uint32_t(poses.size()); ++i) {
+        maps.look_along(pacer, views, i, 1);
+        pacer.finish();
+        const PlaneMap map = read_map(maps, world.lumels);
+        for (std::size_t r = 0; r < shares.size(); ++r)
+            shares[r] += share_found(map, planes, kReaches[r]) / double(poses.size());
+    }
+    return shares;
+}
+
+/// C_n(K), [TN11] section 6.
+double expected_chance(int planes, int reach)
+{
+    const double lookups = std::pow(2.0 * reach + 1.0, 2.0);
+    return 1.0 - std::pow(1.0 - 1.0 / planes, lookups);
+}
+
+void print_chances(const LayersSettings& settings, const gpu::Device& device)
+{
+    fmt::print("| K | 9 lookups, found % | 1 − (1 − 1/K)⁹, % | 25 lookups, found % "
+               "| 1 − (1 − 1/K)²⁵, % |\n|---|---|---|---|---|\n");
+    for (const int planes : settings.overdraws) {
+        const std::vector<double> shares = measure_chances(settings, device, planes);
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", planes, 100.0 * shares[0],
+                   100.0 * expected_chance(planes, kReaches[0]), 100.0 * shares[1],
+                   100.0 * expected_chance(planes, kReaches[1]));
+        std::fflush(stdout);
+    }
+}
+
+/// What the plane on top receives on one side: by how much the red exceeds the green, as a part
+/// of it.
+double red_error(const Prepared& world, const std::vector<glm::vec3>& irradiance,
+                 std::uint32_t side)
+{
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = world.lumels.lumels[i];
+        if (world.scene.instances[lumel.instance].name == "top" &&
+            (lumel.flags & kLumelBack) == side)
+            sum += double(lumel.area) * glm::dvec3(irradiance[i]);
+    }
+    return (sum.r - sum.g) / sum.g;
+}
+
+void print_red(const LayersSettings& settings, const gpu::Device& device, const Prepared& world)
+{
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    fmt::print("| layers | red error above, % | below, % | wall ms per direction | cpu ms |\n"
+               "|---|---|---|---|---|\n");
+    for (const Variant& variant : kVariants) {
+        SolverOptions options = papers_iteration(settings.shared.solver);
+        options.layers = variant.layers;
+        options.lookups = variant.lookups;
+        const auto solver =
+            make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+        solver->step();
+        solver->irradiance();  // the driver compiles shaders when they first run
+        Stopwatch watch;
+        watch.start();
+        const std::uint64_t before = solver->state().shots;
+        while (solver->state().shots < std::uint64_t(settings.directions))
+            solver->step();
+        const std::vector<glm::vec3> irradiance = solver->irradiance();
+        watch.stop();
+        const double directions = double(solver->state().shots - before);
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", variant.name,
+                   100.0 * red_error(world, irradiance, 0),
+                   100.0 * red_error(world, irradiance, kLumelBack), 1e3 * watch.wall / directions,
+                   1e3 * watch.cpu / directions);
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+void measure_layers(const LayersSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    Settings shared = settings.shared;
+    shared.solver.method = "directions";
+    LightOptions white;
+    white.sky_color = glm::vec3(1.0f);
+    const Prepared world(read_scene(shared.scene, MaterialModel::diffuse, white),
+                         AtlasOptions{.size = shared.size});
+    LayersSettings directed = settings;
+    directed.shared = shared;
+    fmt::print("{}, {} lumels at {}², {} directions, maps of {}², {} ({})\n\n", shared.scene,
+               world.lumels.lumels.size(), world.atlas.width, settings.directions,
+               shared.solver.map_side, device.info().name, device.info().driver);
+    print_red(directed, device, world);
+    fmt::print("\nSurfaces found among the lookups, {} maps of {}²\n\n", settings.views,
+               shared.solver.map_side);
+    print_chances(directed, device);
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench
