@@ -1,0 +1,98 @@
+// What global directions see through layers of surfaces.
+
+#include "scene/light_options.h"
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+Scene planes_under_white_sky()
+{
+    LightOptions lights;
+    lights.sky_color = glm::vec3(1.0f);
+    return read_scene(support::scene_path("planes"), MaterialModel::diffuse, lights);
+}
+
+/// Five red planes below a white one, below the white one on top, which can see no red.
+const Prepared& planes()
+{
+    static const Prepared instance(planes_under_white_sky(), AtlasOptions{.size = 48});
+    return instance;
+}
+
+std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookups = 1)
+{
+    const gpu::Device device;
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    const SolverOptions options{.method = "directions",
+                                .scheme = Scheme::paper,
+                                .layers = layers,
+                                .lookups = lookups,
+                                .map_side = 128,
+                                .max_shots = 1024,
+                                .target_error = 0.0};
+    const auto solver = make_solver(device, resident, world.lumels, {}, options);
+    EXPECT_TRUE(solve(*solver, options));
+    std::vector<glm::vec3> irradiance = solver->irradiance();
+    EXPECT_EQ(device.validation_messages(), "");
+    return irradiance;
+}
+
+bool is_top(const Lumel& lumel)
+{
+    return planes().scene.instances[lumel.instance].name == "top";
+}
+
+/// How much more red than green the plane on top receives on both sides, as a part of the green.
+double red_on_top(Layers layers, int lookups)
+{
+    const std::vector<glm::vec3> irradiance = gathered(planes(), layers, lookups);
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        if (is_top(planes().lumels.lumels[i]))
+            sum += glm::dvec3(irradiance[i]);
+    return (sum.r - sum.g) / sum.g;
+}
+
+class ExactLayers : public testing::TestWithParam<Layers> {};
+
+TEST_P(ExactLayers, LeaveThePlaneThatSeesNoRedWhite)
+{
+    const std::vector<glm::vec3> irradiance = gathered(planes(), GetParam());
+    std::size_t count = 0;
+    double below = 0.0;
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = planes().lumels.lumels[i];
+        if (!is_top(lumel))
+            continue;
+        ++count;
+        EXPECT_EQ(irradiance[i].r, irradiance[i].g) << "lumel " << i;
+        if (lumel.flags & kLumelBack)
+            below += double(irradiance[i].g);
+    }
+    EXPECT_GT(count, 100u);
+    EXPECT_GT(below, 0.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Are, ExactLayers, testing::Values(Layers::list, Layers::peel),
+                         [](const auto& test) {
+                             return std::string(test.param == Layers::list ? "Listed" : "Peeled");
+                         });
+
+TEST(Layers, PeeledAreThoseListed)
+{
+    EXPECT_EQ(gathered(planes(), Layers::peel), gathered(planes(), Layers::list));
+}
+
+TEST(Layers, MoreLookupsLeakLess)
+{
+    const double one = red_on_top(Layers::stochastic, 1);
+    const double three = red_on_top(Layers::stochastic, 3);
+    const double five = red_on_top(Layers::stochastic, 5);
+    EXPECT_GT(five, 0.0);
+    EXPECT_LT(five, 0.5 * three);
+    EXPECT_LT(three, 0.5 * one);
+}
+
+}  // namespace
+}  // namespace lumel
