@@ -3,6 +3,7 @@
 
 import math
 import os
+import random
 
 from gltf_writer import Gltf, Shape
 from room import room
@@ -182,6 +183,30 @@ def two_rooms():
     return gltf
 
 
+def city(seed=4):
+    """A city of 64 boxes without bottoms on a plane, for the sky to light: nothing shines."""
+    lots, lot, border = 8, 10.0, 5.0  # boxes a side, metres
+    numbers = random.Random(seed)
+    gltf = Gltf()
+    ground = gltf.material("ground", 0.4)
+    end = lots * lot + border
+    shape = Shape()
+    shape.quad(ground, [(-border, 0, end), (end, 0, end), (end, 0, -border), (-border, 0, -border)])
+    gltf.object("ground", shape)
+    for k in range(lots * lots):
+        colour = [numbers.uniform(0.15, 0.8) for _ in range(3)]
+        width, depth = (numbers.uniform(4.0, 8.0) for _ in range(2))
+        x = k % lots * lot + numbers.uniform(0.5, lot - 0.5 - width)
+        z = k // lots * lot + numbers.uniform(0.5, lot - 0.5 - depth)
+        height = 3.0 * math.exp(numbers.uniform(0.0, 2.0))
+        shape = Shape()
+        material = gltf.material(f"house {k}", colour)
+        shape.box(material, (x, 0, z), (x + width, height, z + depth), skip="-y")
+        gltf.object(f"house {k}", shape)
+    gltf.camera("camera", [-25.0, 45.0, 100.0], [40.0, 0.0, 42.0], 0.8, 1.5)
+    return gltf
+
+
 def furnace(albedo):
     """A closed unit cube of one albedo and exitance 1 lm/m²: radiosity is 1/(1 - albedo)."""
     gltf = Gltf()
@@ -304,6 +329,7 @@ def main():
         "plates-parallel": plates(perpendicular=False),
         "plates-perpendicular": plates(perpendicular=True),
         "sealed-box": sealed_box(),
+        "city": city(),
         "room": room(),
         "planes": planes(),
         "four-cubes": four_cubes(),
