@@ -134,32 +134,36 @@ def specular_objects():
     return gltf
 
 
-def two_rooms():
-    """Two rooms in an L, joined by a door in a thick wall; only the first has a lamp."""
+def two_rooms(window=False):
+    """Two rooms in an L, joined by a door in a thick wall; only the first has a lamp, or instead
+    of it a window in a wall as thick."""
     gltf = Gltf()
     plaster = gltf.material("plaster", (0.7, 0.68, 0.65))
     wood = gltf.material("floor", (0.45, 0.36, 0.28))
     blue = gltf.material("blue", (0.3, 0.4, 0.6))
     lamp = gltf.material("lamp", 0.5, luminance=(110.0, 100.0, 85.0))
-    height, lintel = 2.6, 2.1
-    door = (2.6, 3.5)
+    height, lintel, sill = 2.6, 2.1, 0.9
+    door, opening = (2.6, 3.5), (0.8, 1.8)
     wall_near, wall_far = 3.0, 3.2
     x_axis, y_axis, z_axis = (1, 0, 0), (0, 1, 0), (0, 0, 1)
     minus_x, minus_y = (-1, 0, 0), (0, -1, 0)
 
+    ys = [0.0, *([sill] if window else ()), lintel, height]
+    doorway = [(1, row) for row in range(len(ys) - 2)]
+
     def room_shell(prefix, colour, x0, x1, z0, z1, door_at_far_side):
         # Lines through the door's edges keep neighbouring surfaces free of T-junctions.
         xs = [0.0, door[0] - x0, door[1] - x0, x1 - x0]
-        ys = [0.0, lintel, height]
-        zs = [0.0, z1 - z0]
+        zs = [0.0, *(opening if window and door_at_far_side else ()), z1 - z0]
         floor, ceiling, back, front, left, right = (Shape() for _ in range(6))
         floor.grid(wood, (x0, 0, z0), z_axis, x_axis, zs, xs)
         ceiling.grid(plaster, (x0, height, z0), x_axis, z_axis, xs, zs)
-        left.grid(plaster, (x0, 0, z0), y_axis, z_axis, ys, zs)
+        panes = [(1, 1)] if len(zs) > 2 else ()
+        left.grid(plaster, (x0, 0, z0), y_axis, z_axis, ys, zs, panes)
         right.grid(colour, (x1, 0, z0), z_axis, y_axis, zs, ys)
-        back.grid(plaster, (x0, 0, z0), x_axis, y_axis, xs, ys, () if door_at_far_side else [(1, 0)])
+        back.grid(plaster, (x0, 0, z0), x_axis, y_axis, xs, ys, () if door_at_far_side else doorway)
         mirrored = [x1 - x0 - x for x in reversed(xs)]
-        holes = [(1, 0)] if door_at_far_side else ()
+        holes = doorway if door_at_far_side else ()
         front.grid(plaster, (x1, 0, z1), minus_x, y_axis, mirrored, ys, holes)
         names = ("floor", "ceiling", "wall -z", "wall +z", "wall -x", "wall +x")
         for name, shape in zip(names, (floor, ceiling, back, front, left, right)):
@@ -171,14 +175,21 @@ def two_rooms():
     frame = Shape()
     depth, width = [0.0, wall_far - wall_near], [0.0, door[1] - door[0]]
     frame.grid(wood, (door[0], 0, wall_near), z_axis, x_axis, depth, width)
-    frame.grid(plaster, (door[0], 0, wall_near), y_axis, z_axis, [0.0, lintel], depth)
-    frame.grid(plaster, (door[1], lintel, wall_near), minus_y, z_axis, [0.0, lintel], depth)
+    up, down = ys[:-1], [lintel - y for y in reversed(ys[:-1])]
+    frame.grid(plaster, (door[0], 0, wall_near), y_axis, z_axis, up, depth)
+    frame.grid(plaster, (door[1], lintel, wall_near), minus_y, z_axis, down, depth)
     frame.grid(plaster, (door[0], lintel, wall_near), x_axis, z_axis, width, depth)
     gltf.object("door frame", frame)
 
-    light = Shape()
-    light.grid(lamp, (1.0, height - 0.002, 1.0), x_axis, z_axis, [0.0, 1.0], [0.0, 1.0])
-    gltf.object("ceiling lamp", light)
+    if window:
+        shape = Shape()
+        shape.box(plaster, (wall_near - wall_far, sill, opening[0]), (0.0, lintel, opening[1]),
+                  skip="-x +x", inward=True)
+        gltf.object("window frame", shape)
+    else:
+        light = Shape()
+        light.grid(lamp, (1.0, height - 0.002, 1.0), x_axis, z_axis, [0.0, 1.0], [0.0, 1.0])
+        gltf.object("ceiling lamp", light)
     gltf.camera("camera", [1.5, 1.5, 5.9], [3.2, 1.1, 2.0], 1.1, 1.5)
     return gltf
 
@@ -324,6 +335,7 @@ def main():
         "glossy-floor": glossy_floor(),
         "specular-objects": specular_objects(),
         "two-rooms": two_rooms(),
+        "two-rooms-window": two_rooms(window=True),
         "furnace-0.5": furnace(0.5),
         "furnace-0.9": furnace(0.9),
         "plates-parallel": plates(perpendicular=False),
