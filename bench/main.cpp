@@ -13,7 +13,7 @@ int main(int argc, char** argv)
     using namespace lumel;
     using namespace lumel::bench;
     Settings settings;
-    std::string scheme = "phased", sampling = "area", projection = "hemicube";
+    std::string scheme = "phased", sampling = "area", projection = "hemicube", layers = "list";
     CLI::App app("Error against time for each method, on the same atlas");
     app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
     app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
@@ -21,6 +21,16 @@ int main(int argc, char** argv)
         ->delimiter(',')
         ->expected(6)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
+    app.add_option_function<std::string>(
+           "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
+           "light from all around, as lumel bake takes it")
+        ->type_name("FILE|R,G,B");
+    app.add_option_function<std::string>(
+           "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
+           "sun, as lumel bake takes it")
+        ->type_name("PLACE");
+    app.add_option("--sky-directions", settings.sky_directions, "that the sky's light is taken from")
+        ->capture_default_str();
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');
     app.add_option("--reference", settings.reference, "EXR to compare with, made for this atlas");
@@ -42,6 +52,13 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"area", "centre"}));
     app.add_option("--batch", settings.solver.batch, "shooters per iteration")
         ->capture_default_str();
+    app.add_option("--layers", layers, "of --solver directions: list or stochastic")
+        ->check(CLI::IsMember({"list", "stochastic"}));
+    app.add_option("--lookups", settings.solver.lookups, "with stochastic layers: 1, 3 or 5 wide")
+        ->capture_default_str();
+    app.add_option("--map-side", settings.solver.map_side,
+                   "of illumination maps [pixels]; 0: as suits the lumels")
+        ->capture_default_str();
     app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
         ->capture_default_str();
     app.add_option("--projection", projection, "hemicube or hemisphere")
@@ -58,6 +75,7 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
     settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
+    settings.solver.layers = layers == "stochastic" ? Layers::stochastic : Layers::list;
     settings.solver.projection =
         projection == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
     try {

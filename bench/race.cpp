@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "bake/lighting.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
@@ -80,6 +81,19 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
     return rows;
 }
 
+/// What sky and lamps send straight to the lumels [N] [lx].
+std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& device,
+                                const World& world, const Prepared& prepared)
+{
+    if (!has_lights(prepared.scene))
+        return std::vector<glm::vec3>(prepared.lumels.lumels.size(), glm::vec3(0.0f));
+    return direct_light(device, world, prepared.scene, prepared.lumels,
+                        {.sky_directions = gathers_sky(settings.solver) ? 0 : settings.sky_directions,
+                         .seed = settings.solver.seed,
+                         .centre = settings.solver.rule == SampleRule::centre})
+        .irradiance;
+}
+
 std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
                              const std::optional<Image>& reference)
 {
@@ -87,6 +101,9 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     fmt::print("device: {} ({})\n", device.info().name, device.info().driver);
     {  // The driver compiles shaders when they first run; it keeps them for the next time.
         const World warm(device, world.scene, world.lumels);
+        Settings few = settings;
+        few.sky_directions = 2;
+        light_of(few, device, warm, world);
         const auto solver = make_solver(
             device, warm, world.lumels,
             {.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)}, settings.solver);
@@ -102,15 +119,22 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         near_options.radius = settings.near_radius;
     const NearField near = build_near_field(world.scene, world.rays, world.lumels, near_options);
     const World gpu_world(device, world.scene, world.lumels);
-    const auto solver = make_solver(device, gpu_world, world.lumels, near, settings.solver);
     watch.stop();
     fmt::print("# near field: {} pairs; set-up {:.2f} cpu-s\n", near.column.size(), watch.cpu);
+    watch.start();
+    const double before = watch.cpu;
+    const std::vector<glm::vec3> direct = light_of(settings, device, gpu_world, world);
+    const Lumels lumels = shining(world.lumels, direct);
+    const auto solver = make_solver(device, gpu_world, lumels, near, settings.solver);
+    watch.stop();
+    fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);
     std::vector<Row> rows;
     for (const std::uint64_t shots : settings.shots) {
         watch.start();
         while (solver->state().shots < shots)
             solver->step();
-        const auto irradiance = solver->irradiance();
+        std::vector<glm::vec3> irradiance = solver->irradiance();
+        add_light(irradiance, direct);
         watch.stop();
         rows.push_back(print_row(settings.solver.method, solver->state().shots, watch,
                                  error_of(world, irradiance, reference), solver->state().error));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/prepare.h"
+#include "lights/direct_light.h"
 #include "solve/solver.h"
 
 namespace lumel::bench {
@@ -20,6 +21,8 @@ struct Lamp {
 struct Settings {
     std::string scene = "scenes/cornell-box.gltf";
     int size = 128;           ///< side of the atlas [texels]
+    LightOptions lights;
+    std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none
     std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
     int reference_spp = 4096;    ///< 0: none, nothing is compared

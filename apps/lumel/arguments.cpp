@@ -28,6 +28,7 @@ constexpr int kMostPaths = 100'000'000;
 constexpr int kMostCameras = 1'000'000;
 constexpr int kMostPlaces = 256;
 constexpr int kMostRays = 4096;
+constexpr int kMostDirections = 1'000'000;
 constexpr double kMostDegrees = 36000.0;   // a turn that still has decimals as float
 constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
 
@@ -255,6 +256,15 @@ void add_stop_options(CLI::App& app, SolverOptions& solver)
     });
 }
 
+void add_sky_directions_option(CLI::App& app, BakeOptions& options)
+{
+    app.add_option("--sky-directions", options.sky_directions,
+                   "How many directions the light of the sky is taken from")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(2, kMostDirections));
+}
+
 void add_directional_option(CLI::App& app, Directional& directional)
 {
     add_choice(app, "--directional", directional, kDirectional,
@@ -269,6 +279,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
         ->required()
         ->type_name("FOLDER");
     add_light_options(command, bake.options.lights);
+    add_sky_directions_option(command, bake.options);
     add_atlas_options(command, bake.options.atlas);
     add_method_options(command, bake.options.solver);
     add_solver_options(command, bake.options.solver);
@@ -330,6 +341,7 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
         ->type_name("N")
         ->check(whole(1, kMostPaths));
     add_light_options(command, options.bake.lights);
+    add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);
     add_solver_options(command, options.bake.solver);
     add_stop_options(command, options.bake.solver);

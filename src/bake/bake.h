@@ -6,6 +6,7 @@
 #include <string>
 
 #include "atlas/atlas.h"
+#include "lights/direct_light.h"
 #include "reference/reference.h"
 #include "scene/light_options.h"
 #include "solve/directional.h"
@@ -18,6 +19,7 @@ struct BakeOptions {
     AtlasOptions atlas;
     SolverOptions solver;
     std::string device;        ///< index or part of a name as `lumel devices` lists; empty: best
+    std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     Parts parts = Parts::all;  ///< of the light that arrives
     bool half = false;         ///< lightmap.exr in half precision
     Directional directional = Directional::none;  ///< layers of lightmap.exr

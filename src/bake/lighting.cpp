@@ -1,7 +1,5 @@
 #include "bake/lighting.h"
 
-#include "lights/direct_light.h"
-
 namespace lumel {
 namespace {
 
@@ -23,12 +21,6 @@ Lumels dark(Lumels lumels)
     return lumels;
 }
 
-void add(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more)
-{
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += more[i];
-}
-
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, Lumels lumels, Stages& stages)
 {
@@ -44,7 +36,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
 }  // namespace
 
 std::vector<glm::vec3> light_of_lamps(const gpu::Device& device, const Setting& setting,
-                                      const SolverOptions& options, Stages& stages)
+                                      const BakeOptions& options, Stages& stages)
 {
     const Scene& scene = setting.world.scene;
     const Lumels& lumels = setting.world.lumels;
@@ -52,7 +44,9 @@ std::vector<glm::vec3> light_of_lamps(const gpu::Device& device, const Setting& 
         return std::vector<glm::vec3>(lumels.lumels.size(), glm::vec3(0.0f));
     stages.begin("sky and lamps");
     return direct_light(device, setting.resident, scene, lumels,
-                        {.seed = options.seed, .centre = options.rule == SampleRule::centre},
+                        {.sky_directions = gathers_sky(options.solver) ? 0 : options.sky_directions,
+                         .seed = options.solver.seed,
+                         .centre = options.solver.rule == SampleRule::centre},
                         [&](double fraction) { return stages.tell(fraction); })
         .irradiance;
 }
@@ -65,22 +59,30 @@ Lumels shining(const Lumels& lumels, const std::vector<glm::vec3>& light)
     return result;
 }
 
+void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more)
+{
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += more[i];
+}
+
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages)
 {
     const Lumels& lumels = setting.world.lumels;
-    std::vector<glm::vec3> direct = light_of_lamps(device, setting, options.solver, stages);
+    std::vector<glm::vec3> direct = light_of_lamps(device, setting, options, stages);
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), stages);
-        add(all->irradiance, direct);
+        add_light(all->irradiance, direct);
         return all;
     }
     std::unique_ptr<Solution> first = run(device, setting, options.solver, black(lumels), stages);
-    add(first->irradiance, direct);
+    add_light(first->irradiance, direct);
     if (options.parts == Parts::direct)
         return first;
-    return run(device, setting, options.solver, shining(dark(lumels), first->irradiance), stages);
+    SolverOptions onward = options.solver;
+    onward.sky = false;
+    return run(device, setting, onward, shining(dark(lumels), first->irradiance), stages);
 }
 
 }  // namespace lumel

@@ -8,12 +8,16 @@
 
 namespace lumel {
 
-/// Sky and lamps' direct light [N] [lx], as the stage "sky and lamps"; 0 if there are none.
+/// Sky and lamps' direct light [N] [lx], as the stage "sky and lamps"; 0 if there are none. Without
+/// the sky for a solver that gathers it.
 std::vector<glm::vec3> light_of_lamps(const gpu::Device& device, const Setting& setting,
-                                      const SolverOptions& options, Stages& stages);
+                                      const BakeOptions& options, Stages& stages);
 
 /// Lumels that send on, beside their own light, what they reflect of `light` [N] [lx].
 Lumels shining(const Lumels& lumels, const std::vector<glm::vec3>& light);
+
+/// Adds `more` [N] [lx] to `sum`.
+void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more);
 
 /// A solver that has run, and what came of it.
 struct Solution {

@@ -167,8 +167,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const Prepared& world = setting.world;
     const View view = view_for(world.scene, world.rays, options);
     check_size(device, options);
-    const std::vector<glm::vec3> lamps =
-        light_of_lamps(device, setting, options.bake.solver, stages);
+    const std::vector<glm::vec3> lamps = light_of_lamps(device, setting, options.bake, stages);
     const Lumels lumels = shining(world.lumels, lamps);
     GlossyIllumination solver(device, setting.resident, lumels, setting.near, options.bake.solver);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
@@ -176,8 +175,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
 
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
-    for (std::size_t i = 0; i < irradiance.size(); ++i)
-        irradiance[i] += lamps[i];
+    add_light(irradiance, lamps);
     const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);

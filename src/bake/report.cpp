@@ -75,6 +75,7 @@ Settings settings_of(const BakeOptions& options)
             {"layers", text_of(solver.layers)},
             {"lookups", std::to_string(solver.lookups)},
             {"map-side", std::to_string(solver.map_side)},
+            {"sky-directions", std::to_string(options.sky_directions)},
             {"projection", solver.projection == Projection::hemisphere ? "hemisphere" : "hemicube"},
             {"hemicube", std::to_string(solver.hemicube)},
             {"shots", std::to_string(solver.max_shots)},

@@ -78,7 +78,7 @@ std::vector<ParallelView> views_of(const std::vector<ParallelSource>& sources, c
 std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed)
 {
     std::vector<ParallelSource> sources;
-    if (sky.empty())
+    if (sky.empty() || count == 0)
         return sources;
     const SkySampler sampler(sky);
     if (sampler.empty())

@@ -13,7 +13,7 @@
 namespace lumel {
 
 /// `count` directions that stand for the whole sky: half of them drawn by its brightness, half
-/// evenly, weighed by the balance heuristic [VG95]. None for a dark sky.
+/// evenly, weighed by the balance heuristic [VG95]. None for a dark sky or a count of 0.
 std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed);
 
 /// `count` directions, evenly spread over the light's disc; all the same where it has none. Only

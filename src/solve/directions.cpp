@@ -110,7 +110,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
 
 GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::uint32_t first) const
 {
-    const bool with_sky = options_.scheme == Scheme::paper;
+    const bool with_sky = gathers_sky(options_);
     std::vector<ParallelView> views;
     std::vector<GlobalDirection> directions;
     const std::uint32_t stream = PathSamples::hash(options_.seed, half);

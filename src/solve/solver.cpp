@@ -9,6 +9,11 @@
 
 namespace lumel {
 
+bool gathers_sky(const SolverOptions& options)
+{
+    return options.method == "directions" && options.scheme == Scheme::paper && options.sky;
+}
+
 NearFieldOptions near_field_options(const SolverOptions& options)
 {
     // The table's noise does not fall with the number of shots, so its samples follow the target.

@@ -40,6 +40,7 @@ struct SolverOptions {
     Layers layers = Layers::list;  ///< of illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
     int map_side = 0;              ///< of an illumination map [pixels], 0: as suits the lumels
+    bool sky = true;               ///< of "directions" with Scheme::paper: gathers the world's sky
     std::uint64_t max_shots = 0;   ///< 0: no limit
     double max_seconds = 0.0;      ///< of solving, 0: no limit
     double target_error = 0.02;    ///< estimated relative error to stop at, 0: never
@@ -96,6 +97,9 @@ const MethodInfo& method_of(const std::string& id);
 
 /// The batch as K of that method. Throws Error{input} if it is not from 1 to most_batch.
 std::uint32_t checked_batch(const MethodInfo& method, int batch);
+
+/// Does the solver find the sky's light itself, so that it is not to be among the emission?
+bool gathers_sky(const SolverOptions& options);
 
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);

@@ -84,4 +84,29 @@ inline LumelError lumel_error(const Lumels& lumels, const std::vector<glm::vec3>
     return error;
 }
 
+inline std::vector<glm::vec3> mean_of(const std::vector<glm::vec3>& a,
+                                      const std::vector<glm::vec3>& b)
+{
+    std::vector<glm::vec3> mean;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        mean.push_back(0.5f * (a[i] + b[i]));
+    return mean;
+}
+
+/// Relative RMSE over all lumels without a reference's own noise: the product of the deviations
+/// from its two independent halves has the true squared error as its mean.
+inline double error_alone(const std::vector<glm::vec3>& values,
+                          const std::vector<glm::vec3>& first_half,
+                          const std::vector<glm::vec3>& second_half)
+{
+    double square = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        square += double(glm::dot(values[i] - first_half[i], values[i] - second_half[i]));
+        const glm::vec3 truth = 0.5f * (first_half[i] + second_half[i]);
+        sum += double(truth.r + truth.g + truth.b);
+    }
+    const double n = 3.0 * double(values.size());
+    return std::sqrt(std::max(square, 0.0) / n) / (sum / n);
+}
+
 }  // namespace lumel::support

@@ -1,0 +1,197 @@
+// Sky, sun and lamps through a whole bake.
+
+#include "bake/lighting.h"
+
+#include "../support/box_lumels.h"
+#include "lights/direct_light.h"
+#include "scene/clear_sky.h"
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+using support::LumelError;
+
+constexpr int kSize = 64;  // of atlases [texels]
+
+LightOptions white_sky()
+{
+    return {.sky_color = glm::vec3(1.0f)};
+}
+
+/// A scene of the folder under lights, ready for solvers.
+struct Lit {
+    Lit(const std::string& name, const LightOptions& lights, int size)
+        : setting(read_scene(support::scene_path(name), MaterialModel::diffuse, lights), device,
+                  {.atlas = {.size = size}}, stages)
+    {
+    }
+
+    std::vector<glm::vec3> solve(const SolverOptions& options, Parts parts = Parts::all)
+    {
+        std::vector<glm::vec3> irradiance =
+            solve_light(device, setting, {.solver = options, .parts = parts}, stages)->irradiance;
+        EXPECT_EQ(device.validation_messages(), "");
+        return irradiance;
+    }
+
+    std::vector<glm::vec3> path_traced(int samples, std::uint32_t seed) const
+    {
+        return reference_irradiance(setting.world.scene, setting.world.rays, setting.world.lumels,
+                                    {.samples_per_lumel = samples, .seed = seed});
+    }
+
+    LumelError error(const std::vector<glm::vec3>& values,
+                     const std::vector<glm::vec3>& truth) const
+    {
+        return support::lumel_error(setting.world.lumels, values, truth,
+                                    [](const Lumel&) { return true; });
+    }
+
+    ProgressFunction silent;
+    Stages stages{silent};
+    gpu::Device device;
+    Setting setting;
+};
+
+/// Every method that knows diffuse surfaces finds the path tracer's answer.
+void expect_agreement(Lit& lit, int samples)
+{
+    const std::vector<glm::vec3> first = lit.path_traced(samples, 98);
+    const std::vector<glm::vec3> second = lit.path_traced(samples, 99);
+    const std::vector<glm::vec3> truth = support::mean_of(first, second);
+    for (const char* method : {"stochastic", "directions"}) {
+        const std::vector<glm::vec3> irradiance =
+            lit.solve({.method = method, .max_shots = 1024, .target_error = 0.0});
+        EXPECT_LE(support::error_alone(irradiance, first, second), 0.02) << method;
+        EXPECT_LE(std::abs(lit.error(irradiance, truth).bias), 0.005) << method;
+    }
+}
+
+TEST(City, UnderAnEvenSkyAgreesWithThePathTracer)
+{
+    Lit city("city", white_sky(), kSize);
+    expect_agreement(city, 512);
+}
+
+TEST(TwoRooms, SunThroughAWindowAgreesWithThePathTracer)
+{
+    const SunPosition sun{.azimuth = glm::radians(290.0), .elevation = glm::radians(30.0)};
+    Lit rooms("two-rooms-window", {.sky_color = glm::vec3(0.0f), .sun = sun}, kSize);
+    expect_agreement(rooms, 1024);
+}
+
+TEST(City, DirectAndIndirectLightAddUp)
+{
+    Lit city("city", white_sky(), kSize);
+    for (const Scheme scheme : {Scheme::phased, Scheme::paper}) {
+        const SolverOptions options{
+            .method = "directions", .scheme = scheme, .max_shots = 1024, .target_error = 0.0};
+        const std::vector<glm::vec3> all = city.solve(options);
+        std::vector<glm::vec3> sum = city.solve(options, Parts::direct);
+        add_light(sum, city.solve(options, Parts::indirect));
+        EXPECT_LE(city.error(sum, all).rmse, 0.01);
+    }
+}
+
+/// The light inside the closed box under a bright sky that is gathered from the maps.
+double light_inside(Layers layers)
+{
+    const Scene scene = read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse,
+                                   {.sky_color = glm::vec3(1e4f)});
+    const Prepared world(scene, AtlasOptions{.size = kSize});
+    const support::Solved solved = support::solve_scene(world, {.method = "directions",
+                                                                .scheme = Scheme::paper,
+                                                                .layers = layers,
+                                                                .max_shots = 1024,
+                                                                .target_error = 0.0});
+    double inside = 0.0, outside = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
+        const double h = double(solved.irradiance[i].g);
+        if (world.scene.instances[world.lumels.lumels[i].instance].name == "box inside") {
+            inside += h;
+            ++count;
+        }
+        outside = std::max(outside, h);
+    }
+    EXPECT_GT(count, 50u);
+    EXPECT_GT(outside, 1e4);
+    return inside / double(count);
+}
+
+TEST(SealedBox, UnderAWhiteSkyStaysExactlyDarkInside)
+{
+    EXPECT_EQ(light_inside(Layers::list), 0.0);
+}
+
+// One surface a pixel, drawn by chance, cannot keep a box dark: how much gets in is on record.
+TEST(SealedBox, LeaksThroughStochasticLayers)
+{
+    const double leak = light_inside(Layers::stochastic) / (1e4 * double(support::kPi));
+    testing::Test::RecordProperty("leak", std::to_string(leak));
+    std::printf("leak: %.3g of an open plane's light\n", leak);
+}
+
+/// A square of clear texels with an opaque disc in its middle, one metre above a floor.
+constexpr float kLeafRadius = 0.35f;  // [m], of a square of 1 m
+
+support::HandMade leaf_over_floor()
+{
+    const support::Quad floor{.corner = {-1.0f, 0.0f, 1.0f},
+                              .edge_u = {2.0f, 0.0f, 0.0f},
+                              .edge_v = {0.0f, 0.0f, -2.0f},
+                              .res_u = 64,
+                              .res_v = 64};
+    const support::Quad leaf{.corner = {-0.5f, 1.0f, 0.5f},
+                             .edge_u = {1.0f, 0.0f, 0.0f},
+                             .edge_v = {0.0f, 0.0f, -1.0f},
+                             .double_sided = true};
+    support::HandMade made = support::make_quads({floor, leaf});
+    constexpr int kTexels = 128;
+    Texture texture{.width = kTexels, .height = kTexels};
+    for (int y = 0; y < kTexels; ++y)
+        for (int x = 0; x < kTexels; ++x) {
+            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(kTexels) - 0.5f;
+            const std::uint8_t alpha = glm::length(at) < kLeafRadius ? 255 : 0;
+            texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+        }
+    made.scene.textures.push_back(texture);
+    Material& material = made.scene.materials[1];
+    material.base_color_texture.texture = 0;
+    material.alpha_mode = AlphaMode::mask;
+    return made;
+}
+
+TEST(CutOut, CastsTheShadowOfItsShape)
+{
+    support::HandMade made = leaf_over_floor();
+    const SunPosition position{.azimuth = 0.0, .elevation = glm::radians(70.0)};
+    PunctualLight sun = sun_light(position);
+    sun.angle = 0.0f;
+    made.scene.lights.push_back(sun);
+    const gpu::Device device;
+    const World world(device, made.scene, made.lumels);
+    const std::vector<glm::vec3> irradiance =
+        direct_light(device, world, made.scene, made.lumels, {}).irradiance;
+    EXPECT_EQ(device.validation_messages(), "");
+
+    const glm::vec3 toward = direction_of(position);
+    const glm::vec2 moved = -glm::vec2(toward.x, toward.z) / toward.y;  // one metre below
+    const float open = sun.intensity * sun.color.x * toward.y, lumel = 2.0f / 64.0f;
+    std::size_t in_shadow = 0;
+    for (std::size_t i = made.first[0]; i < made.first[1]; ++i) {
+        const glm::vec3 at = made.lumels.lumels[i].position;
+        const float from_edge = glm::distance(glm::vec2(at.x, at.z), moved) - kLeafRadius;
+        if (from_edge < -lumel) {
+            ++in_shadow;
+            EXPECT_EQ(irradiance[i].x, 0.0f) << at.x << ' ' << at.z;
+        } else if (from_edge > lumel) {
+            EXPECT_NEAR(irradiance[i].x, open, 0.005f * open) << at.x << ' ' << at.z;
+        }
+    }
+    EXPECT_GT(in_shadow, 200u);
+}
+
+}  // namespace
+}  // namespace lumel
