@@ -41,7 +41,7 @@ constexpr std::uint32_t kGatherSpirv[] = {
 constexpr gpu::Slot kGatherSlots[] = {
     gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
     gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
+    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
 
 /// Directions that are made at a time.
 constexpr std::uint32_t kChunk = 1024;
@@ -102,9 +102,13 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
       seen_(device,
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
       news_(device, 1),
+      heard_(device, lumels.lumels.size()),
       iteration_(device, lumels, NearField{}, options, batch_),
       pacer_(device)
 {
+    gpu::Commands commands(device);
+    commands.fill(heard_.buffer());
+    commands.run();
     iteration_.begin(pacer_);
 }
 
@@ -138,9 +142,10 @@ const GlobalDirections::Chunk& GlobalDirections::chunk_of(std::uint32_t half, st
     std::deque<Chunk>& chunks = chunks_[half];
     if (chunks.empty() || index >= chunks.back().first + kChunk) {
         chunks.push_back(make_chunk(half, index / kChunk * kChunk));
-        // The one before may still be in use, those before that are not: hundreds of batches ago.
-        if (chunks.size() > 2)
+        if (chunks.size() > 2) {
+            pacer_.finish();  // the oldest may be in use
             chunks.pop_front();
+        }
     }
     return chunks.back();
 }
@@ -195,7 +200,8 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                         .seed = options_.seed,
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                         .neighbours = std::uint32_t(options_.lookups / 2),
-                        .with_source = iteration_.sends_reflected() ? 1u : 0u,
+                        .with_emission = options_.scheme == Scheme::paper ? 0u : 1u,
+                .with_source = iteration_.sends_reflected() ? 1u : 0u,
                         .layer = layer,
                         .keep = keep ? 1u : 0u};
                     commands.dispatch(gather_,
@@ -212,7 +218,8 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                                        iteration_.direct(),
                                        iteration_.indirect(),
                                        seen_,
-                                       news_},
+                                       news_,
+                                       heard_},
                                       params, last - first);
                 });
 }

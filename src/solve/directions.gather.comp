@@ -36,6 +36,7 @@ layout(binding = 10, scalar) buffer Direct { vec3 direct[]; };      // [2][N] su
 layout(binding = 11, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 layout(binding = 12, scalar) buffer Kept { uint kept[]; };           // [K][N] peeled: seen so far
 layout(binding = 13, scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
+layout(binding = 14, scalar) buffer HeardOf { Heard heard_of[]; };
 
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
@@ -47,6 +48,9 @@ layout(binding = 13, scalar) buffer News { uint news; };  // peeled: 1: some lum
 const float kPi = 3.14159265;
 // What lies higher than this above the plane is not the receiver itself [pixels' widths].
 const float kAbovePlane = 0.02;
+
+// Σ cosθ of 32 directions over the sphere, before which P is taken to be right.
+const float kUsual = 8.0;
 
 // What is seen, and how much it counts.
 struct Seen {
@@ -92,7 +96,9 @@ uint nearest_listed(PieceInView piece, RayMet ray, uint tile)
     float first = 2.0;
     while (next != kEndOfList) {
         const Fragment fragment = fragments[next];
-        if (fragment.nearness < first && !is_first(piece, ray, fragment.nearness)) {
+        const bool nearer = fragment.nearness < first ||
+                            (fragment.nearness == first && fragment.surface < seen.surface);
+        if (nearer && !is_first(piece, ray, fragment.nearness)) {
             first = fragment.nearness;
             surface = fragment.surface;
         }
@@ -137,6 +143,7 @@ void main()
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
     vec3 of_emission = vec3(0.0), of_source = vec3(0.0);
+    Heard heard = heard_of[i];
     for (uint k = 0u; k < p.views; ++k) {
         const GlobalDirection direction = directions[p.first_view + k];
         const LumelPoint point =
@@ -150,6 +157,8 @@ void main()
         if (p.keep != 0u)
             continue;
         const vec3 weight = 4.0 * cosine * seen.weight * carried_in_turn(view.channel);
+        heard.asked += cosine;
+        heard.told += cosine * seen.weight;
         if (seen.surface == 0u) {
             of_emission += weight * kPi * direction.sky;
             continue;
@@ -159,13 +168,16 @@ void main()
         const uint j = lumel_of[seen.surface - 1u];
         if (j == kNoLumel)
             continue;
-        of_emission += weight * emission[j];
+        if (p.with_emission != 0u)
+            of_emission += weight * emission[j];
         if (p.with_source != 0u)
             of_source += weight * source[j];
     }
     if (p.keep != 0u)
         return;
+    heard_of[i] = heard;
+    const float correction = (heard.asked + kUsual) / (heard.told + kUsual);
     const uint at = p.half_ * p.count + i;
-    direct[at] += of_emission;
-    indirect[at] += of_source;
+    direct[at] += correction * of_emission;
+    indirect[at] += correction * of_source;
 }

@@ -13,6 +13,14 @@ struct GlobalDirection {
     vec3 sky;     ///< radiance [cd/m²] where nothing is seen
 };
 
+/// How much of what a lumel asked it was told, over all directions so far. A map tells it about the
+/// world along d only where one of its rays meets the lumel, which has a chance P that is about
+/// known; Σ asked / Σ told makes up for what is wrong in it.
+struct Heard {
+    float asked;  ///< Σ cosθ
+    float told;   ///< Σ cosθ/P where the map told
+};
+
 /// Push constants of directions.gather.comp.
 struct GatherParams {
     ParallelLayout layout_;
@@ -26,6 +34,7 @@ struct GatherParams {
     uint seed;
     uint centre;       ///< 1: receive at the centroid
     uint neighbours;   ///< lookups to each side of a pixel: 0, 1 or 2
+    uint with_emission;  ///< 0: the source holds the emission, as in the paper
     uint with_source;  ///< 0: the source is still 0
     uint layer;        ///< peeled: how many layers are in front of the map's
     uint keep;         ///< peeled: 1: only keep what the layer shows; 0: add what was kept
