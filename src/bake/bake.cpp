@@ -4,6 +4,8 @@
 
 #include "bake/lighting.h"
 #include "bake/outputs.h"
+#include "core/log.h"
+#include "lights/direct_light.h"
 #include "output/folder.h"
 #include "solve/solver.h"
 
@@ -28,6 +30,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 {
     const MethodInfo& method = method_of(options.solver.method);
     checked_batch(method, options.solver.batch);
+    if (options.directional != Directional::none && options.parts != Parts::all)
+        throw Error(ErrorKind::input, "--directional with --only",
+                    "is not possible: directional layers hold all light, direct and indirect");
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, method.materials, options.lights);
@@ -43,6 +48,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
+        if (has_lights(setting.world.scene))
+            log_warning("the directional layers say of sky, sun and lamps only how much light they "
+                        "send, as if it came along the normal");
         directional = gather_directional(
             device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),

@@ -74,7 +74,8 @@ float range_window(Lamp lamp, float squared)
 bool is_whole_ball(Lamp lamp, LumelPoint point)
 {
     return lamp.radius > 0.0 && lamp.cone_scale == 0.0 && lamp.profile == kNoProfile &&
-           lamp.range <= 0.0 && dot(lamp.position - point.position, point.normal) > lamp.radius;
+           lamp.range <= 0.0 && dot(lamp.position - point.position, point.normal) > lamp.radius &&
+           dot(lamp.position - point.position, normalize(point.facing)) > lamp.radius;
 }
 
 vec3 light_of_centre(Lamp lamp, LumelPoint point)

@@ -201,7 +201,7 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                         .neighbours = std::uint32_t(options_.lookups / 2),
                         .with_emission = options_.scheme == Scheme::paper ? 0u : 1u,
-                .with_source = iteration_.sends_reflected() ? 1u : 0u,
+                        .with_source = iteration_.sends_reflected() ? 1u : 0u,
                         .layer = layer,
                         .keep = keep ? 1u : 0u};
                     commands.dispatch(gather_,

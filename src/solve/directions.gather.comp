@@ -97,7 +97,7 @@ uint nearest_listed(PieceInView piece, RayMet ray, uint tile)
     while (next != kEndOfList) {
         const Fragment fragment = fragments[next];
         const bool nearer = fragment.nearness < first ||
-                            (fragment.nearness == first && fragment.surface < seen.surface);
+                            (fragment.nearness == first && fragment.surface < surface);
         if (nearer && !is_first(piece, ray, fragment.nearness)) {
             first = fragment.nearness;
             surface = fragment.surface;

@@ -84,7 +84,7 @@ std::uint32_t parallel_side(const gpu::Device& device, const World& world, const
 {
     std::vector<float> sizes;
     for (const Lumel& lumel : lumels.lumels)
-        if (!(lumel.flags & kLumelBuried))
+        if (!(lumel.flags & kLumelBuried) && lumel.area > 0.0f)
             sizes.push_back(std::sqrt(lumel.area));
     if (sizes.empty())
         return kLeastSide;

@@ -34,7 +34,7 @@ std::uint32_t tile_rows(const ParallelLayout& layout, std::uint32_t count);
 gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t tile);
 
 /// Depth images of what `capacity` directions see, side by side in one image. A kernel asks them
-/// through visibility/sees_along.glsl.
+/// through visibility/piece_along.glsl and first_met.glsl.
 class ParallelViews {
 public:
     /// side: of each image [pixels]. The capacity given is what fits the device's images and is at

@@ -1,7 +1,7 @@
 // Pieces of lumels in parallel views. Needs parallel_views.shared.h, parallel.glsl and
 // first_met.glsl.
 
-// Rounding of stored depths, which lie in 0…1.
+// Rounding of stored depths, which lie in 0…1, where the scene is about the origin.
 const float kParallelRounding = 1e-6;
 
 PieceInView piece_along(ParallelView view, Piece piece)
@@ -19,7 +19,7 @@ PieceInView piece_along(ParallelView view, Piece piece)
     s.depth_form.z += nearness_in(view, piece.origin);
     s.steepness = (abs(s.depth_form.x) + abs(s.depth_form.y)) * length(view.right) /
                   length(view.toward);
-    s.rounding = kParallelRounding;
+    s.rounding = kParallelRounding * max(1.0, abs(view.depth_shift));
     s.parallelogram = piece.parallelogram != 0u;
     return s;
 }
