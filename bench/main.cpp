@@ -29,7 +29,8 @@ int main(int argc, char** argv)
            "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
            "sun, as lumel bake takes it")
         ->type_name("PLACE");
-    app.add_option("--sky-directions", settings.sky_directions, "that the sky's light is taken from")
+    app.add_option("--sky-directions", settings.sky_directions,
+                   "that the sky's light is taken from")
         ->capture_default_str();
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');

@@ -87,10 +87,11 @@ std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& dev
 {
     if (!has_lights(prepared.scene))
         return std::vector<glm::vec3>(prepared.lumels.lumels.size(), glm::vec3(0.0f));
-    return direct_light(device, world, prepared.scene, prepared.lumels,
-                        {.sky_directions = gathers_sky(settings.solver) ? 0 : settings.sky_directions,
-                         .seed = settings.solver.seed,
-                         .centre = settings.solver.rule == SampleRule::centre})
+    return direct_light(
+               device, world, prepared.scene, prepared.lumels,
+               {.sky_directions = gathers_sky(settings.solver) ? 0 : settings.sky_directions,
+                .seed = settings.solver.seed,
+                .centre = settings.solver.rule == SampleRule::centre})
         .irradiance;
 }
 

@@ -20,7 +20,7 @@ struct Lamp {
 
 struct Settings {
     std::string scene = "scenes/cornell-box.gltf";
-    int size = 128;           ///< side of the atlas [texels]
+    int size = 128;  ///< side of the atlas [texels]
     LightOptions lights;
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none

@@ -18,10 +18,10 @@ struct BakeOptions {
     LightOptions lights;
     AtlasOptions atlas;
     SolverOptions solver;
-    std::string device;        ///< index or part of a name as `lumel devices` lists; empty: best
+    std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
-    Parts parts = Parts::all;  ///< of the light that arrives
-    bool half = false;         ///< lightmap.exr in half precision
+    Parts parts = Parts::all;                     ///< of the light that arrives
+    bool half = false;                            ///< lightmap.exr in half precision
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
 };

@@ -177,6 +177,7 @@ Report path_traced_report(const RenderOptions& options, const Scene& scene, cons
     Report report = common(scene, stages);
     report.method = "reference";
     add_picture(report, options, {{"paths", std::to_string(options.paths)}});
+    append(report.settings, settings_of(options.bake.lights));
     report.seed = options.bake.solver.seed;
     report.interrupted = stages.stopped();
     return report;

@@ -32,12 +32,12 @@ struct GatherParams {
     uint half_;        ///< 0 or 1: which half-solution takes this batch
     uint first_point;  ///< numbers the points of a lumel that receive
     uint seed;
-    uint centre;       ///< 1: receive at the centroid
-    uint neighbours;   ///< lookups to each side of a pixel: 0, 1 or 2
+    uint centre;         ///< 1: receive at the centroid
+    uint neighbours;     ///< lookups to each side of a pixel: 0, 1 or 2
     uint with_emission;  ///< 0: the source holds the emission, as in the paper
-    uint with_source;  ///< 0: the source is still 0
-    uint layer;        ///< peeled: how many layers are in front of the map's
-    uint keep;         ///< peeled: 1: only keep what the layer shows; 0: add what was kept
+    uint with_source;    ///< 0: the source is still 0
+    uint layer;          ///< peeled: how many layers are in front of the map's
+    uint keep;           ///< peeled: 1: only keep what the layer shows; 0: add what was kept
 };
 
 LUMEL_SHARED_END

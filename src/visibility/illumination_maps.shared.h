@@ -32,7 +32,7 @@ struct IlluminationParams {
     uint tile;   ///< that it is drawn into
     uint width;  ///< of the atlas [texels]
     uint height;
-    uint layer;   ///< peeled: how many surfaces of a pixel are taken off
+    uint layer;       ///< peeled: how many surfaces of a pixel are taken off
     Passage passage;  ///< of cut-outs
 };
 
