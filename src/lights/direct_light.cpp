@@ -41,13 +41,14 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
     const double parts = double(sources.size()) + 1.0;  // the lamps are one
     double part = 0.0;
     const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
-    const ParallelLightOptions parallel{.side = parallel_side(device, world, lumels),
-                                        .seed = options.seed,
-                                        .centre = options.centre};
+    ParallelLightOptions parallel{.side = parallel_side(device, world, lumels),
+                                  .seed = options.seed,
+                                  .centre = options.centre};
     DirectLight light;
     for (const std::vector<ParallelSource>& directions : sources) {
         light.finished = light.finished && add_parallel_light(pacer, device, world, directions,
                                                               parallel, summed, told);
+        parallel.points = options.sun_points;  // the sky is the first source
         part += 1.0;
     }
     light.finished =

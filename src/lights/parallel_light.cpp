@@ -148,6 +148,7 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
                                                           .first_view = begin,
                                                           .views = count,
                                                           .views_per_source = views_per_source,
+                                                          .points = options.points,
                                                           .seed = options.seed,
                                                           .centre = options.centre ? 1u : 0u};
                        commands.dispatch(receive,

@@ -23,6 +23,7 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
 
 struct ParallelLightOptions {
     std::uint32_t side = 512;  ///< of each view [pixels]
+    std::uint32_t points = 1;  ///< of a lumel that look along each direction
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };

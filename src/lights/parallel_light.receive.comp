@@ -42,16 +42,18 @@ void main()
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
     LightSums sum = sums[i];
-    for (uint k = 0u; k < p.views; ++k) {
+    for (uint n = 0u; n < p.views * p.points; ++n) {
+        const uint k = n / p.points;
         const ParallelView view = views[p.first_view + k];
         const uint index = (p.first_view + k) / p.views_per_source;
         const ParallelSource source = sources[index];
-        // The point moves over the lumel from direction to direction.
-        const LumelPoint point = receiving_point(lumel, i, index, p.seed, p.centre != 0u);
+        // The point moves over the lumel all the time.
+        const LumelPoint point = receiving_point(lumel, i, index * p.points + n % p.points, p.seed,
+                                                 p.centre != 0u);
         const float cosine = dot(point.normal, source.toward);
         if (cosine <= 0.0 || dot(point.facing, source.toward) <= 0.0)
             continue;
-        const vec3 open = cosine * source.illuminance * carried(view.channel);
+        const vec3 open = cosine / float(p.points) * source.illuminance * carried(view.channel);
         sum.open += open;
         const PieceInView piece = piece_along(view, pieces[point.piece]);
         RayMet ray;

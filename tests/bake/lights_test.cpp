@@ -1,7 +1,5 @@
 // Sky, sun and lamps through a whole bake.
 
-#include "bake/lighting.h"
-
 #include "../support/box_lumels.h"
 #include "lights/direct_light.h"
 #include "scene/clear_sky.h"
@@ -10,89 +8,7 @@
 namespace lumel {
 namespace {
 
-using support::LumelError;
-
 constexpr int kSize = 64;  // of atlases [texels]
-
-LightOptions white_sky()
-{
-    return {.sky_color = glm::vec3(1.0f)};
-}
-
-/// A scene of the folder under lights, ready for solvers.
-struct Lit {
-    Lit(const std::string& name, const LightOptions& lights, int size)
-        : setting(read_scene(support::scene_path(name), MaterialModel::diffuse, lights), device,
-                  {.atlas = {.size = size}}, stages)
-    {
-    }
-
-    std::vector<glm::vec3> solve(const SolverOptions& options, Parts parts = Parts::all)
-    {
-        std::vector<glm::vec3> irradiance =
-            solve_light(device, setting, {.solver = options, .parts = parts}, stages)->irradiance;
-        EXPECT_EQ(device.validation_messages(), "");
-        return irradiance;
-    }
-
-    std::vector<glm::vec3> path_traced(int samples, std::uint32_t seed) const
-    {
-        return reference_irradiance(setting.world.scene, setting.world.rays, setting.world.lumels,
-                                    {.samples_per_lumel = samples, .seed = seed});
-    }
-
-    LumelError error(const std::vector<glm::vec3>& values,
-                     const std::vector<glm::vec3>& truth) const
-    {
-        return support::lumel_error(setting.world.lumels, values, truth,
-                                    [](const Lumel&) { return true; });
-    }
-
-    ProgressFunction silent;
-    Stages stages{silent};
-    gpu::Device device;
-    Setting setting;
-};
-
-/// Every method that knows diffuse surfaces finds the path tracer's answer.
-void expect_agreement(Lit& lit, int samples)
-{
-    const std::vector<glm::vec3> first = lit.path_traced(samples, 98);
-    const std::vector<glm::vec3> second = lit.path_traced(samples, 99);
-    const std::vector<glm::vec3> truth = support::mean_of(first, second);
-    for (const char* method : {"stochastic", "directions"}) {
-        const std::vector<glm::vec3> irradiance =
-            lit.solve({.method = method, .max_shots = 1024, .target_error = 0.0});
-        EXPECT_LE(support::error_alone(irradiance, first, second), 0.02) << method;
-        EXPECT_LE(std::abs(lit.error(irradiance, truth).bias), 0.005) << method;
-    }
-}
-
-TEST(City, UnderAnEvenSkyAgreesWithThePathTracer)
-{
-    Lit city("city", white_sky(), kSize);
-    expect_agreement(city, 512);
-}
-
-TEST(TwoRooms, SunThroughAWindowAgreesWithThePathTracer)
-{
-    const SunPosition sun{.azimuth = glm::radians(290.0), .elevation = glm::radians(30.0)};
-    Lit rooms("two-rooms-window", {.sky_color = glm::vec3(0.0f), .sun = sun}, kSize);
-    expect_agreement(rooms, 1024);
-}
-
-TEST(City, DirectAndIndirectLightAddUp)
-{
-    Lit city("city", white_sky(), kSize);
-    for (const Scheme scheme : {Scheme::phased, Scheme::paper}) {
-        const SolverOptions options{
-            .method = "directions", .scheme = scheme, .max_shots = 1024, .target_error = 0.0};
-        const std::vector<glm::vec3> all = city.solve(options);
-        std::vector<glm::vec3> sum = city.solve(options, Parts::direct);
-        add_light(sum, city.solve(options, Parts::indirect));
-        EXPECT_LE(city.error(sum, all).rmse, 0.01);
-    }
-}
 
 /// The light inside the closed box under a bright sky that is gathered from the maps.
 double light_inside(Layers layers)
