@@ -101,7 +101,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const gpu::Device device(settings.device);
     fmt::print("device: {} ({})\n", device.info().name, device.info().driver);
     {  // The driver compiles shaders when they first run; it keeps them for the next time.
-        const World warm(device, world.scene, world.lumels);
+        const World warm(device, world.scene, world.lumels, &world.atlas);
         Settings few = settings;
         few.sky_directions = 2;
         light_of(few, device, warm, world);
@@ -118,8 +118,11 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     NearFieldOptions near_options = near_field_options(settings.solver);
     if (settings.near_radius > 0.0f)
         near_options.radius = settings.near_radius;
-    const NearField near = build_near_field(world.scene, world.rays, world.lumels, near_options);
-    const World gpu_world(device, world.scene, world.lumels);
+    const NearField near =
+        settings.solver.method == "directions"
+            ? NearField{}
+            : build_near_field(world.scene, world.rays, world.lumels, near_options);
+    const World gpu_world(device, world.scene, world.lumels, &world.atlas);
     watch.stop();
     fmt::print("# near field: {} pairs; set-up {:.2f} cpu-s\n", near.column.size(), watch.cpu);
     watch.start();

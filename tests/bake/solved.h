@@ -21,9 +21,9 @@ inline std::string scene_path(const std::string& name)
 /// A scene on the default device with what a solver is made of.
 struct Resident {
     Resident(const Scene& scene, const RayScene& rays, const Lumels& lumels,
-             const SolverOptions& options)
+             const SolverOptions& options, const Atlas* atlas = nullptr)
         : near(near_field_for(scene, rays, lumels, options)),
-          world(device, scene, lumels)
+          world(device, scene, lumels, atlas)
     {
     }
 
@@ -39,9 +39,9 @@ struct Solved {
 
 /// Solves on the default device; validation messages fail the test.
 inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels& lumels,
-                          const SolverOptions& options)
+                          const SolverOptions& options, const Atlas* atlas = nullptr)
 {
-    const Resident resident(scene, rays, lumels, options);
+    const Resident resident(scene, rays, lumels, options, atlas);
     const auto& [near, device, world] = resident;
     const auto solver = make_solver(device, world, lumels, near, options);
     EXPECT_TRUE(solve(*solver, options));
@@ -52,7 +52,7 @@ inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels
 
 inline Solved solve_scene(const Prepared& world, const SolverOptions& options)
 {
-    return solve_scene(world.scene, world.rays, world.lumels, options);
+    return solve_scene(world.scene, world.rays, world.lumels, options, &world.atlas);
 }
 
 /// Relative RMSE and bias over the chosen lumels, all channels, in terms of their own mean.
