@@ -1,6 +1,7 @@
 // Sky, sun and lamps through a whole bake.
 
 #include "../support/box_lumels.h"
+#include "bake/lighting.h"
 #include "lights/direct_light.h"
 #include "scene/clear_sky.h"
 #include "solved.h"
@@ -47,6 +48,40 @@ TEST(SealedBox, LeaksThroughStochasticLayers)
     const double leak = light_inside(Layers::stochastic) / (1e4 * double(support::kPi));
     testing::Test::RecordProperty("leak", std::to_string(leak));
     std::printf("leak: %.3g of an open plane's light\n", leak);
+}
+
+/// What surfaces send one another in the city under a white sky.
+std::vector<glm::vec3> reflected_light(const Prepared& city, const DirectLight& direct,
+                                       const gpu::Device& device, const World& resident,
+                                       const std::string& method)
+{
+    const Lumels lit = shining(city.lumels, direct.irradiance);
+    const SolverOptions options{.method = method, .max_shots = 2048, .target_error = 0.0};
+    const NearField near = near_field_for(city.scene, city.rays, lit, options);
+    const auto solver = make_solver(device, resident, lit, near, options);
+    EXPECT_TRUE(solve(*solver, options));
+    return solver->irradiance();
+}
+
+TEST(City, IsLitAlikeByShootersAndAlongGlobalDirections)
+{
+    const Prepared city(read_scene(support::scene_path("city"), MaterialModel::diffuse,
+                                   {.sky_color = glm::vec3(1.0f)}),
+                        AtlasOptions{.size = kSize});
+    const gpu::Device device;
+    const World resident(device, city.scene, city.lumels, &city.atlas);
+    const DirectLight direct = direct_light(device, resident, city.scene, city.lumels, {});
+    std::vector<glm::vec3> shot = reflected_light(city, direct, device, resident, "stochastic");
+    std::vector<glm::vec3> along = reflected_light(city, direct, device, resident, "directions");
+    for (std::size_t i = 0; i < shot.size(); ++i) {
+        shot[i] += direct.irradiance[i];
+        along[i] += direct.irradiance[i];
+    }
+    const support::LumelError difference =
+        support::lumel_error(city.lumels, along, shot, [](const Lumel&) { return true; });
+    EXPECT_LE(difference.rmse, 0.02);
+    EXPECT_LE(std::abs(difference.bias), 0.005);
+    EXPECT_EQ(device.validation_messages(), "");
 }
 
 /// A square of clear texels with an opaque disc in its middle, one metre above a floor.
