@@ -119,16 +119,17 @@ GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::ui
     std::vector<GlobalDirection> directions;
     const std::uint32_t stream = PathSamples::hash(options_.seed, half);
     for (std::uint32_t i = first; i < first + kChunk; ++i) {
-        const PathSamples samples(stream, i);
+        // Channels take turns with one direction, so that each has a whole sequence of them.
+        const bool in_turn = world_->has_coloured_glass();
+        const PathSamples samples(stream, in_turn ? i / kChannels : i);
         const glm::vec3 toward = on_sphere(samples.stratified(kDirectionPair));
         const float turn = 2.0f * std::numbers::pi_v<float> * samples.random(kTurnPair).x;
-        views.push_back(
-            fit_view(world_->low(), world_->high(), maps_.layout().side,
-                     {.toward = toward,
-                      .turn = turn,
-                      .offset = samples.random(kOffsetPair),
-                      .random = samples.bits(kTurnPair),
-                      .channel = world_->has_coloured_glass() ? 1 + i % kChannels : kAllChannels}));
+        views.push_back(fit_view(world_->low(), world_->high(), maps_.layout().side,
+                                 {.toward = toward,
+                                  .turn = turn,
+                                  .offset = samples.random(kOffsetPair),
+                                  .random = samples.bits(kTurnPair),
+                                  .channel = in_turn ? 1 + i % kChannels : kAllChannels}));
         directions.push_back(
             {toward, with_sky ? sky_radiance(world_->sky(), toward) : glm::vec3(0.0f)});
     }

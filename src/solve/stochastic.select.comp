@@ -66,7 +66,9 @@ void main()
         return;
     const bool emits = k < p.emission_count;
     const uint index = emits ? p.emission_index + k : p.source_index + k - p.emission_count;
-    const vec3 u = draw_point(index, emits ? 0u : 1u, p.seed, p.random != 0u);
+    // Channels take turns with one shooter, so that each has a whole sequence of them.
+    const uint point = p.channels != 0u ? index / kChannels : index;
+    const vec3 u = draw_point(point, emits ? 0u : 1u, p.seed, p.random != 0u);
 
     const PyramidLayout layout_ = p.layout_;
     Drawn drawn;
