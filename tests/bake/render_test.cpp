@@ -236,8 +236,9 @@ TEST_P(PictureStoppedWhile, IsWholeAndSaysSo)
     EXPECT_TRUE(rendered.summary.interrupted);
     for (std::size_t i = 0; i < rendered.image.values.size(); ++i) {
         ASSERT_TRUE(std::isfinite(rendered.image.values[i]));
-        if (i % 4 == 3)
+        if (i % 4 == 3) {
             ASSERT_EQ(rendered.image.values[i], 1.0f);
+        }
     }
 }
 

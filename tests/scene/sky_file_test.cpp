@@ -74,9 +74,10 @@ TEST(SkyFile, RunLengthCodedPicturesAreRead)
     EXPECT_EQ(sky.radiance[7], glm::vec3(1.0f, 1.0f, 200.0f / 128.0f));
     Bytes cut = packed;
     for (; cut.size() > 4; cut.pop_back())
-        if (cut.size() < packed.size())
+        if (cut.size() < packed.size()) {
             EXPECT_NE(error_of_sky(folder.write("cut.hdr", radiance_picture("-Y 1 +X 8", cut))), "")
                 << cut.size();
+        }
 }
 
 TEST(SkyFile, WhatIsNoLightIsBlackAndInfinityIsBright)
