@@ -130,7 +130,7 @@ double grazing_light_seen(Projection projection)
         {{.corner = {-1.0f, -1.0f, 0.0f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}},
          {.corner = {-1.0f, -1.0f, -0.5f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}},
          {.corner = {-1.0f, -1.0f, 1.0f}, .edge_u = {5, 0, 0}, .edge_v = {0, 2, 0}}});
-    EXPECT_EQ(find_occluders(place.scene).indices.size() / 3, 2u);
+    EXPECT_EQ(find_occluders(place.scene).inner_indices().size() / 3, 2u);
     const gpu::Device device;
     const World world(device, place.scene, place.lumels);
     std::mt19937 random(7);
