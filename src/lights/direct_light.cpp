@@ -42,6 +42,7 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
     double part = 0.0;
     const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
     ParallelLightOptions parallel{.side = parallel_side(device, world, lumels),
+                                  .points = options.sky_points,
                                   .seed = options.seed,
                                   .centre = options.centre};
     DirectLight light;
