@@ -99,9 +99,8 @@ ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t
                       const ParallelPose& pose)
 {
     const glm::mat3 frame = frame_about(pose.toward);
-    const glm::vec3 s = frame[0], t = frame[1];
-    const glm::vec3 right = std::cos(pose.turn) * s + std::sin(pose.turn) * t;
-    const glm::vec3 up = std::cos(pose.turn) * t - std::sin(pose.turn) * s;
+    const glm::vec3 right = std::cos(pose.turn) * frame[0] + std::sin(pose.turn) * frame[1];
+    const glm::vec3 up = std::cos(pose.turn) * frame[1] - std::sin(pose.turn) * frame[0];
 
     const Reach x = reach_along(right, low, high), y = reach_along(up, low, high);
     const Reach z = reach_along(pose.toward, low, high);
