@@ -58,6 +58,24 @@ TEST(SkyLight, OpenPlaneGetsPiTimesTheRadiance)
             EXPECT_NEAR(h[c], kPi * float(c + 1), 0.005f * kPi * float(c + 1));
 }
 
+TEST(SkyLight, OpenPlaneUnderAnUnevenSkyGetsItsIntegral)
+{
+    // A sky that darkens to the horizon and turns its colour, with a sun ten thousand times as
+    // bright.
+    support::HandMade plane = support::make_quads({floor_of(1.0f, 4)});
+    Sky& sky = plane.scene.sky;
+    sky.width = 256;
+    sky.height = 128;
+    for (int y = 0; y < sky.height; ++y)
+        for (int x = 0; x < sky.width; ++x)
+            sky.radiance.emplace_back(1.0f - float(y) / 128.0f, 0.5f, 0.2f + float(x) / 256.0f);
+    sky.radiance[std::size_t(40 * 256 + 30)] = glm::vec3(1e4f);
+    const glm::dvec3 truth = sky_irradiance(sky);
+    for (const glm::vec3& h : lit(plane))
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(double(h[c]), truth[c], 0.01 * truth[c]);
+}
+
 TEST(SkyLight, BesideAWallItsFormFactorIsMissing)
 {
     std::vector<support::Quad> quads{floor_of(1.0f, 16)};
@@ -211,6 +229,39 @@ TEST(SpotLight, FallsOffBetweenItsCones)
     }
     const double count = double(irradiance.size());
     EXPECT_LT(std::sqrt(square / count) / (sum / count), 0.01);
+}
+
+TEST(PointLight, WithAProfileLightsAFloorAsItSays)
+{
+    // 100 cd straight down, by the cosine to the sides, and twice as much towards +x as towards -x.
+    const float height = 2.0f;
+    support::HandMade plane = support::make_quads({floor_of(1.5f, 32)});
+    Photometry profile;
+    for (int azimuth = 0; azimuth < Photometry::kAzimuthSteps; ++azimuth)
+        for (int polar = 0; polar <= Photometry::kPolarSteps; ++polar) {
+            const float down = std::cos(kPi * float(polar) / float(Photometry::kPolarSteps));
+            const float turn = 2.0f * kPi * float(azimuth) / float(Photometry::kAzimuthSteps);
+            profile.candela.push_back(std::max(down, 0.0f) * (100.0f + 33.0f * std::cos(turn)));
+        }
+    plane.scene.profiles.push_back(profile);
+    PunctualLight lamp;
+    lamp.profile = 0;
+    // -z is down, +x stays.
+    lamp.transform =
+        glm::mat4(glm::vec4(1.0f, 0.0f, 0.0f, 0.0f), glm::vec4(0.0f, 0.0f, -1.0f, 0.0f),
+                  glm::vec4(0.0f, 1.0f, 0.0f, 0.0f), glm::vec4(0.0f, height, 0.0f, 1.0f));
+    plane.scene.lights.push_back(lamp);
+    const std::vector<glm::vec3> irradiance = lit(plane);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const glm::vec3 at = plane.lumels.lumels[i].position;
+        const float across = std::sqrt(at.x * at.x + at.z * at.z);
+        if (across < 0.3f)
+            continue;  // the azimuth changes much over lumels below the lamp
+        const float squared = height * height + across * across;
+        const float cosine = height / std::sqrt(squared);
+        const float truth = (100.0f + 33.0f * at.x / across) * cosine * cosine / squared;
+        EXPECT_NEAR(irradiance[i].x, truth, 0.005f * truth);
+    }
 }
 
 TEST(PointLight, RangeEndsTheLight)
