@@ -96,7 +96,7 @@ TEST(Bake, CtrlCWritesTheBestSolutionAndExits130)
 {
     const Workplace place;
     const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "2000000000"}),
-                                   {.interrupt_after = 3.0});
+                                   {.interrupt_at = "solving"});
     EXPECT_EQ(bake.code, 130) << bake.err;
     EXPECT_EQ(place.listing(), inside("out"));
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -44,8 +43,8 @@ Channel make_terminal()
     return channel;
 }
 
-/// Reads both ends until the program has closed them.
-void collect(int out, int err, Outcome& outcome)
+/// Reads both ends until the program has closed them; calls `on_output` after each piece.
+void collect(int out, int err, Outcome& outcome, const std::function<void()>& on_output)
 {
     std::array<pollfd, 2> ends = {pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}};
     std::array<char, 4096> buffer;
@@ -62,6 +61,7 @@ void collect(int out, int err, Outcome& outcome)
                 (&end == &ends[0] ? outcome.out : outcome.err)
                     .append(buffer.data(), static_cast<std::size_t>(count));
         }
+        on_output();
     }
 }
 
@@ -86,24 +86,22 @@ void collect(int out, int err, Outcome& outcome)
 Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& options)
 {
     const Channel out = make_pipe();
-    const Channel err = options.terminal ? make_terminal() : make_pipe();
+    const bool interrupts = !options.interrupt_at.empty();
+    const Channel err = options.terminal || interrupts ? make_terminal() : make_pipe();
     const pid_t child = fork();
     if (child == 0)
         become_lumel(arguments, out.theirs, err.theirs);
     close(out.theirs);
     close(err.theirs);
 
-    std::thread interrupter;
-    if (options.interrupt_after)
-        interrupter = std::thread([child, seconds = *options.interrupt_after] {
-            std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-            kill(child, SIGINT);
-        });
     Outcome outcome;
-    collect(out.ours, err.ours, outcome);
-    // Wait for the interrupter first: the child's number stays its own until it is reaped.
-    if (interrupter.joinable())
-        interrupter.join();
+    bool sent = false;
+    collect(out.ours, err.ours, outcome, [&] {
+        if (!interrupts || sent || outcome.err.find(options.interrupt_at) == std::string::npos)
+            return;
+        kill(child, SIGINT);
+        sent = true;
+    });
     int status = 0;
     waitpid(child, &status, 0);
     close(out.ours);

@@ -2,15 +2,14 @@
 // The built program as a user meets it: arguments in, exit code, stdout, stderr and files out.
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace lumel::test {
 
 struct RunOptions {
-    bool terminal = false;                    ///< stderr is a terminal of 100 columns
-    std::optional<double> interrupt_after{};  ///< send SIGINT after this long [s]
+    bool terminal = false;       ///< stderr is a terminal of 100 columns
+    std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
 };
 
 struct Outcome {

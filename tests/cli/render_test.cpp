@@ -55,15 +55,20 @@ TEST(Render, PrintsItsReportAsJson)
 TEST(Render, CtrlCWritesWhatThereIsAndExits130)
 {
     const Workplace place;
-    // While solving, while shooting for the eye, while following lobes, and while tracing paths.
+    struct Work {
+        std::string stage;
+        std::vector<std::string> options;
+    };
     const std::string endless = "2000000000";
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--shots", endless},
-          {"--shots", "64", "--eye-shots", endless},
-          {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"},
-          {"--paths", "1000000"}}) {
-        const Outcome outcome =
-            run_lumel(tiny_render(place.path("a.png"), more), {.interrupt_after = 3.0});
+    const std::vector<Work> works = {
+        {"solving", {"--shots", endless}},
+        {"shooting for the eye", {"--shots", "64", "--eye-shots", endless}},
+        {"following lobes", {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"}},
+        {"path tracing", {"--paths", "1000000"}},
+    };
+    for (const Work& work : works) {
+        const Outcome outcome = run_lumel(tiny_render(place.path("a.png"), work.options),
+                                          {.interrupt_at = work.stage});
         EXPECT_EQ(outcome.code, 130) << outcome.err;
         EXPECT_NE(outcome.out.find("stopped early"), std::string::npos);
         EXPECT_EQ(place.listing(), std::vector<std::string>{"a.png"});
