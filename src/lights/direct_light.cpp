@@ -15,7 +15,7 @@ std::vector<std::vector<ParallelSource>> parallel_sources(const Scene& scene,
     std::vector<std::vector<ParallelSource>> sources{
         sky_sources(scene.sky, options.sky_directions, options.seed)};
     for (const PunctualLight& light : scene.lights) {
-        if (light.kind != PunctualLight::Kind::directional || !(light.intensity > 0.0f))
+        if (light.kind != PunctualLight::Kind::directional || !shines(light))
             continue;
         const std::uint32_t count =
             light.angle > 0.0f ? options.disc_directions : options.sun_directions;

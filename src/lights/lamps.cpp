@@ -25,8 +25,6 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Between the keys of one lamp's random numbers and the next's.
 constexpr std::uint32_t kLampKeys = 977;
-/// Least difference of a cone's cosines that counts as soft (KHR_lights_punctual).
-constexpr float kLeastConeStep = 0.001f;
 /// Pixels of all hemicubes of a batch, which bounds its memory to 32 MiB.
 constexpr std::uint64_t kMostPixels = 8u << 20;
 
@@ -109,12 +107,6 @@ std::vector<Eye> in_channels(const std::vector<Eye>& eyes)
     return all;
 }
 
-bool shines(const PunctualLight& light)
-{
-    return light.kind != PunctualLight::Kind::directional && light.intensity > 0.0f &&
-           light.color != glm::vec3(0.0f);
-}
-
 std::vector<float> profiles_of(const Scene& scene)
 {
     std::vector<float> candela;
@@ -159,9 +151,7 @@ struct LampStage {
                                                       .first_eye = first,
                                                       .eyes = std::uint32_t(batch.size()),
                                                       .seed = options->seed,
-                                                      .centre = options->centre ? 1u : 0u,
-                                                      .polar_steps = Photometry::kPolarSteps,
-                                                      .azimuth_steps = Photometry::kAzimuthSteps};
+                                                      .centre = options->centre ? 1u : 0u};
                        commands.dispatch(receive,
                                          {world->lumels(),
                                           world->pieces(),
@@ -193,7 +183,7 @@ bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
     std::vector<Lamp> lamps;
     std::vector<std::vector<Eye>> eyes;
     for (const PunctualLight& lamp : scene.lights) {
-        if (!shines(lamp))
+        if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
             continue;
         const auto key = options.seed + kLampKeys * std::uint32_t(lamps.size());
         eyes.push_back(eyes_of(lamp, options, key));

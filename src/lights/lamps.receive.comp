@@ -1,5 +1,6 @@
 #version 460
 #include "lights/lamps.shared.h"
+#include "scene/photometry.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 
@@ -33,9 +34,11 @@ layout(binding = 6, scalar) buffer Sums { LightSums sums[]; };
 
 const float kPi = 3.14159265;
 
+// From here to range_window(): the twin of scene/photometry.cpp.
+
 float profile_value(uint profile, uint azimuth, uint polar)
 {
-    return candela[(profile * p.azimuth_steps + azimuth % p.azimuth_steps) * (p.polar_steps + 1u) +
+    return candela[(profile * kAzimuthSteps + azimuth % kAzimuthSteps) * (kPolarSteps + 1u) +
                    polar];
 }
 
@@ -43,10 +46,10 @@ float profile_value(uint profile, uint azimuth, uint polar)
 float profile_towards(Lamp lamp, vec3 way)
 {
     const float polar =
-        acos(clamp(-dot(way, lamp.z), -1.0, 1.0)) * (float(p.polar_steps) / kPi);
+        acos(clamp(-dot(way, lamp.z), -1.0, 1.0)) * (float(kPolarSteps) / kPi);
     const float turn = atan(dot(way, lamp.y), dot(way, lamp.x)) / (2.0 * kPi);
-    const float azimuth = fract(turn) * float(p.azimuth_steps);
-    const uint row = min(uint(polar), p.polar_steps - 1u), column = uint(azimuth);
+    const float azimuth = fract(turn) * float(kAzimuthSteps);
+    const uint row = min(uint(polar), kPolarSteps - 1u), column = uint(azimuth);
     const vec2 part = vec2(polar - float(row), azimuth - float(column));
     const float low = mix(profile_value(lamp.profile, column, row),
                           profile_value(lamp.profile, column, row + 1u), part.x);

@@ -33,9 +33,7 @@ struct LampReceiveParams {
     uint first_eye;  ///< of this batch among the lamp's
     uint eyes;       ///< K
     uint seed;
-    uint centre;       ///< 1: receive at the centroid
-    uint polar_steps;  ///< of profiles, see Photometry
-    uint azimuth_steps;
+    uint centre;  ///< 1: receive at the centroid
 };
 
 LUMEL_SHARED_END

@@ -26,13 +26,6 @@ layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 #include "visibility/first_met.glsl"
 #include "visibility/piece_along.glsl"
 
-float first_depth_along(ParallelLayout layout_, uint tile, RayMet ray)
-{
-    const vec2 corner =
-        vec2(tile % layout_.columns, tile / layout_.columns) * float(layout_.side);
-    return texelFetch(parallel_image, ivec2(corner + ray.pixel), 0).x;
-}
-
 void main()
 {
     const uint i = p.first + gl_GlobalInvocationID.x;
@@ -61,7 +54,8 @@ void main()
             continue;
         const vec3 known = open / ray.chance;
         sum.known += known;
-        if (is_first(piece, ray, first_depth_along(p.layout_, k, ray)))
+        const ivec2 place = ivec2(tile_corner(p.layout_, k)) + ivec2(ray.pixel);
+        if (is_first(piece, ray, texelFetch(parallel_image, place, 0).x))
             sum.arrived += known;
     }
     sums[i] = sum;

@@ -53,7 +53,7 @@ Ray draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine, cons
 Lamps::Lamps(const Scene& scene) : scene_(&scene)
 {
     for (const PunctualLight& light : scene.lights)
-        if (light.intensity > 0.0f && light.color != glm::vec3(0.0f))
+        if (shines(light))
             lamps_.push_back({.light = &light,
                               .position = glm::vec3(light.transform[3]),
                               .toward = glm::normalize(glm::vec3(light.transform[2]))});

@@ -22,10 +22,8 @@ glm::vec3 into_frame(const glm::mat4& transform, const glm::vec3& direction)
 /// KHR_lights_punctual's recommended falloff between the two cones.
 float cone(const PunctualLight& light, float cosine)
 {
-    // The extension's own guard against a division by zero.
-    constexpr float kLeastWidth = 0.001f;
     const float edge = std::cos(light.outer_cone);
-    const float width = std::max(kLeastWidth, std::cos(light.inner_cone) - edge);
+    const float width = std::max(kLeastConeStep, std::cos(light.inner_cone) - edge);
     const float share = std::clamp((cosine - edge) / width, 0.0f, 1.0f);
     return share * share;
 }
@@ -49,6 +47,11 @@ float candela_towards(const Photometry& profile, const glm::vec3& local)
 }
 
 }  // namespace
+
+bool shines(const PunctualLight& light)
+{
+    return light.intensity > 0.0f && light.color != glm::vec3(0.0f);
+}
 
 glm::vec3 intensity_towards(const Scene& scene, const PunctualLight& light,
                             const glm::vec3& direction)

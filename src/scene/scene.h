@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/photometry.shared.h"
 #include "scene/shininess.shared.h"
 #include "scene/sky.h"
 
@@ -95,8 +96,8 @@ struct PunctualLight {
 /// How a luminaire spreads its light: luminous intensity [cd] over directions, bilinear between
 /// the values. Polar angle 0 is the light's -z, azimuth 0 its +x, growing towards +y.
 struct Photometry {
-    static constexpr int kPolarSteps = 360;   ///< over 0…π
-    static constexpr int kAzimuthSteps = 72;  ///< over 0…2π
+    static constexpr int kPolarSteps = int(lumel::kPolarSteps);
+    static constexpr int kAzimuthSteps = int(lumel::kAzimuthSteps);
     std::string name;
     std::vector<float> candela;  ///< [kAzimuthSteps][kPolarSteps + 1]
 };
@@ -132,6 +133,9 @@ struct Scene {
 /// Reads glTF 2.0 (.gltf with its files, or .glb).
 /// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
 Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
+
+/// True if any light comes from it.
+bool shines(const PunctualLight& light);
 
 /// Luminous intensity [cd] of a point or spot light, colour and all, towards a unit direction in
 /// the world: its intensity, cone (KHR_lights_punctual) and profile. A profile's candela stand in

@@ -68,8 +68,7 @@ Seen see_by_chance(ParallelView view, uint tile, LumelPoint point)
     const vec2 per_pixel = vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre;
     const float per_nearness = dot(normal, view.toward) * pixels_per_metre /
                                (nearness_per_metre * nearness_per_metre);
-    const ivec2 corner = ivec2(tile % p.layout_.columns, tile / p.layout_.columns) *
-                         int(p.layout_.side);
+    const ivec2 corner = ivec2(tile_corner(p.layout_, tile));
     const int reach = int(p.neighbours), last = int(p.layout_.side) - 1;
     Seen seen = Seen(0u, 1.0);
     float first = 2.0;  // nearness of the nearest; all are below 1
@@ -112,9 +111,8 @@ uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
     const uint at = tile * p.count + i;
     if (p.keep == 0u)
         return kept[at];
-    const uvec2 corner = uvec2(tile % p.layout_.columns, tile / p.layout_.columns) * p.layout_.side;
-    const uvec2 fragment =
-        texelFetch(illumination_map, ivec2(corner) + ivec2(ray.pixel), 0).xy;
+    const ivec2 place = ivec2(tile_corner(p.layout_, tile)) + ivec2(ray.pixel);
+    const uvec2 fragment = texelFetch(illumination_map, place, 0).xy;
     if (fragment.x != 0u && !is_first(piece, ray, uintBitsToFloat(fragment.y))) {
         kept[at] = fragment.x;
         atomicMax(news, 1u);

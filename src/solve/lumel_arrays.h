@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "core/luminance.h"
 
 namespace lumel {
 
@@ -21,12 +22,6 @@ float reflecting_area(const Lumels& lumels);
 
 /// Σ A 𝓛(E) [lm]; emission [N] as of emission_of.
 double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission);
-
-/// Rec. 709.
-inline double luminance(const glm::vec3& c)
-{
-    return 0.2126 * double(c.r) + 0.7152 * double(c.g) + 0.0722 * double(c.b);
-}
 
 template <class T>
 std::span<const T> view(const std::vector<T>& values)

@@ -1,5 +1,11 @@
 // When a surface with alpha, or of glass, blocks. Needs core/hash.glsl and world/passage.shared.h.
 
+// What becomes of a view's light at a surface.
+struct Meeting {
+    bool there;    // it meets the surface
+    bool blocked;  // it meets it, or glass absorbs it
+};
+
 struct Opacity {
     float there;    // share of the light that meets the surface
     float blocked;  // the same and what glass absorbs
@@ -24,4 +30,14 @@ float chance_at(vec2 at, float depth, uint random)
     const uvec2 pixel = uvec2(at);
     const uint where = hash(pixel.x ^ hash(pixel.y ^ hash(floatBitsToUint(depth))));
     return unit_float(hash(where ^ random));
+}
+
+// `look`: where the base colour is read, and the factor of its alpha. `at` [pixels].
+Meeting meet(Passage passage, sampler2D base_color, vec3 look, uint channel, vec2 at, float depth,
+             uint random)
+{
+    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
+    const Opacity opacity = opacity_of(passage, base, channel);
+    const float chance = chance_at(at, depth, random);
+    return Meeting(chance < opacity.there, chance < opacity.blocked);
 }

@@ -13,9 +13,8 @@ layout(location = 0) in vec3 look;
 void main()
 {
     const Eye eye = eyes[p.eye];
-    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
-    const Opacity opacity = opacity_of(p.passage, base, eye.channel);
-    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, eye.random);
-    if (chance >= opacity.blocked)
+    const Meeting met = meet(p.passage, base_color, look, eye.channel, gl_FragCoord.xy,
+                             gl_FragCoord.z, eye.random);
+    if (!met.blocked)
         discard;
 }

@@ -43,10 +43,9 @@ void main()
         discard;
     const vec3 way = mat3(eye.tangent, eye.bitangent, eye.normal) * ray;
     const vec3 look = look_at(eye.position + way / nearness);
-    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
-    const Opacity opacity = opacity_of(p.passage, base, eye.channel);
-    const float chance = chance_at(gl_FragCoord.xy, depth, eye.random);
-    if (chance >= opacity.blocked)
+    const Meeting met = meet(p.passage, base_color, look, eye.channel, gl_FragCoord.xy,
+                             depth, eye.random);
+    if (!met.blocked)
         discard;
     gl_FragDepth = depth;
 }

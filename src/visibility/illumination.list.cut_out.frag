@@ -15,23 +15,16 @@ layout(binding = 3, scalar) writeonly buffer Fragments { Fragment fragments[]; }
 layout(binding = 4, scalar) buffer Count { FragmentCount total; };
 layout(location = 0) in vec2 place;
 
+#include "visibility/parallel.glsl"
+#include "visibility/illumination.list.glsl"
+
 void main()
 {
     const ParallelView view = views[p.view];
-    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
-    const Opacity opacity = opacity_of(p.passage, base, view.channel);
-    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
-    if (chance >= opacity.blocked)
+    const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy,
+                             gl_FragCoord.z, view.random);
+    if (!met.blocked)
         discard;
-    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
-    const uint index = atomicAdd(total.count, 1u);
-    if (index >= total.capacity) {
-        atomicMax(total.most, index + 1u);
-        return;
-    }
-    const uint side = p.layout_.side;
-    const uvec2 corner = uvec2(p.tile % p.layout_.columns, p.tile / p.layout_.columns) * side;
-    const uvec2 pixel = uvec2(gl_FragCoord.xy) - corner;
-    const uint head = (p.tile * side + pixel.y) * side + pixel.x;
-    fragments[index] = Fragment(surface, gl_FragCoord.z, atomicExchange(heads[head], index));
+    const uint surface = met.there ? surface_at(p, place) : kAbsorbing;
+    append(p, surface);
 }

@@ -17,12 +17,11 @@ layout(location = 0) out uvec2 fragment;
 void main()
 {
     const ParallelView view = views[p.view];
-    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
-    const Opacity opacity = opacity_of(p.passage, base, view.channel);
-    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
-    if (chance >= opacity.blocked ||
+    const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy,
+                             gl_FragCoord.z, view.random);
+    if (!met.blocked ||
         !lies_behind(p, texelFetch(before, ivec2(gl_FragCoord.xy), 0).xy))
         discard;
-    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
+    const uint surface = met.there ? surface_at(p, place) : kAbsorbing;
     fragment = uvec2(surface, floatBitsToUint(gl_FragCoord.z));
 }

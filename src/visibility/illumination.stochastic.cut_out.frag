@@ -3,6 +3,7 @@
 #include "core/hash.glsl"
 #include "visibility/alpha.glsl"
 #include "visibility/illumination.glsl"
+#include "visibility/illumination.stochastic.glsl"
 
 // illumination.stochastic.frag for surfaces with alpha.
 
@@ -16,15 +17,11 @@ layout(location = 0) out uvec2 fragment;
 void main()
 {
     const ParallelView view = views[p.view];
-    const vec4 base = textureLod(base_color, look.xy, 0.0) * vec4(vec3(1.0), look.z);
-    const Opacity opacity = opacity_of(p.passage, base, view.channel);
-    const float chance = chance_at(gl_FragCoord.xy, gl_FragCoord.z, view.random);
-    if (chance >= opacity.blocked)
+    const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy,
+                             gl_FragCoord.z, view.random);
+    if (!met.blocked)
         discard;
-    const uint surface = chance < opacity.there ? surface_at(p, place) : kAbsorbing;
+    const uint surface = met.there ? surface_at(p, place) : kAbsorbing;
     fragment = uvec2(surface, floatBitsToUint(gl_FragCoord.z));
-    const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
-    // 0 is the cleared depth, which is behind everything.
-    gl_FragDepth = 1.0 - unit_float(hash(here ^ view.random));
+    gl_FragDepth = random_depth(fragment, view.random);
 }

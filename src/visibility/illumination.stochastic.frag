@@ -2,6 +2,7 @@
 #include "visibility/illumination_maps.shared.h"
 #include "core/hash.glsl"
 #include "visibility/illumination.glsl"
+#include "visibility/illumination.stochastic.glsl"
 
 // A pixel of an illumination map with stochastic depths, [TN11] Figure 4: of all surfaces
 // on the pixel's ray the one with the largest random number stays.
@@ -14,8 +15,5 @@ layout(location = 0) out uvec2 fragment;
 void main()
 {
     fragment = uvec2(surface_at(p, place), floatBitsToUint(gl_FragCoord.z));
-    const uvec2 pixel = uvec2(gl_FragCoord.xy);
-    const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
-    // 0 is the cleared depth, which is behind everything.
-    gl_FragDepth = 1.0 - unit_float(hash(here ^ views[p.view].random));
+    gl_FragDepth = random_depth(fragment, views[p.view].random);
 }

@@ -1,5 +1,11 @@
 // Parallel views: where points fall.
 
+// The corner of a tile of the image [pixels].
+uvec2 tile_corner(ParallelLayout layout_, uint tile)
+{
+    return uvec2(tile % layout_.columns, tile / layout_.columns) * layout_.side;
+}
+
 vec2 place_in(ParallelView view, vec3 x)
 {
     return vec2(dot(view.right, x), dot(view.up, x)) + view.shift;

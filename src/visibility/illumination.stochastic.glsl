@@ -1,0 +1,10 @@
+// Stochastic depths [TN11]. Needs core/hash.glsl.
+
+// A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the cleared
+// depth, which is behind everything.
+float random_depth(uvec2 fragment, uint random)
+{
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
+    return 1.0 - unit_float(hash(here ^ random));
+}
