@@ -1,6 +1,6 @@
 // Stochastic depths [TN11]. Needs core/hash.glsl.
 
-// A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the cleared
+// A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the
 // depth, which is behind everything.
 float random_depth(uvec2 fragment, uint random)
 {

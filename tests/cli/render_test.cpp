@@ -67,8 +67,8 @@ TEST(Render, CtrlCWritesWhatThereIsAndExits130)
         {"path tracing", {"--paths", "1000000"}},
     };
     for (const Work& work : works) {
-        const Outcome outcome = run_lumel(tiny_render(place.path("a.png"), work.options),
-                                          {.interrupt_at = work.stage});
+        const Outcome outcome =
+            run_lumel(tiny_render(place.path("a.png"), work.options), {.interrupt_at = work.stage});
         EXPECT_EQ(outcome.code, 130) << outcome.err;
         EXPECT_NE(outcome.out.find("stopped early"), std::string::npos);
         EXPECT_EQ(place.listing(), std::vector<std::string>{"a.png"});
