@@ -5,6 +5,7 @@
 
 #include "solve/directions.h"
 #include "solve/glossy.h"
+#include "solve/progressive.h"
 #include "solve/stochastic.h"
 
 namespace lumel {
@@ -68,6 +69,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
 {
     if (options.method == "directions")
         return std::make_unique<GlobalDirections>(device, world, lumels, options);
+    if (options.method == "progressive")
+        return std::make_unique<ProgressiveRadiosity>(device, world, lumels, near, options);
     if (method_of(options.method).materials == MaterialModel::glossy)
         return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
     return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);

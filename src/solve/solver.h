@@ -13,6 +13,7 @@
 #include "nearfield/near_field.h"
 #include "reference/reference.h"
 #include "solve/glossy.shared.h"
+#include "solve/progressive.shared.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
 #include "visibility/illumination_maps.h"
@@ -90,6 +91,9 @@ inline constexpr MethodInfo kMethods[] = {
      MaterialModel::glossy, 3.0f, kMostGlossyBatch},
     {"directions", "Global directions with stochastic depth buffering", "[TN11]",
      "open scenes of diffuse surfaces with few small emissive lights"},
+    {"progressive", "Progressive refinement radiosity", "[CCWG88], [Hoef13]",
+     "small scenes of diffuse surfaces; what is corrected when things move",
+     MaterialModel::diffuse, 6.0f, kMostPatchBatch},
 };
 
 /// The method of that name. Throws Error{input} if there is none.

@@ -53,16 +53,23 @@ bool everywhere(const Lumel&)
     return true;
 }
 
-TEST(CornellBox, DefaultsAreWithinTwoPerCent)
+class EverySolver : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, EverySolver, testing::Values("stochastic", "progressive"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
 {
-    const LumelError error = cornell_error(support::solve_scene(cornell().world, {}));
+    const LumelError error =
+        cornell_error(support::solve_scene(cornell().world, {.method = GetParam()}));
     EXPECT_LE(error.rmse, 0.02);
     EXPECT_LE(std::abs(error.bias), 0.005);
 }
 
-TEST(CornellBox, ErrorOneHalfIsWithinOnePerCent)
+TEST_P(EverySolver, LightsTheCornellBoxWithinOnePerCentAtErrorOneHalf)
 {
-    const Solved solved = support::solve_scene(cornell().world, {.target_error = 0.005});
+    const Solved solved =
+        support::solve_scene(cornell().world, {.method = GetParam(), .target_error = 0.005});
     EXPECT_LE(cornell_error_alone(solved), 0.01);
     EXPECT_LE(cornell_error(solved).rmse, 0.0125);  // 0.9 % of it is the reference's noise
     EXPECT_LE(std::abs(cornell_error(solved).bias), 0.005);
@@ -172,11 +179,11 @@ TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
     }
 }
 
-TEST(TwoRooms, LightFindsTheDoorAndNothingElse)
+TEST_P(EverySolver, FindsTheDoorBetweenTwoRoomsAndNothingElse)
 {
     const Prepared world(support::scene_path("two-rooms"), AtlasOptions{.size = 128});
     const auto truth = path_traced(world, 4096);
-    const Solved solved = support::solve_scene(world, {});
+    const Solved solved = support::solve_scene(world, {.method = GetParam()});
     const auto in_room = [&](const char* prefix) {
         return support::lumel_error(
             world.lumels, solved.irradiance, truth, [&](const Lumel& lumel) {

@@ -10,18 +10,22 @@ namespace {
 using support::LumelError;
 using support::Solved;
 
+/// Solvers that are held to the same truths.
+const auto kEverySolver = testing::Values("stochastic", "progressive");
+const auto kMethodName = [](const auto& test) { return std::string(test.param); };
+
 /// Area-weighted mean of B = E + ρH over all channels, and the share of lumels within
 /// `tolerance` of `truth`.
 struct Glow {
     double mean = 0.0, share_within = 0.0;
 };
 
-Glow furnace_glow(const std::string& name, double truth, double tolerance,
-                  Projection projection = Projection::hemicube)
+Glow furnace_glow(const std::string& name, double truth, double tolerance, SolverOptions options)
 {
     const Prepared furnace(support::scene_path(name), AtlasOptions{.size = 64});
-    const Solved solved = support::solve_scene(
-        furnace, {.projection = projection, .max_shots = 16384, .target_error = 0.0});
+    options.max_shots = 16384;
+    options.target_error = 0.0;
+    const Solved solved = support::solve_scene(furnace, options);
     Glow glow;
     double area = 0.0, within = 0.0, count = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -36,23 +40,28 @@ Glow furnace_glow(const std::string& name, double truth, double tolerance,
     return {glow.mean / area, within / count};
 }
 
-TEST(Furnace, AlbedoOneHalfGlowsTwiceItsEmission)
+class Furnace : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, Furnace, kEverySolver, kMethodName);
+
+TEST_P(Furnace, AlbedoOneHalfGlowsTwiceItsEmission)
 {
-    const Glow glow = furnace_glow("furnace-0.5", 2.0, 0.03);
+    const Glow glow = furnace_glow("furnace-0.5", 2.0, 0.03, {.method = GetParam()});
     EXPECT_NEAR(glow.mean, 2.0, 0.005 * 2.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
 
-TEST(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
+TEST_P(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
 {
-    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05);
+    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, {.method = GetParam()});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
 
-TEST(Furnace, GlowsAlikeThroughHemispheres)
+TEST_P(Furnace, GlowsAlikeThroughHemispheres)
 {
-    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, Projection::hemisphere);
+    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05,
+                                   {.method = GetParam(), .projection = Projection::hemisphere});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
@@ -66,13 +75,14 @@ support::Quad dark_plate()
 }
 
 /// Relative RMSE on a dark unit plate at z = 0 lit by a unit plate of emission 1.
-double plate_error(const support::Quad& emitter,
+double plate_error(const std::string& method, const support::Quad& emitter,
                    const std::function<double(double x, double y)>& form_factor)
 {
     const support::HandMade plates = support::make_quads({dark_plate(), emitter});
     const RayScene rays(plates.scene);
-    const Solved solved = support::solve_scene(plates.scene, rays, plates.lumels,
-                                               {.max_shots = 4096, .target_error = 0.0});
+    const Solved solved =
+        support::solve_scene(plates.scene, rays, plates.lumels,
+                             {.method = method, .max_shots = 4096, .target_error = 0.0});
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -93,35 +103,43 @@ double plate_error(const support::Quad& emitter,
     return std::sqrt(square / count) / (sum / count);
 }
 
-TEST(Plates, FacingEachOtherMatchThePointFormFactor)
+class Plates : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, Plates, kEverySolver, kMethodName);
+
+TEST_P(Plates, FacingEachOtherMatchThePointFormFactor)
 {
     support::Quad emitter = dark_plate();
     emitter.corner = {0, 0, 1};
     emitter.edge_u = {0, 1, 0};
     emitter.edge_v = {1, 0, 0};
     emitter.emission = glm::vec3(1.0f);
-    EXPECT_LT(plate_error(emitter,
+    EXPECT_LT(plate_error(GetParam(), emitter,
                           [](double x, double y) {
                               return point_to_parallel_rectangle({-x, 1 - x}, {-y, 1 - y}, 1.0);
                           }),
               0.01);
 }
 
-TEST(Plates, MeetingAtARightAngleMatchThePointFormFactor)
+TEST_P(Plates, MeetingAtARightAngleMatchThePointFormFactor)
 {
     support::Quad emitter = dark_plate();
     emitter.edge_u = {0, 0, 1};
     emitter.edge_v = {1, 0, 0};
     emitter.emission = glm::vec3(1.0f);
-    EXPECT_LT(plate_error(emitter,
+    EXPECT_LT(plate_error(GetParam(), emitter,
                           [](double x, double y) {
                               return point_to_perpendicular_rectangle({-x, 1 - x}, {0, 1}, y);
                           }),
               0.01);
 }
 
+class GrazingLight : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, GrazingLight, kEverySolver, kMethodName);
+
 // A small lamp low above a long floor, which is drawn since something lies below it.
-TEST(GrazingLight, FromALowLampMatchesThePointFormFactor)
+TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
 {
     constexpr float kLength = 3.0f, kWidth = 0.25f;
     constexpr Span kLamp{0.03, 0.07};
@@ -143,8 +161,9 @@ TEST(GrazingLight, FromALowLampMatchesThePointFormFactor)
     lamp.res_v = 6;
     const support::HandMade place = support::make_quads({floor, below, lamp});
     const RayScene rays(place.scene);
-    const Solved solved = support::solve_scene(place.scene, rays, place.lumels,
-                                               {.max_shots = 4096, .target_error = 0.0});
+    const Solved solved =
+        support::solve_scene(place.scene, rays, place.lumels,
+                             {.method = GetParam(), .max_shots = 4096, .target_error = 0.0});
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -157,13 +176,17 @@ TEST(GrazingLight, FromALowLampMatchesThePointFormFactor)
         EXPECT_NEAR(arrived[metre] / truth[metre], 1.0, 0.01) << "from metre " << metre;
 }
 
-class SealedBox : public testing::TestWithParam<Projection> {};
+using Seen = std::tuple<const char*, Projection>;
+
+class SealedBox : public testing::TestWithParam<Seen> {};
 
 TEST_P(SealedBox, StaysExactlyDarkInside)
 {
+    const auto& [method, projection] = GetParam();
     const Prepared world(support::scene_path("sealed-box"), AtlasOptions{.size = 128});
     const Solved solved = support::solve_scene(
-        world, {.projection = GetParam(), .max_shots = 2048, .target_error = 0.0});
+        world,
+        {.method = method, .projection = projection, .max_shots = 2048, .target_error = 0.0});
     std::size_t inside = 0;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -180,16 +203,24 @@ TEST_P(SealedBox, StaysExactlyDarkInside)
     EXPECT_GT(brightest, 1.0f);
 }
 
-INSTANTIATE_TEST_SUITE_P(SeenBy, SealedBox,
-                         testing::Values(Projection::hemicube, Projection::hemisphere),
-                         [](const auto& test) {
-                             return std::string(test.param == Projection::hemicube ? "Hemicubes"
-                                                                                   : "Hemispheres");
-                         });
+std::string seen_name(const testing::TestParamInfo<Seen>& test)
+{
+    const auto& [method, projection] = test.param;
+    return std::string(method) + (projection == Projection::hemicube ? "Hemicubes" : "Hemispheres");
+}
+
+INSTANTIATE_TEST_SUITE_P(By, SealedBox,
+                         testing::Combine(kEverySolver, testing::Values(Projection::hemicube,
+                                                                        Projection::hemisphere)),
+                         seen_name);
+
+class PatchworkSphere : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, PatchworkSphere, kEverySolver, kMethodName);
 
 // Every point inside a sphere sees every other alike, so B_j = E_j + ρ_j ⟨E⟩ / (1 - ⟨ρ⟩) for any
 // pattern of emission and albedo: swapped indices cannot hide. A faceted ball comes close.
-TEST(PatchworkSphere, LightsAllPatchesAlike)
+TEST_P(PatchworkSphere, LightsAllPatchesAlike)
 {
     constexpr int rings = 24, around = 48;
     const auto point = [](int ring, int step) {
@@ -220,8 +251,9 @@ TEST(PatchworkSphere, LightsAllPatchesAlike)
         }
     const support::HandMade sphere = support::make_quads(quads);
     const RayScene rays(sphere.scene);
-    const Solved solved = support::solve_scene(sphere.scene, rays, sphere.lumels,
-                                               {.max_shots = 4096, .target_error = 0.0});
+    const Solved solved =
+        support::solve_scene(sphere.scene, rays, sphere.lumels,
+                             {.method = GetParam(), .max_shots = 4096, .target_error = 0.0});
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;

@@ -1,0 +1,24 @@
+#pragma once
+// Lumels grouped into the patches that shoot.
+//
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            Utrecht University, 2013. Section 4.3.
+
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "solve/patches.shared.h"
+
+namespace lumel {
+
+/// Elements receive, patches shoot (substructuring).
+struct Patches {
+    std::vector<Patch> patches;      ///< [P] of block levels, each chart's of a level in a row
+    std::vector<PatchChart> charts;  ///< [C] fronts and backs of a chart apart
+};
+
+/// Groups the lumels of each chart into blocks of texels. A block that is bent, or holds buried
+/// lumels and so may reach through a wall, falls apart into smaller ones.
+Patches make_patches(const Lumels& lumels);
+
+}  // namespace lumel

@@ -1,0 +1,50 @@
+#version 460
+#include "solve/progressive.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "solve/radiosity.glsl"
+
+// Every lumel takes its share of what the patches of a batch send [Hoef13] 4.3.2,
+// ReconstructionShader, for all of them at once:
+//
+//     H_i += Σ_k B_k A_k · V · cosθ_i cosθ_k / (π r²)                             Eq. (2.2.8)
+//
+// The receiving point is the same each time for a patch and a lumel, and another for the next
+// patch.
+
+layout(local_size_x = kProgressiveGroup) in;
+layout(push_constant, scalar) uniform Params { PatchReceiveParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(binding = 4) uniform sampler2D views;
+layout(binding = 5, scalar) readonly buffer Sending { vec3 sending[]; };
+layout(binding = 6, scalar) buffer Far { vec3 far[]; };
+
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "solve/patch_light.glsl"
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < p.shots; ++k) {
+        if (shots[k].count == 0u)
+            continue;
+        const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
+        const PatchReceiver r = PatchReceiver(x.position, x.normal, x.facing, lumel.position,
+                                              lumel.size, i);
+        const vec3 light = light_without_occluders(r, k, p.near_radius);
+        if (light != vec3(0.0) && is_seen(r, k, p.views))
+            sum += light;
+    }
+    far[i] += sum;
+}

@@ -1,0 +1,35 @@
+#version 460
+#include "solve/progressive.shared.h"
+#include "solve/figures.shared.h"
+#include "solve/radiosity.glsl"
+
+// Sums of light: what is still to be shot, what arrived, and what reflects it.
+
+layout(local_size_x = kSumGroup) in;
+layout(push_constant, scalar) uniform Params { ResidualParams p; };
+layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };
+layout(binding = 1, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 2, scalar) readonly buffer Far { vec3 far[]; };
+layout(binding = 3, scalar) readonly buffer Near { vec3 near[]; };
+layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
+layout(binding = 5, scalar) writeonly buffer Parts { Terms parts[]; };
+
+#include "solve/sum.glsl"
+#include "solve/unshot.glsl"
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    Terms terms;
+    for (uint c = 0u; c < kTermColumns; ++c)
+        terms.column[c] = vec4(0.0);
+    if (i < p.count) {
+        const float area = surface[i].a;
+        const vec3 arrived = far[i] + near[i];
+        terms.column[0] = area * vec4(abs(luminance(unshot_of(i))), luminance(arrived),
+                                      luminance(surface[i].rgb * arrived), 1.0);
+    }
+    const Terms sum = add_over_group(terms);
+    if (gl_LocalInvocationID.x == 0u)
+        parts[gl_WorkGroupID.x] = sum;
+}
