@@ -4,17 +4,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/luminance.h"
 #include "finish/finish.h"
 
 namespace lumel {
 namespace {
 
 constexpr float kLeastAlpha = 1.0f / 255.0f;
-
-double luminance(const glm::vec3& rgb)
-{
-    return 0.2126 * rgb.r + 0.7152 * rgb.g + 0.0722 * rgb.b;  // Rec. 709
-}
 
 // Area-weighted mean of the open lumels on one side of a chart.
 struct SideMean {

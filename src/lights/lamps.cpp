@@ -9,6 +9,7 @@
 
 #include "core/frame.h"
 #include "core/lattice.h"
+#include "core/sphere.h"
 #include "lights/lamps.shared.h"
 
 namespace lumel {
@@ -62,12 +63,6 @@ Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::
     const glm::mat3 frame = frame_about(normal);
     const glm::vec3 tangent = std::cos(turn) * frame[0] + std::sin(turn) * frame[1];
     return {position, tangent, glm::cross(normal, tangent), normal, random, kAllChannels};
-}
-
-glm::vec3 on_sphere(const glm::vec2& at)
-{
-    const float z = 1.0f - 2.0f * at.x, r = std::sqrt(std::max(1.0f - z * z, 0.0f));
-    return {r * std::cos(2.0f * kPi * at.y), r * std::sin(2.0f * kPi * at.y), z};
 }
 
 /// Where a lamp is looked from: points of its ball, or the lamp itself, turned differently each

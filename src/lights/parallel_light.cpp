@@ -17,6 +17,7 @@
 
 #include "core/frame.h"
 #include "core/lattice.h"
+#include "core/sphere.h"
 
 namespace lumel {
 namespace {
@@ -36,15 +37,6 @@ constexpr std::uint32_t kKeys = 8;
 
 /// Pixels of all views of a batch, which bounds its memory to 32 MiB.
 constexpr std::uint64_t kMostPixels = 8u << 20;
-
-/// A unit direction in even distribution over the cone of half angle `angle` about +z.
-glm::vec3 in_cone(const glm::vec2& at, float angle)
-{
-    const float half_sine = std::sin(0.5f * angle);
-    const float down = at.x * 2.0f * half_sine * half_sine;  // 1 - z
-    const float r = std::sqrt(std::max(down * (2.0f - down), 0.0f)), phi = 2.0f * kPi * at.y;
-    return {r * std::cos(phi), r * std::sin(phi), 1.0f - down};
-}
 
 ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t count,
                      std::uint32_t channel, const World& world, const ParallelLightOptions& options)

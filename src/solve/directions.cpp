@@ -17,7 +17,8 @@
 //   converge. With Scheme::paper the source follows the average after every batch.
 // - Maps name lumels, not colours, so that emission and reflected light are gathered apart.
 // - Layers::list keeps every surface of a pixel, and Layers::peel has one after the other
-//   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact.
+//   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
+//   in every batch, to read back one word: whether the last layer showed any lumel something new.
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 
@@ -25,9 +26,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <numbers>
 
+#include "core/sphere.h"
 #include "reference/samples.h"
 #include "solve/lumel_arrays.h"
 
@@ -50,14 +51,6 @@ constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
 /// Pixels of all maps of a batch, which bounds their memory.
 constexpr std::uint64_t kMostPixels = 4u << 20;
 
-/// Evenly over the sphere.
-glm::vec3 on_sphere(const glm::vec2& at)
-{
-    const float y = 1.0f - 2.0f * at.x, r = std::sqrt(std::max(1.0f - y * y, 0.0f));
-    const float turn = 2.0f * std::numbers::pi_v<float> * at.y;
-    return {r * std::cos(turn), y, r * std::sin(turn)};
-}
-
 std::uint32_t map_side(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const SolverOptions& options)
 {
@@ -70,6 +63,19 @@ std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side)
     const std::uint64_t fit = kMostPixels / (std::uint64_t(side) * side);
     return std::uint32_t(
         std::clamp<std::uint64_t>(fit, 1, std::uint64_t(std::max(options.batch, 1))));
+}
+
+IlluminationMaps maps_for(const gpu::Device& device, const World& world, const Lumels& lumels,
+                          const SolverOptions& options)
+{
+    const std::uint32_t side = map_side(device, world, lumels, options);
+    return {device,
+            world,
+            options.layers,
+            side,
+            wanted_batch(options, side),
+            std::uint32_t(lumels.width),
+            std::uint32_t(lumels.height)};
 }
 
 /// [texels][2]: front and back lumel of each texel.
@@ -92,9 +98,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
     : options_(options),
       device_(&device),
       world_(&world),
-      maps_(device, world, options.layers, map_side(device, world, lumels, options),
-            wanted_batch(options, map_side(device, world, lumels, options)),
-            std::uint32_t(lumels.width), std::uint32_t(lumels.height)),
+      maps_(maps_for(device, world, lumels, options)),
       batch_(std::bit_floor(maps_.capacity())),
       gather_(device, "directions.gather", kGatherSpirv, kGatherSlots, sizeof(GatherParams),
               kGatherGroup, std::uint32_t(options.layers)),
@@ -115,14 +119,15 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
 GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::uint32_t first) const
 {
     const bool with_sky = gathers_sky(options_);
+    // Channels take turns with one direction, so that each has a whole sequence of them.
+    const bool in_turn = world_->has_coloured_glass();
     std::vector<ParallelView> views;
     std::vector<GlobalDirection> directions;
     const std::uint32_t stream = PathSamples::hash(options_.seed, half);
     for (std::uint32_t i = first; i < first + kChunk; ++i) {
-        // Channels take turns with one direction, so that each has a whole sequence of them.
-        const bool in_turn = world_->has_coloured_glass();
         const PathSamples samples(stream, in_turn ? i / kChannels : i);
-        const glm::vec3 toward = on_sphere(samples.stratified(kDirectionPair));
+        const glm::vec3 way = on_sphere(samples.stratified(kDirectionPair));
+        const glm::vec3 toward(way.x, way.z, way.y);  // strata go from the zenith down
         const float turn = 2.0f * std::numbers::pi_v<float> * samples.random(kTurnPair).x;
         views.push_back(fit_view(world_->low(), world_->high(), maps_.layout().side,
                                  {.toward = toward,

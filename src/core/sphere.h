@@ -1,0 +1,31 @@
+#pragma once
+// Maps of the unit square to directions. All keep areas: even points give even directions.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/glm.hpp>
+
+namespace lumel {
+
+/// A unit direction, evenly spread over the sphere as `at` is over [0, 1)². at.x goes from +z down
+/// to -z, at.y once around.
+inline glm::vec3 on_sphere(const glm::vec2& at)
+{
+    const float z = 1.0f - 2.0f * at.x, r = std::sqrt(std::max(1.0f - z * z, 0.0f));
+    const float turn = 2.0f * std::numbers::pi_v<float> * at.y;
+    return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+/// The same over the cone of half angle `angle` [rad] about +z, exact for narrow ones too.
+inline glm::vec3 in_cone(const glm::vec2& at, float angle)
+{
+    const float half_sine = std::sin(0.5f * angle);
+    const float down = at.x * 2.0f * half_sine * half_sine;  // 1 - z
+    const float r = std::sqrt(std::max(down * (2.0f - down), 0.0f));
+    const float turn = 2.0f * std::numbers::pi_v<float> * at.y;
+    return {r * std::cos(turn), r * std::sin(turn), 1.0f - down};
+}
+
+}  // namespace lumel
