@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "visibility/tiles.h"
+
 namespace lumel {
 namespace {
 
@@ -44,14 +46,11 @@ constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
 constexpr gpu::Slot kHemisphereCutOutSlots[] = {
     gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
 
-struct Size {
-    std::uint32_t width, height;
-};
-
-Size tile_size(Projection projection, const EyeViewLayout& layout)
+Tiles tiles_of(Projection projection, const EyeViewLayout& layout)
 {
-    return projection == Projection::hemisphere ? Size{layout.side, layout.side}
-                                                : Size{2 * layout.side, 3 * layout.side / 2};
+    return projection == Projection::hemisphere
+               ? Tiles{layout.side, layout.side, layout.columns}
+               : Tiles{2 * layout.side, 3 * layout.side / 2, layout.columns};
 }
 
 EyeViewLayout make_layout(const gpu::Device& device, const World& world, Projection projection,
@@ -67,37 +66,14 @@ EyeViewLayout make_layout(const gpu::Device& device, const World& world, Project
     if (side < 2 || side % 2 != 0 || fit == 0)
         throw Error(ErrorKind::input, "--hemicube " + std::to_string(side),
                     "must be an even number of pixels that fits the device's images");
-    // About square, so that the image stays small in both directions.
-    std::uint32_t columns = 1;
-    while (columns * columns < capacity)
-        ++columns;
-    return {hemisphere ? 2 * side : side, std::min(columns, fit),
+    return {hemisphere ? 2 * side : side, tile_columns(capacity, fit),
             std::max(world.diagonal() * kNear, 1e-30f)};
-}
-
-std::uint32_t fitting(const gpu::Device& device, Projection projection, const EyeViewLayout& layout,
-                      std::uint32_t capacity)
-{
-    const std::uint32_t rows = device.max_image_side() / tile_size(projection, layout).height;
-    return std::min(capacity, layout.columns * rows);
-}
-
-std::uint32_t rows_of(const EyeViewLayout& layout, std::uint32_t count)
-{
-    return (count + layout.columns - 1) / layout.columns;
-}
-
-gpu::Area tile_area(Projection projection, const EyeViewLayout& layout, std::uint32_t eye)
-{
-    const Size tile = tile_size(projection, layout);
-    return {eye % layout.columns * tile.width, eye / layout.columns * tile.height, tile.width,
-            tile.height};
 }
 
 gpu::Area face_area(Projection projection, const EyeViewLayout& layout, std::uint32_t eye,
                     std::uint32_t face)
 {
-    const gpu::Area tile = tile_area(projection, layout, eye);
+    const gpu::Area tile = tiles_of(projection, layout).area(eye);
     if (projection == Projection::hemisphere)
         return tile;
     const std::uint32_t side = layout.side, half = side / 2;
@@ -157,7 +133,7 @@ gpu::Raster make_cut_out(const gpu::Device& device, Projection projection)
 std::uint64_t view_pixels(Projection projection, std::uint32_t side)
 {
     const bool hemisphere = projection == Projection::hemisphere;
-    const Size tile = tile_size(projection, {hemisphere ? 2 * side : side, 1, 0.0f});
+    const Tiles tile = tiles_of(projection, {hemisphere ? 2 * side : side, 1, 0.0f});
     return std::uint64_t(tile.width) * tile.height;
 }
 
@@ -171,16 +147,15 @@ EyeViews::EyeViews(const gpu::Device& device, const World& world, Projection pro
     : world_(&world),
       projection_(projection),
       layout_(make_layout(device, world, projection, side, capacity)),
+      capacity_(tiles_of(projection, layout_).fitting(capacity, device.max_image_side())),
       radius_(0.5f * float(layout_.side)),
       chord_(longest_chord(radius_)),
-      image_(device, gpu::Pixel::depth, layout_.columns * tile_size(projection_, layout_).width,
-             rows_of(layout_, fitting(device, projection, layout_, capacity)) *
-                 tile_size(projection_, layout_).height),
+      image_(device, gpu::Pixel::depth, tiles_of(projection, layout_).image_width(),
+             tiles_of(projection, layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       opaque_(make_opaque(device, projection)),
       cut_out_(make_cut_out(device, projection))
 {
-    capacity_ = fitting(device, projection, layout_, capacity);
 }
 
 std::uint32_t EyeViews::faces_per_eye() const
@@ -190,7 +165,7 @@ std::uint32_t EyeViews::faces_per_eye() const
 
 LookParams EyeViews::look_params(std::uint32_t eye, std::uint32_t face) const
 {
-    const gpu::Area tile = tile_area(projection_, layout_, eye);
+    const gpu::Area tile = tiles_of(projection_, layout_).area(eye);
     return {.eye = eye,
             .face = face,
             .near = layout_.near,
@@ -234,7 +209,7 @@ void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
 
 void EyeViews::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)
 {
-    const std::uint32_t height = rows_of(layout_, count) * tile_size(projection_, layout_).height;
+    const std::uint32_t height = tiles_of(projection_, layout_).image_height(count);
     commands.begin_pass(nullptr, image_, {0, 0, image_.width(), height});
     draw_faces(commands, eyes, 0, count * faces_per_eye());
     commands.end_pass();

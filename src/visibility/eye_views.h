@@ -60,8 +60,8 @@ private:
 
     const World* world_;
     Projection projection_;
-    std::uint32_t capacity_;
     EyeViewLayout layout_;
+    std::uint32_t capacity_;
     float radius_;  ///< of a hemisphere's disc [pixels]
     float chord_;   ///< longest_chord(radius_) [rad]
     gpu::Target image_;

@@ -112,15 +112,16 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
     : world_(&world),
       layers_(layers),
       layout_(tile_layout(device, side, listable(device, layers, side, capacity))),
-      capacity_(tiles_that_fit(device, layout_, listable(device, layers, side, capacity))),
+      capacity_(tiles_of(layout_).fitting(listable(device, layers, side, capacity),
+                                          device.max_image_side())),
       width_(width),
       height_(height),
-      image_(device, gpu::Pixel::rg32u, lists() ? 1 : layout_.columns * side,
-             lists() ? 1 : tile_rows(layout_, capacity_) * side),
+      image_(device, gpu::Pixel::rg32u, lists() ? 1 : tiles_of(layout_).image_width(),
+             lists() ? 1 : tiles_of(layout_).image_height(capacity_)),
       odd_image_(device, gpu::Pixel::rg32u, peels() ? image_.width() : 1,
                  peels() ? image_.height() : 1),
-      depth_(device, gpu::Pixel::depth, layout_.columns * side,
-             tile_rows(layout_, capacity_) * side),
+      depth_(device, gpu::Pixel::depth, tiles_of(layout_).image_width(),
+             tiles_of(layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       heads_(device, lists() ? std::size_t(side) * side * capacity_ : 0),
       fragments_(device, room_for(device, layers, layout_, capacity_).capacity),
@@ -144,7 +145,7 @@ void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelVi
     };
     const gpu::Binding before{image(params.layer + 1), sampler_};
     commands.begin_pass(lists() ? nullptr : &image(params.layer), depth_,
-                        tile_area(layout_, params.tile));
+                        tiles_of(layout_).area(params.tile));
     if (world_->opaque().index_count > 0) {
         if (lists())
             commands.use(opaque_, {views, heads_, fragments_, count_},

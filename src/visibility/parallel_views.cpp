@@ -56,28 +56,12 @@ Reach reach_along(const glm::vec3& axis, const glm::vec3& low, const glm::vec3& 
 
 ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity)
 {
-    const std::uint32_t fit = std::max(device.max_image_side() / side, 1u);
-    std::uint32_t columns = 1;
-    while (columns * columns < capacity)
-        ++columns;
-    return {side, std::min(columns, fit)};
+    return {side, tile_columns(capacity, std::max(device.max_image_side() / side, 1u))};
 }
 
-std::uint32_t tiles_that_fit(const gpu::Device& device, const ParallelLayout& layout,
-                             std::uint32_t capacity)
+Tiles tiles_of(const ParallelLayout& layout)
 {
-    return std::min(capacity, layout.columns * std::max(device.max_image_side() / layout.side, 1u));
-}
-
-std::uint32_t tile_rows(const ParallelLayout& layout, std::uint32_t count)
-{
-    return (count + layout.columns - 1) / layout.columns;
-}
-
-gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t view)
-{
-    return {view % layout.columns * layout.side, view / layout.columns * layout.side, layout.side,
-            layout.side};
+    return {layout.side, layout.side, layout.columns};
 }
 
 std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels)
@@ -121,9 +105,9 @@ ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std:
                              std::uint32_t capacity)
     : world_(&world),
       layout_(tile_layout(device, side, capacity)),
-      capacity_(tiles_that_fit(device, layout_, capacity)),
-      image_(device, gpu::Pixel::depth, layout_.columns * side,
-             tile_rows(layout_, capacity_) * side),
+      capacity_(tiles_of(layout_).fitting(capacity, device.max_image_side())),
+      image_(device, gpu::Pixel::depth, tiles_of(layout_).image_width(),
+             tiles_of(layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       opaque_(device, "parallel",
               {.vertex = kVertexSpirv,
@@ -148,7 +132,7 @@ void ParallelViews::draw(gpu::Commands& commands, const gpu::Array<ParallelView>
         commands.draw(ParallelLookParams{layout_, view, passage},
                       {range.first_index, range.index_count});
     };
-    commands.begin_pass(nullptr, image_, tile_area(layout_, tile));
+    commands.begin_pass(nullptr, image_, tiles_of(layout_).area(tile));
     if (world_->opaque().index_count > 0) {
         commands.use(opaque_, {views}, {{&vertices}, &indices});
         draw_range(world_->opaque(), {});

@@ -5,6 +5,7 @@
 
 #include "gpu/pacer.h"
 #include "visibility/parallel_views.shared.h"
+#include "visibility/tiles.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -26,12 +27,9 @@ ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t
 std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels);
 
 /// How tiles of that side lie in an image, about square, that holds `capacity` of them if it may be
-/// so large; how many then fit it; the rows that `count` take; and where a tile lies.
+/// so large.
 ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity);
-std::uint32_t tiles_that_fit(const gpu::Device& device, const ParallelLayout& layout,
-                             std::uint32_t capacity);
-std::uint32_t tile_rows(const ParallelLayout& layout, std::uint32_t count);
-gpu::Area tile_area(const ParallelLayout& layout, std::uint32_t tile);
+Tiles tiles_of(const ParallelLayout& layout);
 
 /// Depth images of what `capacity` directions see, side by side in one image. A kernel asks them
 /// through visibility/piece_along.glsl and first_met.glsl.
