@@ -99,6 +99,7 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
 World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
              const Occluders& occluders)
     : device_(&device),
+      sky_(&scene.sky),
       placements_(placements_of(scene)),
       placement_array_(device, std::span<const Placement>(placements_)),
       local_lumels_(device, std::span<const Lumel>(lumels.lumels)),
@@ -118,7 +119,6 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
                       kPlaceGroup)
 {
     const Box box = box_of(scene);
-    sky_ = scene.sky;
     low_ = box.low;
     high_ = box.high;
     for (const CutOut& cut_out : occluders.cut_outs) {

@@ -27,7 +27,8 @@ struct CutOutDraw {
 /// Local data stays; placed data (in the world) follows the instances' transforms.
 class World {
 public:
-    /// `atlas`: which the lumels were lifted from; null where no one asks where vertices are in it.
+    /// The world looks at the scene's sky for as long as it lives. `atlas`: which the lumels were
+    /// lifted from; null where no one asks where vertices are in it.
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Atlas* atlas = nullptr);
 
@@ -43,7 +44,7 @@ public:
     bool has_coloured_glass() const { return coloured_glass_; }
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
     glm::vec3 high() const { return high_; }
-    const Sky& sky() const { return sky_; }
+    const Sky& sky() const { return *sky_; }
     float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
 
 private:
@@ -52,6 +53,7 @@ private:
     void place(std::span<const glm::mat4> transforms);
 
     const gpu::Device* device_;
+    const Sky* sky_;
     std::vector<Placement> placements_;
     gpu::Array<Placement> placement_array_;
     gpu::Array<Lumel> local_lumels_, lumels_;
@@ -66,7 +68,6 @@ private:
     bool coloured_glass_ = false;
     gpu::Kernel place_lumels_, place_vertices_;
     glm::vec3 low_{0.0f}, high_{0.0f};
-    Sky sky_;
 
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Occluders& occluders);
