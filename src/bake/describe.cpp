@@ -48,7 +48,7 @@ std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
                               const BakeOptions& options)
 {
     const std::uint64_t lumels = world.lumels.lumels.size();
-    constexpr std::uint64_t vectors_per_lumel = 15;  // the vec3 arrays of StochasticRadiosity
+    constexpr std::uint64_t vectors_per_lumel = 15;  // Iteration's vec3 arrays
     std::uint64_t bytes = lumels * (2 * sizeof(Lumel) + sizeof(glm::vec4) +
                                     vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float));
     bytes += world.lumels.pieces.size() * 2 * sizeof(Piece);

@@ -11,8 +11,8 @@
 //
 // Its colour is the chromaticity of [PSS99] for turbidity 2.5: x and y have Perez' form
 //
-//     F(Z, χ) = (1 + A exp(B / cos Z)) (1 + C exp(D χ) + E cos²χ),    x = x_zenith F(Z, χ) / F(0,
-//     Z_sun)
+//     F(Z, χ) = (1 + A exp(B / cos Z)) (1 + C exp(D χ) + E cos²χ)
+//     x = x_zenith F(Z, χ) / F(0, Z_sun)
 
 #include "scene/clear_sky.h"
 
