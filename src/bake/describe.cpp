@@ -1,5 +1,6 @@
 // lumel info: what is in a scene and what a bake would take.
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -44,20 +45,32 @@ std::uint64_t directional_memory(std::uint64_t lumels, const BakeOptions& option
            near_field_memory(lumels) + view_memory(options.solver);
 }
 
+/// What the solver holds, and after it gather_directional().
+std::uint64_t solver_memory(std::uint64_t lumels, const BakeOptions& options)
+{
+    constexpr std::uint64_t vectors_per_lumel = 15;  // Iteration's vec3 arrays
+    return lumels *
+               (sizeof(glm::vec4) + vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float)) +
+           view_memory(options.solver) + near_field_memory(lumels) +
+           directional_memory(lumels, options);
+}
+
+std::uint64_t world_memory(const Prepared& world, const Occluders& occluders)
+{
+    return world.lumels.lumels.size() * 2 * sizeof(Lumel) +
+           world.lumels.pieces.size() * 2 * sizeof(Piece) +
+           occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t)) +
+           occluders.indices.size() * sizeof(std::uint32_t);
+}
+
+/// Direct light is found before the solver is made.
 std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
                               const BakeOptions& options)
 {
-    const std::uint64_t lumels = world.lumels.lumels.size();
-    constexpr std::uint64_t vectors_per_lumel = 15;  // Iteration's vec3 arrays
-    std::uint64_t bytes = lumels * (2 * sizeof(Lumel) + sizeof(glm::vec4) +
-                                    vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float));
-    bytes += world.lumels.pieces.size() * 2 * sizeof(Piece);
-    bytes += occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t));
-    bytes += occluders.indices.size() * sizeof(std::uint32_t);
-    bytes += view_memory(options.solver);
-    bytes += near_field_memory(lumels);
-    bytes += directional_memory(lumels, options);
-    return bytes;
+    const float diagonal = glm::length(world.rays.high() - world.rays.low());
+    return world_memory(world, occluders) +
+           std::max(direct_light_bytes(world.scene, world.lumels, diagonal),
+                    solver_memory(world.lumels.lumels.size(), options));
 }
 
 std::size_t triangle_count(const Scene& scene)

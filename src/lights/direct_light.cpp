@@ -8,6 +8,11 @@
 namespace lumel {
 namespace {
 
+bool is_parallel(const PunctualLight& light)
+{
+    return light.kind == PunctualLight::Kind::directional;
+}
+
 /// The directions of each source of parallel light.
 std::vector<std::vector<ParallelSource>> parallel_sources(const Scene& scene,
                                                           const DirectLightOptions& options)
@@ -15,7 +20,7 @@ std::vector<std::vector<ParallelSource>> parallel_sources(const Scene& scene,
     std::vector<std::vector<ParallelSource>> sources{
         sky_sources(scene.sky, options.sky_directions, options.seed)};
     for (const PunctualLight& light : scene.lights) {
-        if (light.kind != PunctualLight::Kind::directional || !shines(light))
+        if (!is_parallel(light) || !shines(light))
             continue;
         const std::uint32_t count =
             light.angle > 0.0f ? options.disc_directions : options.sun_directions;
@@ -31,33 +36,43 @@ bool has_lights(const Scene& scene)
     return !scene.sky.empty() || !scene.lights.empty();
 }
 
+std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float diagonal)
+{
+    std::uint64_t pixels = 0;
+    if (!scene.sky.empty() || std::any_of(scene.lights.begin(), scene.lights.end(), is_parallel))
+        pixels = parallel_light_pixels({.side = parallel_side(lumels, diagonal)});
+    if (!std::all_of(scene.lights.begin(), scene.lights.end(), is_parallel))
+        pixels = std::max(pixels, lamp_pixels({}));
+    const std::uint64_t sums = has_lights(scene) ? SummedLight::bytes(lumels.lumels.size()) : 0;
+    return sums + pixels * sizeof(float);
+}
+
 DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
                          const Lumels& lumels, const DirectLightOptions& options,
                          const std::function<bool(double)>& go_on)
 {
     SummedLight summed(device, lumels.lumels.size());
-    gpu::Pacer pacer(device);
     const std::vector<std::vector<ParallelSource>> sources = parallel_sources(scene, options);
     const double parts = double(sources.size()) + 1.0;  // the lamps are one
     double part = 0.0;
     const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
-    ParallelLightOptions parallel{.side = parallel_side(device, world, lumels),
-                                  .points = options.sky_points,
-                                  .seed = options.seed,
-                                  .centre = options.centre};
+    ParallelLightOptions parallel{
+        .side = parallel_side(lumels, world.diagonal(), device.max_image_side()),
+        .points = options.sky_points,
+        .seed = options.seed,
+        .centre = options.centre};
     DirectLight light;
     for (const std::vector<ParallelSource>& directions : sources) {
-        light.finished = light.finished && add_parallel_light(pacer, device, world, directions,
-                                                              parallel, summed, told);
+        light.finished =
+            light.finished && add_parallel_light(device, world, directions, parallel, summed, told);
         parallel.points = options.sun_points;  // the sky is the first source
         part += 1.0;
     }
     light.finished =
-        light.finished && add_lamps(pacer, device, world, scene,
+        light.finished && add_lamps(device, world, scene,
                                     {.seed = options.seed, .centre = options.centre}, summed, told);
-    pacer.finish();
     light.irradiance = summed.irradiance();
-    light.times = pacer.times();
+    light.times = summed.times();
     return light;
 }
 

@@ -26,14 +26,18 @@ struct DirectLightOptions {
 struct DirectLight {
     std::vector<glm::vec3> irradiance;  ///< [N] [lx]
     gpu::StageTimes times;              ///< on the device [ms]
-    bool finished = true;               ///< false: stopped by the caller
+    bool finished = true;               ///< false: stopped by the caller, light is missing
 };
 
 /// True if the scene has a source that is no surface.
 bool has_lights(const Scene& scene);
 
+/// Bytes on the device that direct_light() holds beside the world, on one whose images may be as
+/// large as is wanted. diagonal: of the scene's bounding box [m].
+std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float diagonal);
+
 /// Direct light of the scene's sky and lights. `go_on` is given the fraction done and returns false
-/// to stop.
+/// to stop; what has been found by then is returned.
 DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
                          const Lumels& lumels, const DirectLightOptions& options,
                          const std::function<bool(double)>& go_on = {});

@@ -26,8 +26,6 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Between the keys of one lamp's random numbers and the next's.
 constexpr std::uint32_t kLampKeys = 977;
-/// Pixels of all hemicubes of a batch, which bounds its memory to 32 MiB.
-constexpr std::uint64_t kMostPixels = 8u << 20;
 
 /// Does it take two hemicubes to see all that the light shines on?
 bool has_halves(const PunctualLight& light)
@@ -110,6 +108,13 @@ std::vector<float> profiles_of(const Scene& scene)
     return candela;
 }
 
+/// Eyes that look at a time.
+std::uint32_t batch_of(const LampOptions& options)
+{
+    return std::uint32_t(std::max<std::uint64_t>(
+        kMostLightPixels / view_pixels(Projection::hemicube, options.hemicube), 1));
+}
+
 /// What lamps take turns with.
 struct LampStage {
     LampStage(const gpu::Device& on, const World& in, const Scene& scene,
@@ -123,12 +128,6 @@ struct LampStage {
           receive(on, "lamps.receive", kReceiveSpirv, kReceiveSlots, sizeof(LampReceiveParams),
                   kLampGroup, std::uint32_t(Projection::hemicube))
     {
-    }
-
-    static std::uint32_t batch_of(const LampOptions& given)
-    {
-        return std::uint32_t(std::max<std::uint64_t>(
-            kMostPixels / view_pixels(Projection::hemicube, given.hemicube), 1));
     }
 
     /// Adds the light of some of a lamp's eyes. first: of them among the lamp's.
@@ -171,7 +170,12 @@ struct LampStage {
 
 }  // namespace
 
-bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world, const Scene& scene,
+std::uint64_t lamp_pixels(const LampOptions& options)
+{
+    return batch_of(options) * view_pixels(Projection::hemicube, options.hemicube);
+}
+
+bool add_lamps(const gpu::Device& device, const World& world, const Scene& scene,
                const LampOptions& options, SummedLight& light,
                const std::function<bool(double)>& go_on)
 {
@@ -192,6 +196,7 @@ bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
     if (lamps.empty())
         return true;
     LampStage stage(device, world, scene, lamps, options);
+    gpu::Pacer pacer(device);  // after all that its work uses: it waits when it ends
     bool going = true;
     for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
         const std::span<const Eye> all(eyes[lamp]);
@@ -205,7 +210,7 @@ bool add_lamps(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
         }
         light.finish_source(pacer);
     }
-    pacer.finish();
+    light.finish(pacer);
     return going;
 }
 

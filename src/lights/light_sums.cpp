@@ -28,4 +28,11 @@ void SummedLight::finish_source(gpu::Pacer& pacer)
     });
 }
 
+void SummedLight::finish(gpu::Pacer& pacer)
+{
+    pacer.finish();
+    for (const auto& [kind, ms] : pacer.times())
+        times_[kind] += ms;
+}
+
 }  // namespace lumel

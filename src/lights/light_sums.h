@@ -8,23 +8,37 @@
 
 namespace lumel {
 
+/// Pixels of all views that a source is looked at through at a time: bounds them to 32 MiB.
+inline constexpr std::uint64_t kMostLightPixels = 8u << 20;
+
 /// Sums of the source at work, and of all before it. A kernel adds to sums().
 class SummedLight {
 public:
     SummedLight(const gpu::Device& device, std::size_t lumels);
+
+    /// Bytes on the device.
+    static std::uint64_t bytes(std::size_t lumels)
+    {
+        return lumels * (sizeof(LightSums) + sizeof(glm::vec3));
+    }
 
     std::uint32_t lumels() const { return std::uint32_t(irradiance_.size()); }
     const gpu::Array<LightSums>& sums() const { return sums_; }
 
     /// Ends a source.
     void finish_source(gpu::Pacer& pacer);
-    /// H [N] [lx] of all sources that have ended. The pacer must have finished.
+    /// Finishes, and keeps what the work took.
+    void finish(gpu::Pacer& pacer);
+    /// Device time per kind of work [ms], of all pacers that have finished.
+    const gpu::StageTimes& times() const { return times_; }
+    /// H [N] [lx] of all sources that have ended. Their pacers must have finished.
     std::vector<glm::vec3> irradiance() const { return irradiance_.download(); }
 
 private:
     gpu::Array<LightSums> sums_;
     gpu::Array<glm::vec3> irradiance_;
     gpu::Kernel finish_;
+    gpu::StageTimes times_;
 };
 
 }  // namespace lumel

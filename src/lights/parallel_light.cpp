@@ -35,8 +35,15 @@ constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4
 /// Keys of one seed.
 constexpr std::uint32_t kKeys = 8;
 
-/// Pixels of all views of a batch, which bounds its memory to 32 MiB.
-constexpr std::uint64_t kMostPixels = 8u << 20;
+/// Views that are drawn at a time at most, however small.
+constexpr std::uint64_t kMostViews = 64;
+
+/// Views that are drawn at a time.
+std::uint32_t batch_of(const ParallelLightOptions& options)
+{
+    const std::uint64_t fit = kMostLightPixels / (std::uint64_t(options.side) * options.side);
+    return std::uint32_t(std::clamp<std::uint64_t>(fit, 1, kMostViews));
+}
 
 ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t count,
                      std::uint32_t channel, const World& world, const ParallelLightOptions& options)
@@ -110,7 +117,12 @@ std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_
     return sources;
 }
 
-bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
+std::uint64_t parallel_light_pixels(const ParallelLightOptions& options)
+{
+    return std::uint64_t(batch_of(options)) * options.side * options.side;
+}
+
+bool add_parallel_light(const gpu::Device& device, const World& world,
                         const std::vector<ParallelSource>& sources,
                         const ParallelLightOptions& options, SummedLight& light,
                         const std::function<bool(double)>& go_on)
@@ -120,11 +132,10 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
     const std::vector<ParallelView> views = views_of(sources, world, options);
     const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
     const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
-    const std::uint64_t fit = kMostPixels / (std::uint64_t(options.side) * options.side);
-    ParallelViews images(device, world, options.side,
-                         std::uint32_t(std::clamp<std::uint64_t>(fit, 1, 64)));
+    ParallelViews images(device, world, options.side, batch_of(options));
     const gpu::Kernel receive(device, "parallel_light.receive", kReceiveSpirv, kReceiveSlots,
                               sizeof(ParallelReceiveParams), kParallelGroup);
+    gpu::Pacer pacer(device);  // after all that its work uses: it waits when it ends
 
     const auto total = std::uint32_t(views.size());
     const auto views_per_source = std::uint32_t(views.size() / sources.size());
@@ -155,7 +166,7 @@ bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const Worl
         going = go_on(double(begin + count) / double(total));
     }
     light.finish_source(pacer);
-    pacer.finish();
+    light.finish(pacer);
     return going;
 }
 

@@ -30,9 +30,12 @@ struct ParallelLightOptions {
 
 /// Adds to `light` what these directions send straight to the lumels, as one source. `go_on` is
 /// given the fraction done and returns false to stop. Returns false if it was stopped.
-bool add_parallel_light(gpu::Pacer& pacer, const gpu::Device& device, const World& world,
+bool add_parallel_light(const gpu::Device& device, const World& world,
                         const std::vector<ParallelSource>& sources,
                         const ParallelLightOptions& options, SummedLight& light,
                         const std::function<bool(double)>& go_on);
+
+/// Pixels of the views that it looks through at a time.
+std::uint64_t parallel_light_pixels(const ParallelLightOptions& options);
 
 }  // namespace lumel

@@ -55,7 +55,7 @@ std::uint32_t map_side(const gpu::Device& device, const World& world, const Lume
                        const SolverOptions& options)
 {
     return options.map_side > 0 ? std::uint32_t(options.map_side)
-                                : parallel_side(device, world, lumels);
+                                : parallel_side(lumels, world.diagonal(), device.max_image_side());
 }
 
 std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/frame.h"
 
@@ -64,7 +63,7 @@ Tiles tiles_of(const ParallelLayout& layout)
     return {layout.side, layout.side, layout.columns};
 }
 
-std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels)
+std::uint32_t parallel_side(const Lumels& lumels, float diagonal, std::uint32_t most)
 {
     std::vector<float> sizes;
     for (const Lumel& lumel : lumels.lumels)
@@ -74,9 +73,9 @@ std::uint32_t parallel_side(const gpu::Device& device, const World& world, const
         return kLeastSide;
     const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
     std::nth_element(sizes.begin(), median, sizes.end());
-    const float pixels = kPixelsPerLumel * world.diagonal() / std::max(*median, 1e-30f);
-    const std::uint32_t most = std::min(kMostSide, device.max_image_side());
-    return std::clamp(std::uint32_t(std::min(pixels, float(most))), kLeastSide, most);
+    const float pixels = kPixelsPerLumel * diagonal / std::max(*median, 1e-30f);
+    const std::uint32_t largest = std::min(kMostSide, most);
+    return std::clamp(std::uint32_t(std::min(pixels, float(largest))), kLeastSide, largest);
 }
 
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,

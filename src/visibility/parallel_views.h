@@ -2,6 +2,7 @@
 // look_along: what a direction sees of the whole scene, as depth, by parallel projection.
 
 #include <cstdint>
+#include <limits>
 
 #include "gpu/pacer.h"
 #include "visibility/parallel_views.shared.h"
@@ -23,8 +24,10 @@ struct ParallelPose {
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose);
 
-/// The side of parallel views that shows typical lumels a few pixels wide.
-std::uint32_t parallel_side(const gpu::Device& device, const World& world, const Lumels& lumels);
+/// The side of parallel views that shows typical lumels a few pixels wide. diagonal: of the scene's
+/// bounding box [m]; most: side that the device's images may have [pixels].
+std::uint32_t parallel_side(const Lumels& lumels, float diagonal,
+                            std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
 
 /// How tiles of that side lie in an image, about square, that holds `capacity` of them if it may be
 /// so large.

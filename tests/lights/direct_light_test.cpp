@@ -2,6 +2,8 @@
 
 #include "lights/direct_light.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
@@ -378,6 +380,31 @@ INSTANTIATE_TEST_SUITE_P(
                     Panes{{half_there()}, {0.5, 0.5, 0.5}},
                     Panes{{glass({1.0f, 0.8f, 0.5f}), glass({0.5f, 1.0f, 0.8f})}, {0.5, 0.8, 0.4}},
                     Panes{{glass({1.0f, 1.0f, 0.6f}), half_there()}, {0.5, 0.5, 0.3}}));
+
+/// Ends direct light by an exception, as soon as it has got that far.
+void throw_at(double fraction, const support::HandMade& made)
+{
+    const gpu::Device device;
+    const World world(device, made.scene, made.lumels);
+    EXPECT_THROW(direct_light(device, world, made.scene, made.lumels, {},
+                              [&](double done) -> bool {
+                                  if (done >= fraction)
+                                      throw std::runtime_error("enough");
+                                  return true;
+                              }),
+                 std::runtime_error);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(DirectLight, MayBeEndedByAnException)
+{
+    support::HandMade scene = support::make_quads({floor_of(1.0f, 64)});
+    scene.scene.sky = constant_sky(glm::vec3(1.0f));
+    throw_at(0.3, scene);  // of the sky and the lamps, in this order
+    scene.scene.lights.push_back({.kind = PunctualLight::Kind::point, .radius = 0.1f});
+    scene.scene.lights[0].transform[3] = glm::vec4(0.0f, 1.0f, 0.0f, 1.0f);
+    throw_at(0.6, scene);
+}
 
 }  // namespace
 }  // namespace lumel
