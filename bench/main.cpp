@@ -53,8 +53,8 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"area", "centre"}));
     app.add_option("--batch", settings.solver.batch, "shooters per iteration")
         ->capture_default_str();
-    app.add_option("--layers", layers, "of --solver directions: list or stochastic")
-        ->check(CLI::IsMember({"list", "stochastic"}));
+    app.add_option("--layers", layers, "of --solver directions: list, peel or stochastic")
+        ->check(CLI::IsMember({"list", "peel", "stochastic"}));
     app.add_option("--lookups", settings.solver.lookups, "with stochastic layers: 1, 3 or 5 wide")
         ->capture_default_str();
     app.add_option("--map-side", settings.solver.map_side,
@@ -76,7 +76,9 @@ int main(int argc, char** argv)
     CLI11_PARSE(app, argc, argv);
     settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
     settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
-    settings.solver.layers = layers == "stochastic" ? Layers::stochastic : Layers::list;
+    settings.solver.layers = layers == "stochastic" ? Layers::stochastic
+                             : layers == "peel"     ? Layers::peel
+                                                    : Layers::list;
     settings.solver.projection =
         projection == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
     try {

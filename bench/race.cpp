@@ -81,17 +81,14 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
     return rows;
 }
 
-/// What sky and lamps send straight to the lumels [N] [lx].
+/// What sky and lamps send straight to the lumels [N] [lx]; empty if there are none.
 std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& device,
                                 const World& world, const Prepared& prepared)
 {
     if (!has_lights(prepared.scene))
-        return std::vector<glm::vec3>(prepared.lumels.lumels.size(), glm::vec3(0.0f));
-    return direct_light(
-               device, world, prepared.scene, prepared.lumels,
-               {.sky_directions = gathers_sky(settings.solver) ? 0 : settings.sky_directions,
-                .seed = settings.solver.seed,
-                .centre = settings.solver.rule == SampleRule::centre})
+        return {};
+    return direct_light(device, world, prepared.scene, prepared.lumels,
+                        direct_light_options(settings.solver, settings.sky_directions))
         .irradiance;
 }
 
@@ -115,21 +112,17 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     print_head();
     Stopwatch watch;
     watch.start();
-    NearFieldOptions near_options = near_field_options(settings.solver);
-    if (settings.near_radius > 0.0f)
-        near_options.radius = settings.near_radius;
-    const NearField near =
-        settings.solver.method == "directions"
-            ? NearField{}
-            : build_near_field(world.scene, world.rays, world.lumels, near_options);
+    const NearField near = near_field_for(world.scene, world.rays, world.lumels, settings.solver,
+                                          settings.near_radius);
     const World gpu_world(device, world.scene, world.lumels, &world.atlas);
     watch.stop();
     fmt::print("# near field: {} pairs; set-up {:.2f} cpu-s\n", near.column.size(), watch.cpu);
     watch.start();
     const double before = watch.cpu;
     const std::vector<glm::vec3> direct = light_of(settings, device, gpu_world, world);
-    const Lumels lumels = shining(world.lumels, direct);
-    const auto solver = make_solver(device, gpu_world, lumels, near, settings.solver);
+    const std::optional<Lumels> lit = shining(world.lumels, direct);
+    const auto solver =
+        make_solver(device, gpu_world, lit ? *lit : world.lumels, near, settings.solver);
     watch.stop();
     fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);
     std::vector<Row> rows;

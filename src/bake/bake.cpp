@@ -57,14 +57,16 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
 
+    const bool stopped = stages.stopped();
     stages.begin("finishing");
-    Results results{.shots = solved.shots,
-                    .iterations = solved.iterations,
-                    .error = solved.error,
-                    .interrupted = !run.finished,
-                    .near_pairs = setting.near.column.size(),
-                    .curve = std::move(run.curve),
-                    .directional = std::move(directional)};
+    const Results results{.shots = solved.shots,
+                          .iterations = solved.iterations,
+                          .error = solved.error,
+                          .interrupted = stopped,
+                          .near_pairs = setting.near.column.size(),
+                          .curve = std::move(run.curve),
+                          .lamps = std::move(solution->lamps),
+                          .directional = std::move(directional)};
     return write_bake(output, options, setting.world, device, *solution->solver,
                       solution->irradiance, results, stages);
 }

@@ -22,54 +22,24 @@ Lumels dark(Lumels lumels)
 }
 
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
-                              const SolverOptions& options, Lumels lumels, Stages& stages)
+                              const SolverOptions& options, std::optional<Lumels> changed,
+                              Stages& stages)
 {
     auto solution = std::make_unique<Solution>();
-    solution->lumels = std::move(lumels);
-    solution->solver =
-        make_solver(device, setting.resident, solution->lumels, setting.near, options);
+    solution->lumels = std::move(changed);
+    const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
+    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options);
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
     return solution;
 }
 
-}  // namespace
-
-std::vector<glm::vec3> light_of_lamps(const gpu::Device& device, const Setting& setting,
-                                      const BakeOptions& options, Stages& stages)
-{
-    const Scene& scene = setting.world.scene;
-    const Lumels& lumels = setting.world.lumels;
-    if (!has_lights(scene))
-        return std::vector<glm::vec3>(lumels.lumels.size(), glm::vec3(0.0f));
-    stages.begin("sky and lamps");
-    return direct_light(device, setting.resident, scene, lumels,
-                        {.sky_directions = gathers_sky(options.solver) ? 0 : options.sky_directions,
-                         .seed = options.solver.seed,
-                         .centre = options.solver.rule == SampleRule::centre},
-                        [&](double fraction) { return stages.tell(fraction); })
-        .irradiance;
-}
-
-Lumels shining(const Lumels& lumels, const std::vector<glm::vec3>& light)
-{
-    Lumels result = lumels;
-    for (std::size_t i = 0; i < light.size(); ++i)
-        result.lumels[i].emission += result.lumels[i].albedo * light[i];
-    return result;
-}
-
-void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more)
-{
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += more[i];
-}
-
-std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
-                                      const BakeOptions& options, Stages& stages)
+/// direct: [N] [lx] of sky and lamps, or empty.
+std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& setting,
+                                      const BakeOptions& options,
+                                      const std::vector<glm::vec3>& direct, Stages& stages)
 {
     const Lumels& lumels = setting.world.lumels;
-    std::vector<glm::vec3> direct = light_of_lamps(device, setting, options, stages);
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), stages);
@@ -83,6 +53,52 @@ std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& 
     SolverOptions onward = options.solver;
     onward.sky = false;
     return run(device, setting, onward, shining(dark(lumels), first->irradiance), stages);
+}
+
+}  // namespace
+
+DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32_t sky_directions)
+{
+    return {.sky_directions = gathers_sky(solver) ? 0 : sky_directions,
+            .seed = solver.seed,
+            .centre = solver.rule == SampleRule::centre};
+}
+
+DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
+                           const BakeOptions& options, Stages& stages)
+{
+    if (!has_lights(setting.world.scene))
+        return {};
+    stages.begin("sky and lamps");
+    return direct_light(device, setting.resident, setting.world.scene, setting.world.lumels,
+                        direct_light_options(options.solver, options.sky_directions),
+                        [&](double fraction) { return stages.tell(fraction); });
+}
+
+std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light)
+{
+    if (light.empty())
+        return {};
+    Lumels result = lumels;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        result.lumels[i].emission += result.lumels[i].albedo * light[i];
+    return result;
+}
+
+void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more)
+{
+    for (std::size_t i = 0; i < more.size(); ++i)
+        sum[i] += more[i];
+}
+
+std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
+                                      const BakeOptions& options, Stages& stages)
+{
+    DirectLight lamps = light_of_lamps(device, setting, options, stages);
+    std::unique_ptr<Solution> solution =
+        solve_parts(device, setting, options, lamps.irradiance, stages);
+    solution->lamps = std::move(lamps);
+    return solution;
 }
 
 }  // namespace lumel

@@ -2,26 +2,32 @@
 // A scene's light: from sky and lamps straight to the lumels, and from there on by a solver.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bake/setting.h"
 
 namespace lumel {
 
-/// Sky and lamps' direct light [N] [lx], as the stage "sky and lamps"; 0 if there are none. Without
-/// the sky for a solver that gathers it.
-std::vector<glm::vec3> light_of_lamps(const gpu::Device& device, const Setting& setting,
-                                      const BakeOptions& options, Stages& stages);
+/// The direct light that suits a solver: without the sky if the solver gathers that.
+DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32_t sky_directions);
 
-/// Lumels that send on, beside their own light, what they reflect of `light` [N] [lx].
-Lumels shining(const Lumels& lumels, const std::vector<glm::vec3>& light);
+/// Sky and lamps' direct light, as the stage "sky and lamps"; empty if there are none.
+DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
+                           const BakeOptions& options, Stages& stages);
 
-/// Adds `more` [N] [lx] to `sum`.
+/// Lumels that send on, beside their own light, what they reflect of `light` [N] [lx]. None if that
+/// is empty: then they stay as they are.
+std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light);
+
+/// Adds `more` [N] [lx] to `sum`; nothing if it is empty.
 void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more);
 
 /// A solver that has run, and what came of it.
 struct Solution {
-    Lumels lumels;  ///< the solver's: it reads them while it lives
+    DirectLight lamps;  ///< of sky and lamps
+    std::optional<Lumels>
+        lumels;  ///< the solver's, which it reads while it lives; none: the world's
     std::unique_ptr<Solver> solver;
     SolveRun run;
     std::vector<glm::vec3> irradiance;  ///< [N] [lx] of the parts asked for
@@ -29,7 +35,9 @@ struct Solution {
 
 /// Solves for the parts of the light that options.parts asks for. Emissive surfaces' direct light
 /// is what the solver finds where nothing reflects; what all direct light leaves on the surfaces is
-/// then what indirect light starts from.
+/// then what indirect light starts from. So indirect light takes two solves, and its first bounce
+/// is diffuse whatever the method. One solve would not do: its sums do not keep apart what emissive
+/// surfaces send and what lamps leave on the surfaces.
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages);
 

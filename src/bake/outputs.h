@@ -21,6 +21,7 @@ struct Results {
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;
+    DirectLight lamps;             ///< of sky and lamps
     DirectionalLight directional;  ///< empty if not asked for
 };
 

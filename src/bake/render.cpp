@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "bake/lighting.h"
 #include "bake/report.h"
@@ -167,15 +168,16 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const Prepared& world = setting.world;
     const View view = view_for(world.scene, world.rays, options);
     check_size(device, options);
-    const std::vector<glm::vec3> lamps = light_of_lamps(device, setting, options.bake, stages);
-    const Lumels lumels = shining(world.lumels, lamps);
-    GlossyIllumination solver(device, setting.resident, lumels, setting.near, options.bake.solver);
+    DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
+    const std::optional<Lumels> lumels = shining(world.lumels, lamps.irradiance);
+    GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
+                              setting.near, options.bake.solver);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
-    add_light(irradiance, lamps);
+    add_light(irradiance, lamps.irradiance);
     const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
@@ -192,7 +194,8 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
                           .error = solved.error,
                           .interrupted = stages.stopped(),
                           .near_pairs = setting.near.column.size(),
-                          .curve = std::move(run.curve)};
+                          .curve = std::move(run.curve),
+                          .lamps = std::move(lamps)};
     return {std::move(image), picture_report(options, world, device, solver, results, stages)};
 }
 

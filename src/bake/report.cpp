@@ -90,6 +90,13 @@ void append(Settings& settings, const Settings& more)
     settings.insert(settings.end(), more.begin(), more.end());
 }
 
+/// Adds what stages took on the device, their names after `before`.
+void add_times(Report& report, const std::string& before, const gpu::StageTimes& times)
+{
+    for (const auto& [stage, ms] : times)
+        report.gpu_milliseconds.emplace_back(before + stage, std::vector<double>{ms});
+}
+
 /// What all solvers have to say, whatever is made of the solution.
 Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
               const Solver& solver, const Results& results, const Stages& stages)
@@ -108,8 +115,11 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     report.estimated_error = results.error;
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
-    for (const auto& [stage, ms] : solver.times())
-        report.gpu_milliseconds.emplace_back(stage, std::vector<double>{ms});
+    if (!results.lamps.finished)
+        report.notes.emplace_back(
+            "stopped before all light of sky and lamps was found; some of it is missing");
+    add_times(report, "sky and lamps: ", results.lamps.times);
+    add_times(report, "", solver.times());
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
     report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
@@ -136,8 +146,7 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     report.settings.emplace_back("half", options.half ? "true" : "false");
     report.settings.emplace_back("directional", text_of(options.directional));
     report.directional_shots = results.directional.shots;
-    for (const auto& [stage, ms] : results.directional.times)
-        report.gpu_milliseconds.emplace_back("directional: " + stage, std::vector<double>{ms});
+    add_times(report, "directional: ", results.directional.times);
     report.files = {"lightmap.exr", "lightmap.png", "scene.glb", "scene-baked.glb", "report.json"};
     if (options.preview_width > 0)
         report.files.emplace_back("preview.png");

@@ -35,12 +35,15 @@ NearFieldOptions near_field_options(const SolverOptions& options)
 }
 
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
-                         const SolverOptions& options)
+                         const SolverOptions& options, float radius)
 {
     // Along global directions no pair is too close.
     if (options.scheme == Scheme::paper || options.method == "directions")
         return {};
-    return build_near_field(scene, rays, lumels, near_field_options(options));
+    NearFieldOptions near = near_field_options(options);
+    if (radius > 0.0f)
+        near.radius = radius;
+    return build_near_field(scene, rays, lumels, near);
 }
 
 const MethodInfo& method_of(const std::string& id)

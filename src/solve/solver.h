@@ -108,9 +108,10 @@ bool gathers_sky(const SolverOptions& options);
 /// The near field that suits the options: finer where a smaller error is asked for.
 NearFieldOptions near_field_options(const SolverOptions& options);
 
-/// Builds it; empty for schemes without a near field.
+/// Builds it; empty for methods and schemes without a near field. radius:
+/// NearFieldOptions::radius; 0: as suits the method.
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
-                         const SolverOptions& options);
+                         const SolverOptions& options, float radius = 0.0f);
 
 /// Throws Error{input} if options.method is not in the table or cannot take options.batch. `near`
 /// may be empty for methods and schemes without a near field.

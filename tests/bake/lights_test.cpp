@@ -55,7 +55,7 @@ std::vector<glm::vec3> reflected_light(const Prepared& city, const DirectLight& 
                                        const gpu::Device& device, const World& resident,
                                        const std::string& method)
 {
-    const Lumels lit = shining(city.lumels, direct.irradiance);
+    const Lumels lit = shining(city.lumels, direct.irradiance).value();
     const SolverOptions options{.method = method, .max_shots = 2048, .target_error = 0.0};
     const NearField near = near_field_for(city.scene, city.rays, lit, options);
     const auto solver = make_solver(device, resident, lit, near, options);

@@ -101,6 +101,31 @@ TEST(Bake, CtrlCWritesTheBestSolutionAndExits130)
     EXPECT_EQ(place.listing(), inside("out"));
 }
 
+TEST(Bake, CtrlCUnderTheSkyLeavesANoteThatLightIsMissing)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "64", "--sky", "1,1,1",
+                                                                  "--sky-directions", "1000000"}),
+                                   {.interrupt_at = "sky and lamps"});
+    EXPECT_EQ(bake.code, 130) << bake.err;
+    const auto report = nlohmann::json::parse(bytes_of(place.path("out/report.json")));
+    EXPECT_EQ(report["solution"]["interrupted"], true);
+    ASSERT_FALSE(report["notes"].empty());
+    EXPECT_NE(report["notes"].back().get<std::string>().find("sky and lamps"), std::string::npos);
+}
+
+TEST(Bake, TheReportSaysWhatSkyAndLampsTookOnTheDevice)
+{
+    const Workplace place;
+    const Outcome bake =
+        run_lumel(small_bake(place.path("out"), {"--shots", "64", "--sky", "1,1,1", "--json"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    const auto report = nlohmann::json::parse(bake.out, nullptr, false);
+    const auto& times = report["timings"]["gpu"];
+    ASSERT_TRUE(times.contains("sky and lamps: look along")) << times;
+    EXPECT_GT(times["sky and lamps: look along"]["total_ms"], 0.0);
+}
+
 TEST(Bake, StopsAtTheTimeGiven)
 {
     const Workplace place;
@@ -186,19 +211,29 @@ TEST(Info, SaysWhatABakeWouldTakeAndWritesNothing)
     EXPECT_FALSE(nlohmann::json::parse(json.out, nullptr, false).is_discarded()) << json.out;
 }
 
+/// What a bake of the Cornell box takes, as info has it [bytes].
+std::uint64_t memory(std::vector<std::string> options)
+{
+    options.insert(options.begin(),
+                   {"info", own_scene("cornell-box.gltf"), "--size", "32", "--json"});
+    const Outcome outcome = run_lumel(options);
+    return nlohmann::json::parse(outcome.out, nullptr, false)
+        .value("graphics_memory_bytes", std::uint64_t(0));
+}
+
 TEST(Info, CountsTheMemoryOfDirectionalLightmaps)
 {
-    const auto memory = [](std::vector<std::string> options) {
-        options.insert(options.begin(),
-                       {"info", own_scene("cornell-box.gltf"), "--size", "32", "--json"});
-        const Outcome outcome = run_lumel(options);
-        return nlohmann::json::parse(outcome.out, nullptr, false)
-            .value("graphics_memory_bytes", std::uint64_t(0));
-    };
     const std::uint64_t plain = memory({}), sh1 = memory({"--directional", "sh1"});
     EXPECT_GT(plain, 0u);
     EXPECT_GT(sh1, plain);
     EXPECT_GT(memory({"--directional", "sh2"}), sh1);
+}
+
+TEST(Info, CountsTheMemoryOfDirectLight)
+{
+    // Views of shooters so small that those of the sky are what takes most.
+    const std::uint64_t dark = memory({"--hemicube", "16"});
+    EXPECT_GT(memory({"--hemicube", "16", "--sky", "1,1,1"}), dark);
 }
 
 TEST(Devices, ListsAtLeastOneThatCanBeUsed)
