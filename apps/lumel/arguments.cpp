@@ -417,6 +417,18 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& compare)
     return command;
 }
 
+/// Throws for options that would do nothing.
+void check_map_options(const CLI::App& command, const SolverOptions& solver)
+{
+    const auto require = [&](const char* option, bool used, const char* with) {
+        if (command.count(option) > 0 && !used)
+            throw Error(ErrorKind::input, option, std::string("does nothing without ") + with);
+    };
+    for (const char* option : {"--layers", "--lookups", "--map-side"})
+        require(option, solver.method == "directions", "--solver directions");
+    require("--lookups", solver.layers == Layers::stochastic, "--layers stochastic");
+}
+
 /// What CLI11 did not accept, as one sentence.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error)
 {
@@ -468,8 +480,10 @@ Arguments parse_arguments(int count, char** values)
         throw Error(ErrorKind::input, "", complaint(app, error));
     }
 
-    if (bake_command.parsed())
+    if (bake_command.parsed()) {
+        check_map_options(bake_command, bake.options.solver);
         return bake;
+    }
     if (render_command.parsed())
         return render;
     if (reference_command.parsed())
