@@ -7,6 +7,7 @@
 
 #include "../support/box_lumels.h"
 #include "../support/lamps.h"
+#include "../support/welch.h"
 #include "reference/reference.h"
 #include "reference/reference_image.h"
 
@@ -288,30 +289,6 @@ TEST(Lights, NoSkyAndNoLampShinesIntoAClosedRoom)
         EXPECT_EQ(H, glm::vec3(0.0f));
 }
 
-/// Mean over lumels of how many standard errors two solutions differ, squared: 1 if both have the
-/// same mean.
-double distance_in_noise(const std::vector<HandMade>& scenes)
-{
-    constexpr int kRuns = 8;
-    const std::size_t count = scenes[0].lumels.lumels.size();
-    std::vector<glm::dvec2> mean(count), square(count);
-    for (std::uint32_t run = 0; run < 2 * kRuns; ++run) {
-        const auto irradiance = solve(scenes[run % 2], 1024, Parts::all, 100 + run);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double H = irradiance[i].x;
-            mean[i][run % 2] += H / kRuns;
-            square[i][run % 2] += H * H / kRuns;
-        }
-    }
-    double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 variance = (square[i] - mean[i] * mean[i]) / double(kRuns - 1);
-        const double t = (mean[i].x - mean[i].y) / std::sqrt(variance.x + variance.y);
-        squares += t * t / double(count);
-    }
-    return squares;
-}
-
 TEST(Lights, ASkyMetByChanceAndOneThatRaysAreAimedAtLightARoomAlike)
 {
     // A dot outside the view of the opening is what makes rays aim; it lights nothing itself.
@@ -320,7 +297,10 @@ TEST(Lights, ASkyMetByChanceAndOneThatRaysAreAimedAtLightARoomAlike)
     HandMade aimed = chance;
     const std::size_t below = 14 * 32 + 3;
     aimed.scene.sky.radiance[below] = glm::vec3(1e3f);
-    const double squares = distance_in_noise({chance, aimed});
+    const double squares =
+        support::mean_square(support::welch_t([&](int group, std::uint32_t seed) {
+            return solve(group == 0 ? chance : aimed, 1024, Parts::all, seed);
+        }));
     EXPECT_GT(squares, 0.6);
     EXPECT_LT(squares, 1.9);
 }

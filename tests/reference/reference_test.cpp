@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
+#include "../support/welch.h"
 #include "reference/closed_forms.h"
 
 namespace lumel {
@@ -225,28 +226,14 @@ TEST(Reference, OneSeedGivesTheSameBytesAndAnotherSeedOthers)
 
 TEST(Reference, SeedsAgreeWithinTheirNoise)
 {
-    // Welch's t between the means of two groups of runs: with 2 (n - 1) degrees of freedom the
-    // mean square is 7/6 for n = 8, and a bias of the sampling would raise it.
-    constexpr int kRuns = 8;
     const HandMade made = lamp_room(1.0f);
-    const std::size_t count = made.lumels.lumels.size();
-    std::vector<glm::dvec2> mean(count), square(count);
-    for (std::uint32_t run = 0; run < 2 * kRuns; ++run) {
+    const std::vector<double> t = support::welch_t([&](int group, std::uint32_t seed) {
         // The groups take different numbers of samples, which an unbiased mean ignores.
-        const auto irradiance = solve(made, run % 2 ? 12 : 64, SampleRule::area, 100 + run);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double H = irradiance[i].x;
-            mean[i][run % 2] += H / kRuns;
-            square[i][run % 2] += H * H / kRuns;
-        }
-    }
-    double squares = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::dvec2 variance = (square[i] - mean[i] * mean[i]) / double(kRuns - 1);
-        const double t = (mean[i].x - mean[i].y) / std::sqrt(variance.x + variance.y);
-        EXPECT_LT(std::abs(t), 8.0) << "lumel " << i;
-        squares += t * t / double(count);
-    }
+        return solve(made, group == 0 ? 64 : 12, SampleRule::area, seed);
+    });
+    for (std::size_t i = 0; i < t.size(); ++i)
+        EXPECT_LT(std::abs(t[i]), 8.0) << "lumel " << i;
+    const double squares = support::mean_square(t);
     EXPECT_GT(squares, 0.8);
     EXPECT_LT(squares, 1.6);
 }
