@@ -7,9 +7,9 @@
 // cursor stands is kept from batch to batch, so that nothing is read back.
 //
 // Dynamic shooter subdivision, section 4.3.3: a chart is shot at the coarsest level at which no
-// patch sends more than a set part of all light. It keeps its level, so that what it shot can be taken back
-// exactly. When it becomes too bright for its level, all it shot is taken back and shot anew at a
-// finer one.
+// patch sends more than a set part of all light. It keeps its level, so that what it shot can be
+// taken back exactly. When it becomes too bright for its level, all it shot is taken back and shot
+// anew at a finer one.
 //
 // The light that is still to arrive, spread evenly, is the ambient term of [CCWG88] section 4; how
 // much of what is shot arrives, and is reflected, is taken from what was shot so far.

@@ -5,7 +5,7 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kProgressiveGroup = 64u;
-LUMEL_CONST uint kMostPatchBatch = 64u;   ///< K at most
+LUMEL_CONST uint kMostPatchBatch = 64u;  ///< K at most
 LUMEL_CONST uint kNoPatch = 0xffffffffu;
 LUMEL_CONST uint kNoLevel = 0xffffffffu;  ///< of a chart that never shot
 
@@ -42,13 +42,13 @@ struct ChartLight {
 
 /// The energy side of a shooter; its Eye is the geometric side.
 struct PatchShot {
-    vec3 power;   ///< Σ ΔB_j A_j / π
-    float size;   ///< diameter of the patch [m]
+    vec3 power;        ///< Σ ΔB_j A_j / π
+    float size;        ///< diameter of the patch [m]
     float lumel_size;  ///< largest of its lumels [m]
-    uint first;   ///< its lumels
-    uint count;   ///< 0: nothing is shot
-    uint parts;   ///< so many points share the patch's light
-    uint number;  ///< of the patch's point, the same whenever it shoots
+    uint first;        ///< its lumels
+    uint count;        ///< 0: nothing is shot
+    uint parts;        ///< so many points share the patch's light
+    uint number;       ///< of the patch's point, the same whenever it shoots
 };
 
 /// Push constants of progressive.power.comp and progressive.select.comp.

@@ -92,8 +92,8 @@ inline constexpr MethodInfo kMethods[] = {
     {"directions", "Global directions with stochastic depth buffering", "[TN11]",
      "open scenes of diffuse surfaces with few small emissive lights"},
     {"progressive", "Progressive refinement radiosity", "[CCWG88], [Hoef13]",
-     "small scenes of diffuse surfaces; what is corrected when things move",
-     MaterialModel::diffuse, 6.0f, kMostPatchBatch},
+     "small scenes of diffuse surfaces; what is corrected when things move", MaterialModel::diffuse,
+     6.0f, kMostPatchBatch},
 };
 
 /// The method of that name. Throws Error{input} if there is none.
