@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -336,6 +337,37 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
                 table.column.push_back(pairs.partner[k]);
                 table.factor.push_back(factors[k]);
             }
+        table.first.push_back(std::uint32_t(table.column.size()));
+    }
+    return table;
+}
+
+NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
+                            const Lumels& lumels, NearFieldOptions options,
+                            const std::vector<char>& affected)
+{
+    // The others are put aside as if buried, which leaves them without partners.
+    Lumels some = lumels;
+    for (std::size_t i = 0; i < affected.size(); ++i)
+        if (!affected[i])
+            some.lumels[i].flags |= kLumelBuried;
+    options.radius = before.radius;
+    options.most_pairs = std::numeric_limits<std::size_t>::max();
+    const NearField fresh = build_near_field(scene, rays, some, options);
+
+    NearField table;
+    table.radius = before.radius;
+    table.first.push_back(0);
+    const auto append = [&](const NearField& from, std::size_t i, const auto& chosen) {
+        for (std::uint32_t k = from.first[i]; k < from.first[i + 1]; ++k)
+            if (chosen(from.column[k])) {
+                table.column.push_back(from.column[k]);
+                table.factor.push_back(from.factor[k]);
+            }
+    };
+    for (std::size_t i = 0; i < affected.size(); ++i) {
+        append(before, i, [&](std::uint32_t j) { return !affected[i] || !affected[j]; });
+        append(fresh, i, [](std::uint32_t) { return true; });
         table.first.push_back(std::uint32_t(table.column.size()));
     }
     return table;

@@ -25,7 +25,7 @@ struct NearFieldOptions {
 struct NearField {
     float radius = 0.0f;                ///< it was built with, at most NearFieldOptions::radius
     std::vector<std::uint32_t> first;   ///< [N + 1]
-    std::vector<std::uint32_t> column;  ///< [nnz] shooter j, ascending within a row
+    std::vector<std::uint32_t> column;  ///< [nnz] shooter j
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
 };
 
@@ -33,6 +33,13 @@ struct NearField {
 /// than 1; with the area rule A_i F_ij = A_j F_ji holds between flat lumels.
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options);
+
+/// The table after some of the scene has moved: pairs of which both lumels are affected (moved, or
+/// closer to where something moved than the table reaches) are built anew, the others kept.
+/// affected: [N].
+NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
+                            const Lumels& lumels, NearFieldOptions options,
+                            const std::vector<char>& affected);
 
 /// Irradiance per radiosity (form factor) at point x with unit normal n from a convex polygon
 /// with uniform radiosity, clipped to x's horizon: Lambert's edge sum. The polygon emits from

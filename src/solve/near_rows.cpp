@@ -19,12 +19,20 @@ std::vector<std::uint32_t> starts_of(const NearField& near, std::size_t count)
 }  // namespace
 
 NearRows::NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count)
-    : count_(std::uint32_t(lumel_count)),
+    : device_(&device),
+      count_(std::uint32_t(lumel_count)),
       first_(device, view(starts_of(near, lumel_count))),
       column_(device, view(near.column)),
       factor_(device, view(near.factor)),
       kernel_(device, "near_rows", kSpirv, 5, sizeof(NearParams), kNearGroup)
 {
+}
+
+void NearRows::replace(const NearField& near)
+{
+    first_ = gpu::Array<std::uint32_t>(*device_, view(starts_of(near, count_)));
+    column_ = gpu::Array<std::uint32_t>(*device_, view(near.column));
+    factor_ = gpu::Array<float>(*device_, view(near.factor));
 }
 
 void NearRows::light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,

@@ -11,6 +11,9 @@ class NearRows {
 public:
     NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count);
 
+    /// Takes another table in. Nothing may be at work on the former.
+    void replace(const NearField& near);
+
     /// result_i = Σ_j F_ij source_j. source, result: [N].
     void light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
                const gpu::Array<glm::vec3>& result) const;
@@ -20,6 +23,7 @@ public:
     const gpu::Array<float>& factor() const { return factor_; }          ///< [nnz] F_ij
 
 private:
+    const gpu::Device* device_;
     std::uint32_t count_;
     gpu::Array<std::uint32_t> first_, column_;
     gpu::Array<float> factor_;

@@ -130,4 +130,15 @@ Patches make_patches(const Lumels& lumels)
     return result;
 }
 
+std::uint32_t points_per_lumel(std::uint32_t level)
+{
+    return level <= kLumelLevel ? 1u : 1u << (2 * (level - kLumelLevel));
+}
+
+std::uint32_t patches_of(const PatchChart& chart, std::uint32_t level)
+{
+    return level < kBlockLevels ? chart.patch_count[level]
+                                : chart.lumel_count * points_per_lumel(level);
+}
+
 }  // namespace lumel

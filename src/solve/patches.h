@@ -21,4 +21,9 @@ struct Patches {
 /// lumels and so may reach through a wall, falls apart into smaller ones.
 Patches make_patches(const Lumels& lumels);
 
+/// Patches of a chart at a level, and points that each of its lumels shoots from. Twins of
+/// solve/patches.glsl.
+std::uint32_t patches_of(const PatchChart& chart, std::uint32_t level);
+std::uint32_t points_per_lumel(std::uint32_t level);
+
 }  // namespace lumel

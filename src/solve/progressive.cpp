@@ -47,9 +47,6 @@ constexpr std::uint32_t kPowerSpirv[] = {
 constexpr std::uint32_t kSelectSpirv[] = {
 #include "solve/progressive.select.comp.inc"
 };
-constexpr std::uint32_t kTakeSpirv[] = {
-#include "solve/progressive.take.comp.inc"
-};
 constexpr std::uint32_t kReceiveSpirv[] = {
 #include "solve/progressive.receive.comp.inc"
 };
@@ -90,53 +87,48 @@ float area_of(const Lumels& lumels)
     return float(sum);
 }
 
+/// Light not shot yet, with all that is sent on of it, as a part of all that arrives in the end.
+double missing_part(const Terms& terms)
+{
+    const double unshot = terms.column[0].x, arrived = terms.column[0].y,
+                 reflected = terms.column[0].z;
+    constexpr double kLeastLost = 1e-3;  // of what arrives: 1 / it stays finite
+    const double onward = arrived > 0.0 ? reflected / arrived : 0.0;
+    const double remaining = unshot / std::max(1.0 - onward, kLeastLost);
+    return remaining > 0.0 ? remaining / (std::max(arrived, 0.0) + remaining) : 0.0;
+}
+
 }  // namespace
 
 ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const World& world,
                                            const Lumels& lumels, const NearField& near,
                                            const SolverOptions& options)
-    : count_(std::uint32_t(lumels.lumels.size())),
+    : world_(&world),
+      count_(std::uint32_t(lumels.lumels.size())),
       near_radius_(near.radius),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       area_(std::max(area_of(lumels), 1e-30f)),
-      world_(&world),
       power_(device, "progressive.power", kPowerSpirv, 7, sizeof(ChooseParams), kProgressiveGroup),
       select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams),
               kProgressiveGroup),
-      take_(device, "progressive.take", kTakeSpirv, 14, sizeof(TakeParams), kProgressiveGroup),
       receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
                sizeof(PatchReceiveParams), kProgressiveGroup, std::uint32_t(options.projection)),
       settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kProgressiveGroup),
       residual_(device, "progressive.residual", kResidualSpirv, 6, sizeof(ResidualParams),
                 kSumGroup),
-      views_(device, world, options.projection, std::uint32_t(options.hemicube),
-             checked_batch(method_of("progressive"), options.batch)),
-      batch_(views_.capacity()),
-      layout_(make_patches(lumels)),
-      patches_(device, view(layout_.patches)),
-      charts_(device, view(layout_.charts)),
-      chart_light_(device, layout_.charts.size()),
+      light_(device, lumels),
+      shots_(device, world, lumels, options),
+      chart_light_(device, shots_.layout().charts.size()),
       ambient_(device, 1),
-      levels_(device, layout_.charts.size()),
       cursor_(device, 1),
-      chosen_(device, batch_),
-      eyes_(device, batch_),
-      shots_(device, batch_),
-      surface_(device, view(surfaces_of(lumels))),
-      emission_(device, view(emission_of(lumels))),
-      shot_(device, count_),
-      sending_(device, count_),
-      far_(device, count_),
-      near_(device, count_),
-
       near_rows_(device, near, count_),
       figures_(device, count_),
       pacer_(device)
 {
     pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        for (const auto* array : {&shot_, &sending_, &far_, &near_})
+        for (const auto* array : {&light_.shot, &light_.far, &light_.near})
             commands.fill(array->buffer());
-        commands.fill(levels_.buffer(), kNoLevel);
+        commands.fill(shots_.levels().buffer(), kNoLevel);
         commands.fill(cursor_.buffer());
         commands.fill(ambient_.buffer());
     });
@@ -146,54 +138,52 @@ void ProgressiveRadiosity::step()
 {
     take_figures();
     choose();
-    views_.look_from(pacer_, eyes_, batch_);
+    shots_.look(pacer_);
     receive();
     settle();
     ++state_.iterations;
-    state_.shots += batch_;
+    state_.shots += shots_.batch();
     ask_figures();
 }
 
 void ProgressiveRadiosity::choose()
 {
-    const ChooseParams params{.charts = std::uint32_t(layout_.charts.size()),
-                              .batch = batch_,
-                              .finest = finest_level(batch_),
+    const auto charts = std::uint32_t(shots_.layout().charts.size());
+    const ChooseParams params{.charts = charts,
+                              .batch = shots_.batch(),
+                              .finest = finest_level(shots_.batch()),
                               .patch_share = kPatchShare,
                               .area = area_};
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.dispatch(power_, {charts_, surface_, emission_, far_, near_, shot_, chart_light_},
-                          params, std::size_t(params.charts) * kProgressiveGroup);
-        commands.dispatch(select_, {charts_, chart_light_, levels_, cursor_, chosen_, ambient_},
-                          params, 1);
-        take(commands);
+        commands.dispatch(power_,
+                          {shots_.charts(), light_.surface, light_.emission, light_.far,
+                           light_.near, light_.shot, chart_light_},
+                          params, std::size_t(charts) * kProgressiveGroup);
+        commands.dispatch(
+            select_,
+            {shots_.charts(), chart_light_, shots_.levels(), cursor_, shots_.chosen(), ambient_},
+            params, 1);
+        shots_.take(commands, light_, ambient_);
     });
-}
-
-void ProgressiveRadiosity::take(gpu::Commands& commands)
-{
-    commands.dispatch(take_,
-                      {world_->lumels(), world_->pieces(), charts_, patches_, chosen_, surface_,
-                       emission_, far_, near_, shot_, sending_, eyes_, shots_, ambient_},
-                      TakeParams{batch_}, batch_);
 }
 
 void ProgressiveRadiosity::receive()
 {
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                    const EyeViews& views = shots_.views();
                     commands.dispatch(receive_,
                                       {world_->lumels(),
                                        world_->pieces(),
-                                       eyes_,
-                                       shots_,
-                                       {views_.image(), views_.sampler()},
-                                       sending_,
-                                       far_},
-                                      PatchReceiveParams{.views = views_.layout(),
+                                       shots_.eyes(),
+                                       shots_.shots(),
+                                       {views.image(), views.sampler()},
+                                       shots_.sending(),
+                                       light_.far},
+                                      PatchReceiveParams{.views = views.layout(),
                                                          .first = first,
                                                          .last = last,
-                                                         .shots = batch_,
+                                                         .shots = shots_.batch(),
                                                          .near_radius = near_radius_},
                                       last - first);
                 });
@@ -202,7 +192,8 @@ void ProgressiveRadiosity::receive()
 void ProgressiveRadiosity::settle()
 {
     pacer_.work("settle", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.dispatch(settle_, {chosen_, shots_, sending_, shot_}, TakeParams{batch_}, batch_);
+        commands.dispatch(settle_, {shots_.chosen(), shots_.shots(), shots_.sending(), light_.shot},
+                          TakeParams{shots_.batch()}, shots_.batch());
         if (state_.iterations % kNearEvery == kNearEvery - 1)
             light_near(commands);
     });
@@ -211,17 +202,32 @@ void ProgressiveRadiosity::settle()
 void ProgressiveRadiosity::light_near(gpu::Commands& commands)
 {
     if (near_radius_ > 0.0f)
-        near_rows_.light(commands, shot_, near_);
+        near_rows_.light(commands, light_.shot, light_.near);
+}
+
+void ProgressiveRadiosity::set_near_field(const NearField& near)
+{
+    pacer_.finish();
+    near_rows_.replace(near);
+    pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        light_near(commands);
+    });
+}
+
+void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
+{
+    light_near(commands);
+    commands.dispatch(
+        residual_,
+        {light_.surface, light_.emission, light_.far, light_.near, light_.shot, figures_.parts()},
+        ResidualParams{count_}, count_);
+    figures_.add_up(commands);
 }
 
 void ProgressiveRadiosity::ask_figures()
 {
-    figures_.ask(pacer_, state_.iterations, [&](gpu::Commands& commands) {
-        light_near(commands);
-        commands.dispatch(residual_, {surface_, emission_, far_, near_, shot_, figures_.parts()},
-                          ResidualParams{count_}, count_);
-        figures_.add_up(commands);
-    });
+    figures_.ask(pacer_, state_.iterations,
+                 [&](gpu::Commands& commands) { sum_figures(commands); });
 }
 
 void ProgressiveRadiosity::take_figures()
@@ -229,16 +235,19 @@ void ProgressiveRadiosity::take_figures()
     const std::optional<Terms> terms = figures_.take(pacer_, state_.iterations);
     if (!terms)
         return;
-    const glm::vec4 sums = terms->column[0];
-    const double unshot = sums.x, arrived = sums.y, reflected = sums.z;
-    if (!(arrived > 0.0)) {
+    if (terms->column[0].y > 0.0f)
+        state_.error = kMissing * missing_part(*terms);
+    else
         state_.error = emitted_power_ > 0.0 && state_.iterations < kSilent ? -1.0 : 0.0;
-        return;
-    }
-    // Of each lumen that arrives, so much is sent on and arrives again.
-    const double onward = std::min(reflected / arrived, 1.0);
-    const double remaining = unshot / std::max(1.0 - onward, 1e-3);
-    state_.error = kMissing * remaining / (arrived + remaining);
+}
+
+double ProgressiveRadiosity::residual()
+{
+    pacer_.work("figures", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        sum_figures(commands);
+    });
+    pacer_.finish();
+    return missing_part(figures_.now());
 }
 
 std::vector<glm::vec3> ProgressiveRadiosity::irradiance()
@@ -247,8 +256,8 @@ std::vector<glm::vec3> ProgressiveRadiosity::irradiance()
         light_near(commands);
     });
     pacer_.finish();
-    std::vector<glm::vec3> sum = far_.download();
-    const std::vector<glm::vec3> near = near_.download();
+    std::vector<glm::vec3> sum = light_.far.download();
+    const std::vector<glm::vec3> near = light_.near.download();
     for (std::size_t i = 0; i < sum.size(); ++i)
         sum[i] += near[i];
     return sum;

@@ -24,17 +24,25 @@ struct CutOutDraw {
     Passage passage{};
 };
 
+/// Will instances move? Then any triangle may come between two points, and none is left out of
+/// views as the scene's hull.
+enum class Motion { still, moving };
+
 /// Local data stays; placed data (in the world) follows the instances' transforms.
 class World {
 public:
     /// The world looks at the scene's sky for as long as it lives. `atlas`: which the lumels were
     /// lifted from; null where no one asks where vertices are in it.
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
-          const Atlas* atlas = nullptr);
+          const Atlas* atlas = nullptr, Motion motion = Motion::still);
 
-    const gpu::Array<Lumel>& lumels() const { return lumels_; }          ///< [N] in the world
-    const gpu::Array<Piece>& pieces() const { return pieces_; }          ///< [P] in the world
-    const gpu::Array<glm::vec3>& vertices() const { return vertices_; }  ///< [V] in the world
+    /// Puts instances where `transforms` [instances] say. Waits for the device.
+    void place(std::span<const glm::mat4> transforms);
+
+    const std::vector<Placement>& placements() const { return placements_; }  ///< [instances]
+    const gpu::Array<Lumel>& lumels() const { return lumels_; }               ///< [N] in the world
+    const gpu::Array<Piece>& pieces() const { return pieces_; }               ///< [P] in the world
+    const gpu::Array<glm::vec3>& vertices() const { return vertices_; }       ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
     const gpu::Array<glm::vec2>& places() const { return places_; }  ///< [V] [texels], or none
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
@@ -48,10 +56,6 @@ public:
     float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
 
 private:
-    /// Puts instances where `transforms` [instance count] say; the former ones are kept as
-    /// `before`.
-    void place(std::span<const glm::mat4> transforms);
-
     const gpu::Device* device_;
     const Sky* sky_;
     std::vector<Placement> placements_;

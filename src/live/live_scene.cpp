@@ -1,0 +1,204 @@
+#include "live/live_scene.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "core/error.h"
+#include "live/still_part.h"
+#include "solve/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+/// Batches between two looks at how much light is still to be shot: looking costs a wait.
+constexpr int kBatchesALook = 8;
+
+std::vector<char> flags_of(const Scene& scene, const std::vector<std::uint32_t>& movers)
+{
+    std::vector<char> flags(scene.instances.size(), char(movers.empty()));
+    for (const std::uint32_t instance : movers) {
+        if (instance >= flags.size())
+            throw Error(ErrorKind::input, "instance " + std::to_string(instance),
+                        "is to move, but the scene has only " + std::to_string(flags.size()));
+        flags[instance] = 1;
+    }
+    return flags;
+}
+
+Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers)
+{
+    Lumels lumels = lift(scene, atlas);
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+    mark_buried_by_still(scene, movers, lumels);
+    return lumels;
+}
+
+SolverOptions progressive(SolverOptions options)
+{
+    options.method = "progressive";
+    return options;
+}
+
+}  // namespace
+
+LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& options)
+    : options_(options),
+      scene_(std::move(scene)),
+      movers_(flags_of(scene_, options.movers)),
+      rays_(scene_),
+      atlas_(make_atlas(scene_, options.atlas)),
+      lumels_(lift_in_place(scene_, atlas_, movers_)),
+      near_(near_field_for(scene_, rays_, lumels_, progressive(options.solver))),
+      world_(device, scene_, lumels_, &atlas_, Motion::moving),
+      solver_(device, world_, lumels_, near_, progressive(options.solver)),
+      redistribution_(device, world_, lumels_, solver_, options.solver.projection),
+      asked_(scene_.instances.size()),
+      emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      shown_far_(device, lumels_.lumels.size()),
+      shown_near_(device, lumels_.lumels.size())
+{
+    show();
+}
+
+void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= movers_.size() || !movers_[instance])
+        throw Error(ErrorKind::input, name, "is not among those that may move");
+    if (!is_rigid(scene_.instances[instance].transform, transform))
+        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+    asked_[instance] = transform;
+}
+
+void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
+                           const glm::vec3& factor)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= factors.size())
+        throw Error(ErrorKind::input, name, "is not in the scene");
+    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
+        throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
+    factors[instance] = factor;
+    Lumels lumels = lumels_;
+    for (Lumel& lumel : lumels.lumels) {
+        lumel.emission *= emission_factor_[lumel.instance];
+        lumel.albedo =
+            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
+    }
+    solver_.pacer().finish();
+    solver_.light().emission.upload(emission_of(lumels));
+    solver_.light().surface.upload(surfaces_of(lumels));
+    state_.residual = 1.0;
+}
+
+void LiveScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
+{
+    set_factor(emission_factor_, instance, factor);
+}
+
+void LiveScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
+{
+    set_factor(reflectance_factor_, instance, factor);
+}
+
+bool LiveScene::is_move_asked() const
+{
+    return std::any_of(asked_.begin(), asked_.end(), [](auto& asked) { return bool(asked); });
+}
+
+bool LiveScene::is_at_rest() const
+{
+    return !redistribution_.is_under_way() && !is_move_asked() &&
+           state_.residual <= options_.residual;
+}
+
+void LiveScene::begin_move()
+{
+    move_ = {};
+    for (std::uint32_t i = 0; i < asked_.size(); ++i) {
+        Instance& instance = scene_.instances[i];
+        const bool moves = asked_[i] && *asked_[i] != instance.transform;
+        move_.moved.push_back(moves ? 1 : 0);
+        if (moves) {
+            move_.boxes.push_back(box_of(scene_, i, instance.transform));
+            instance.transform = *asked_[i];
+            move_.boxes.push_back(box_of(scene_, i, instance.transform));
+        }
+        move_.transforms.push_back(instance.transform);
+        asked_[i].reset();
+    }
+    if (!move_.boxes.empty())
+        redistribution_.begin(move_);
+}
+
+void LiveScene::end_move()
+{
+    rays_ = RayScene(scene_);
+    const std::vector<char> affected =
+        affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
+    near_ = update_near_field(near_, scene_, rays_, lumels_,
+                              near_field_options(progressive(options_.solver)), affected);
+    solver_.set_near_field(near_);
+    state_.residual = 1.0;
+}
+
+void LiveScene::work()
+{
+    if (redistribution_.is_under_way()) {
+        if (!redistribution_.step())
+            end_move();
+    } else if (is_move_asked()) {
+        begin_move();
+    } else {
+        for (int batch = 0; batch < kBatchesALook; ++batch)
+            solver_.step();
+        state_.residual = solver_.residual();
+    }
+    solver_.pacer().finish();
+}
+
+LiveState LiveScene::update(double budget_ms)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    };
+    while (!is_at_rest() && elapsed() < budget_ms)
+        work();
+    if (!redistribution_.is_under_way())
+        show();
+    state_.under_way = redistribution_.is_under_way();
+    state_.hemicubes = redistribution_.hemicubes() + solver_.state().shots;
+    state_.milliseconds = elapsed();
+    return state_;
+}
+
+LiveState LiveScene::settle()
+{
+    return update(std::numeric_limits<double>::max());
+}
+
+void LiveScene::show()
+{
+    const std::uint64_t bytes = lumels_.lumels.size() * sizeof(glm::vec3);
+    gpu::Pacer& pacer = solver_.pacer();
+    pacer.work("show", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        commands.copy(solver_.light().far.buffer(), shown_far_.buffer(), bytes);
+        commands.copy(solver_.light().near.buffer(), shown_near_.buffer(), bytes);
+    });
+    pacer.finish();
+}
+
+std::vector<glm::vec3> LiveScene::irradiance() const
+{
+    std::vector<glm::vec3> sum = shown_far_.download();
+    const std::vector<glm::vec3> near = shown_near_.download();
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += near[i];
+    return sum;
+}
+
+}  // namespace lumel

@@ -1,0 +1,89 @@
+#pragma once
+// A lit scene in which things move: the solution is corrected, not solved again.
+//
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            Utrecht University, 2013.
+
+#include <optional>
+
+#include "atlas/atlas.h"
+#include "solve/incremental.h"
+
+namespace lumel {
+
+struct LiveOptions {
+    AtlasOptions atlas;
+    SolverOptions solver;               ///< method, max_shots, … are not used; target_error is
+    std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
+    double residual = 0.002;            ///< light still to be shot, as a part of all, to rest at
+};
+
+/// Where a LiveScene stands.
+struct LiveState {
+    double residual = 1.0;        ///< light still to be shot, as a part of all
+    bool under_way = false;       ///< a move is being redistributed
+    std::uint64_t hemicubes = 0;  ///< so far
+    double milliseconds = 0.0;    ///< that the last update() took
+};
+
+/// Not safe for use from several threads.
+class LiveScene {
+public:
+    /// Lays the scene out and lifts it to lumels. The device must outlive it.
+    /// Throws Error{input} if nothing of the scene can be lit, or a mover is no instance.
+    LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& options);
+
+    /// Asks for an instance to stand elsewhere (mesh to world). Takes effect in update(); of
+    /// several requests before it, the last counts.
+    /// Throws Error{input} if it may not move, or would be stretched: lumels keep their areas.
+    void move(std::uint32_t instance, const glm::mat4& transform);
+
+    /// All lumels of an instance emit [lm/m²], or reflect, `factor` times what the scene says
+    /// ([Hoef13] Eqs. (2.2.9), (2.2.10)). Reflectances are kept from 0 to 1.
+    /// Throws Error{input} if there is no such instance or a factor is negative.
+    void set_emission(std::uint32_t instance, const glm::vec3& factor);
+    void set_reflectance(std::uint32_t instance, const glm::vec3& factor);
+
+    /// Goes on for about so many milliseconds: with moves first, then with light that is not shot
+    /// yet; overruns by one batch at most. Returns early when at rest.
+    LiveState update(double budget_ms);
+    /// Until at rest.
+    LiveState settle();
+
+    /// H [N] [lx] after the last move that is wholly redistributed. Waits for the device.
+    std::vector<glm::vec3> irradiance() const;
+
+    const Scene& scene() const { return scene_; }
+    const Atlas& atlas() const { return atlas_; }
+    const Lumels& lumels() const { return lumels_; }
+    const World& world() const { return world_; }
+    const gpu::StageTimes& times() const { return solver_.times(); }
+
+private:
+    void work();
+    void begin_move();
+    void end_move();
+    void show();
+    bool is_move_asked() const;
+    bool is_at_rest() const;
+    void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
+                    const glm::vec3& factor);
+
+    LiveOptions options_;
+    Scene scene_;
+    std::vector<char> movers_;  ///< [instances]
+    RayScene rays_;
+    Atlas atlas_;
+    Lumels lumels_;
+    NearField near_;
+    World world_;
+    ProgressiveRadiosity solver_;
+    IncrementalRedistribution redistribution_;
+    std::vector<std::optional<glm::mat4>> asked_;  ///< [instances] transforms asked for
+    std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
+    Move move_;                                                    ///< under way
+    LiveState state_;
+    gpu::Array<glm::vec3> shown_far_, shown_near_;  ///< [N] H after the last whole move
+};
+
+}  // namespace lumel

@@ -1,0 +1,97 @@
+#include "live/still_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nearfield/buried.h"
+
+namespace lumel {
+namespace {
+
+/// Lengths may change by this much over a move that counts as rigid: transforms come as floats.
+constexpr float kStretch = 1e-3f;
+
+/// The scene with empty meshes in the places of what moves.
+Scene without(const Scene& scene, const std::vector<char>& movers)
+{
+    Scene still = scene;
+    still.meshes.emplace_back();
+    for (std::size_t i = 0; i < movers.size(); ++i)
+        if (movers[i])
+            still.instances[i].mesh = int(still.meshes.size()) - 1;
+    return still;
+}
+
+float distance2_to(const MovedBox& box, const glm::vec3& x)
+{
+    const glm::vec3 d = x - glm::clamp(x, box.low, box.high);
+    return glm::dot(d, d);
+}
+
+}  // namespace
+
+void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels)
+{
+    const Scene still = without(scene, movers);
+    const RayScene rays(still);
+    const std::vector<Lumel> before = lumels.lumels;
+    const std::vector<Piece> pieces = lumels.pieces;
+    mark_buried(scene, rays, lumels);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (!movers[before[i].instance])
+            continue;
+        Lumel& lumel = lumels.lumels[i];
+        lumel = before[i];
+        lumel.first_piece = std::uint32_t(lumels.pieces.size());
+        const auto first = pieces.begin() + before[i].first_piece;
+        lumels.pieces.insert(lumels.pieces.end(), first, first + before[i].piece_count);
+    }
+}
+
+MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform)
+{
+    MovedBox box{glm::vec3(std::numeric_limits<float>::max()),
+                 glm::vec3(std::numeric_limits<float>::lowest())};
+    for (const Primitive& primitive : scene.meshes[scene.instances[instance].mesh].primitives)
+        for (const glm::vec3& p : primitive.positions) {
+            const glm::vec3 world(transform * glm::vec4(p, 1.0f));
+            box.low = glm::min(box.low, world);
+            box.high = glm::max(box.high, world);
+        }
+    return box;
+}
+
+bool is_rigid(const glm::mat4& from, const glm::mat4& to)
+{
+    const glm::mat3 turn = glm::mat3(to) * glm::inverse(glm::mat3(from));
+    const glm::mat3 square = glm::transpose(turn) * turn;
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!(std::abs(square[c][r] - (c == r ? 1.0f : 0.0f)) <= kStretch))
+                return false;
+    return glm::determinant(turn) > 0.0f;
+}
+
+std::vector<char> affected_lumels(const Scene& scene, const Lumels& lumels,
+                                  const std::vector<std::uint32_t>& moved,
+                                  const std::vector<MovedBox>& boxes, float radius)
+{
+    float largest = 0.0f;
+    for (const Lumel& lumel : lumels.lumels)
+        largest = std::max(largest, lumel.size);
+    const float reach2 = radius * largest * radius * largest;
+    std::vector<char> affected(lumels.lumels.size());
+    for (std::size_t i = 0; i < affected.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        const glm::vec3 x(scene.instances[lumel.instance].transform *
+                          glm::vec4(lumel.position, 1.0f));
+        affected[i] = moved[lumel.instance] != 0 ||
+                      std::any_of(boxes.begin(), boxes.end(), [&](const MovedBox& box) {
+                          return distance2_to(box, x) < reach2;
+                      });
+    }
+    return affected;
+}
+
+}  // namespace lumel

@@ -1,0 +1,29 @@
+#pragma once
+// What of a scene stays where it is, and where the rest is.
+
+#include <vector>
+
+#include "atlas/atlas.h"
+#include "rays/ray_scene.h"
+#include "scene/scene.h"
+#include "solve/incremental.shared.h"
+
+namespace lumel {
+
+/// Marks lumels that lie under or inside what never moves (nearfield/buried.h). What moves buries
+/// nothing, and is not buried.
+void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels);
+
+/// Where an instance's vertices are, under a transform [m].
+MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform);
+
+/// Is the way from one transform to the other free of stretching and shearing?
+bool is_rigid(const glm::mat4& from, const glm::mat4& to);
+
+/// Lumels [N] that a move affects: those that move, and those no farther from where something moved
+/// than `radius` times the largest lumel's size.
+std::vector<char> affected_lumels(const Scene& scene, const Lumels& lumels,
+                                  const std::vector<std::uint32_t>& moved,
+                                  const std::vector<MovedBox>& boxes, float radius);
+
+}  // namespace lumel

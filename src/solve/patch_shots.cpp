@@ -1,0 +1,51 @@
+#include "solve/patch_shots.h"
+
+#include "solve/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kTakeSpirv[] = {
+#include "solve/patch_shots.take.comp.inc"
+};
+
+}  // namespace
+
+ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
+    : surface(device, view(surfaces_of(lumels))),
+      emission(device, view(emission_of(lumels))),
+      shot(device, lumels.lumels.size()),
+      far(device, lumels.lumels.size()),
+      near(device, lumels.lumels.size())
+{
+}
+
+PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
+                       const SolverOptions& options)
+    : world_(&world),
+      take_(device, "patch_shots.take", kTakeSpirv, 14, sizeof(TakeParams), kProgressiveGroup),
+      views_(device, world, options.projection, std::uint32_t(options.hemicube),
+             checked_batch(method_of("progressive"), options.batch)),
+      batch_(views_.capacity()),
+      layout_(make_patches(lumels)),
+      patches_(device, view(layout_.patches)),
+      charts_(device, view(layout_.charts)),
+      levels_(device, layout_.charts.size()),
+      chosen_(device, batch_),
+      eyes_(device, batch_),
+      shots_(device, batch_),
+      sending_(device, lumels.lumels.size())
+{
+}
+
+void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
+                      const gpu::Array<glm::vec3>& ambient)
+{
+    commands.dispatch(take_,
+                      {world_->lumels(), world_->pieces(), charts_, patches_, chosen_,
+                       light.surface, light.emission, light.far, light.near, light.shot, sending_,
+                       eyes_, shots_, ambient},
+                      TakeParams{batch_}, batch_);
+}
+
+}  // namespace lumel
