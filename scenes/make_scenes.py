@@ -263,6 +263,44 @@ def sealed_box():
     return gltf
 
 
+def moving_box(lamp_side):
+    """A Cornell box of the dynamic radiosity thesis, section 5.1: a large box in the middle that
+    may turn, and a lamp in the ceiling that sends the same light whatever its size."""
+    gltf = Gltf()
+    white = gltf.material("white", 0.7)
+    red = gltf.material("red", (0.63, 0.06, 0.05))
+    green = gltf.material("green", (0.14, 0.45, 0.09))
+    power = 16.0  # lm/sr
+    lamp = gltf.material("lamp", 0.7, luminance=[power / lamp_side**2] * 3)
+    walls(gltf, {"-x": red, "+x": green, "-y": white, "+y": white, "-z": white, "+z": white}, (2, 2, 2))
+    light, box = Shape(), Shape()
+    low, high = 1 - lamp_side / 2, 1 + lamp_side / 2
+    light.quad(lamp, [(low, 1.995, low), (high, 1.995, low), (high, 1.995, high), (low, 1.995, high)])
+    box.box(white, (0.65, 0.3, 0.65), (1.35, 1.0, 1.35))
+    gltf.object("lamp", light)
+    gltf.object("box", box)
+    gltf.camera("camera", [1.0, 1.0, 1.95], [1.0, 0.9, 0.0], 1.3, 1.0)
+    return gltf
+
+
+def moving_indirect():
+    """The indirect scene of the dynamic radiosity thesis, section 5.1: white walls of albedo 0.9,
+    daylight that comes in behind a partition at the right, a box that turns at the left."""
+    gltf = Gltf()
+    white = gltf.material("white", 0.9)
+    sky = gltf.material("daylight", 0.0, luminance=(20.0, 20.0, 20.0))
+    walls(gltf, {side: white for side in ("-x", "+x", "-y", "+y", "-z", "+z")}, (4, 2, 2))
+    window, partition, box = Shape(), Shape(), Shape()
+    window.quad(sky, [(3.99, 1.6, 1.6), (3.99, 1.6, 0.4), (3.99, 0.4, 0.4), (3.99, 0.4, 1.6)])
+    partition.box(white, (2.9, 0.0, 0.5), (3.0, 2.0, 2.0))
+    box.box(white, (0.75, 0.3, 0.75), (1.25, 0.8, 1.25))
+    gltf.object("window", window)
+    gltf.object("partition", partition)
+    gltf.object("box", box)
+    gltf.camera("camera", [2.7, 1.2, 1.9], [0.6, 0.6, 0.4], 1.1, 1.5)
+    return gltf
+
+
 def planes():
     """Five red and two white two-sided planes, after figure 8 of the stochastic depth buffering
     paper: the lower white one keeps red light from the one on top."""
@@ -341,6 +379,9 @@ def main():
         "plates-parallel": plates(perpendicular=False),
         "plates-perpendicular": plates(perpendicular=True),
         "sealed-box": sealed_box(),
+        "moving-large-lamp": moving_box(0.8),
+        "moving-small-lamp": moving_box(0.2),
+        "moving-indirect": moving_indirect(),
         "city": city(),
         "room": room(),
         "planes": planes(),

@@ -5,6 +5,10 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLumelBack = 1u;    ///< flag: the back side of a double-sided surface
 LUMEL_CONST uint kLumelBuried = 2u;  ///< flag: lies under other geometry, no light can reach it
+LUMEL_CONST uint kLumelMoving =
+    4u;  ///< flag: lit by cross redistribution alone, see solve/cross.cpp
+
+LUMEL_CONST uint kNoLumel = 0xffffffffu;  ///< where a texel has none
 
 /// One lightmap texel lifted into the world: the patch of the radiosity equation.
 /// Lengths and directions are in the frame of its instance, areas and sizes in the world.
@@ -20,7 +24,7 @@ struct Lumel {
     uint texel;     ///< y * atlas width + x
     uint first_piece;  ///< its pieces are [first_piece, first_piece + piece_count)
     uint piece_count;  ///< ≥ 1
-    uint flags;        ///< kLumelBack | kLumelBuried
+    uint flags;        ///< kLumelBack | kLumelBuried | kLumelMoving
 };
 
 /// How a lumel reflects where gloss counts: [NNS99]'s model, see solve/phong.glsl.

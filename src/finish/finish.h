@@ -40,7 +40,6 @@ FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& l
 /// The lumel that each texel shows, kNoLumel where none: the mean of `light` decides between the
 /// sides of a double-sided surface, as in to_map. light [N]. Result [height][width].
 std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light);
-inline constexpr std::uint32_t kNoLumel = ~0u;
 
 /// Writes one value per lumel into the atlas: RGB = value, A = coverage (0 where no surface is,
 /// at least 1/255 where one is, so that no covered texel loses its mark in 8 or 16 bits).

@@ -82,6 +82,7 @@ struct RasterState {
     bool color = false;                     ///< draws into a colour target
     Pixel color_pixel = Pixel::srgba8;
     bool depth_test = true;  ///< false: every fragment counts, and no depth is written
+    std::uint32_t samples = 1;  ///< of its targets
 };
 
 /// A graphics pipeline for triangles: depth test on, nothing culled, nearer has the larger depth

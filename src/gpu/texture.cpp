@@ -35,7 +35,7 @@ VkImageAspectFlags aspect_of(Pixel pixel)
 }
 
 Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
-               std::uint32_t mip_levels)
+               std::uint32_t mip_levels, std::uint32_t samples)
     : device_(&device),
       pixel_(pixel),
       width_(width),
@@ -50,17 +50,17 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
     const VkImageUsageFlags drawn = pixel == Pixel::depth
                                         ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
                                         : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    const VkImageUsageFlags copied =
+        samples > 1 ? 0u : VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .imageType = VK_IMAGE_TYPE_2D,
                                  .format = format_of(pixel),
                                  .extent = {width, height, 1},
                                  .mipLevels = mip_levels,
                                  .arrayLayers = 1,
-                                 .samples = VK_SAMPLE_COUNT_1_BIT,
+                                 .samples = VkSampleCountFlagBits(samples),
                                  .tiling = VK_IMAGE_TILING_OPTIMAL,
-                                 .usage = drawn | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+                                 .usage = drawn | VK_IMAGE_USAGE_SAMPLED_BIT | copied,
                                  .initialLayout = VK_IMAGE_LAYOUT_UNDEFINED};
     check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
     VkMemoryRequirements requirements;

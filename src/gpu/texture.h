@@ -16,11 +16,16 @@ enum class Pixel {
 /// Bytes of one pixel.
 std::uint32_t pixel_bytes(Pixel pixel);
 
+/// Samples of a multisampled pixel: what every Vulkan device has for colours of floats and depth,
+/// to draw and to read.
+inline constexpr std::uint32_t kManySamples = 4;
+
 /// A 2D image with its view, kept in the general layout from creation on.
 class Target {
 public:
+    /// samples: 1 or kManySamples. A multisampled image is only drawn into and read by shaders.
     Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
-           std::uint32_t mip_levels = 1);
+           std::uint32_t mip_levels = 1, std::uint32_t samples = 1);
     ~Target();
     Target(Target&& other) noexcept;
     Target& operator=(Target&&) = delete;

@@ -25,12 +25,17 @@ std::vector<char> flags_of(const Scene& scene, const std::vector<std::uint32_t>&
     return flags;
 }
 
-Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers)
+Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers,
+                     Redistribution redistribution)
 {
     Lumels lumels = lift(scene, atlas);
     if (lumels.lumels.empty())
         throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
     mark_buried_by_still(scene, movers, lumels);
+    if (redistribution == Redistribution::cross)
+        for (Lumel& lumel : lumels.lumels)
+            if (movers[lumel.instance])
+                lumel.flags |= kLumelMoving;
     return lumels;
 }
 
@@ -38,6 +43,47 @@ SolverOptions progressive(SolverOptions options)
 {
     options.method = "progressive";
     return options;
+}
+
+std::vector<char> open_meshes(const Scene& scene)
+{
+    std::vector<char> open;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        open.push_back(is_open(scene, i) ? 1 : 0);
+    return open;
+}
+
+/// Of all pairs; or, where what moves is lit apart, of pairs that stay, as if nothing else were
+/// there.
+NearField first_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                           const std::vector<char>& movers, const LiveOptions& options)
+{
+    const SolverOptions solver = progressive(options.solver);
+    if (options.redistribution == Redistribution::incremental)
+        return near_field_for(scene, rays, lumels, solver);
+    const Scene still = without(scene, movers);
+    std::vector<char> stays;
+    for (const Lumel& lumel : lumels.lumels)
+        stays.push_back(!movers[lumel.instance]);
+    return build_near_field_among(stays, still, RayScene(still), lumels,
+                                  near_field_options(solver));
+}
+
+/// Rows of lumels that stay from the one, rows of those that move from the other.
+NearField joined(const NearField& still, const NearField& moving, const Lumels& lumels)
+{
+    NearField rows;
+    rows.radius = still.radius;
+    rows.first.push_back(0);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const NearField& from = lumels.lumels[i].flags & kLumelMoving ? moving : still;
+        rows.column.insert(rows.column.end(), from.column.begin() + from.first[i],
+                           from.column.begin() + from.first[i + 1]);
+        rows.factor.insert(rows.factor.end(), from.factor.begin() + from.first[i],
+                           from.factor.begin() + from.first[i + 1]);
+        rows.first.push_back(std::uint32_t(rows.column.size()));
+    }
+    return rows;
 }
 
 }  // namespace
@@ -48,17 +94,21 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       movers_(flags_of(scene_, options.movers)),
       rays_(scene_),
       atlas_(make_atlas(scene_, options.atlas)),
-      lumels_(lift_in_place(scene_, atlas_, movers_)),
-      near_(near_field_for(scene_, rays_, lumels_, progressive(options.solver))),
-      world_(device, scene_, lumels_, &atlas_, Motion::moving),
+      lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
+      near_(first_near_field(scene_, rays_, lumels_, movers_, options)),
+      world_(device, scene_, lumels_, &atlas_, movers_),
       solver_(device, world_, lumels_, near_, progressive(options.solver)),
-      redistribution_(device, world_, lumels_, solver_, options.solver.projection),
       asked_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       shown_far_(device, lumels_.lumels.size()),
       shown_near_(device, lumels_.lumels.size())
 {
+    if (options.redistribution == Redistribution::cross)
+        cross_.emplace(device, world_, lumels_, solver_, options.solver, open_meshes(scene_));
+    else
+        incremental_.emplace(device, world_, lumels_, solver_, options.solver.projection);
+    world_.show_movers(!cross_);
     show();
 }
 
@@ -108,10 +158,15 @@ bool LiveScene::is_move_asked() const
     return std::any_of(asked_.begin(), asked_.end(), [](auto& asked) { return bool(asked); });
 }
 
+bool LiveScene::is_under_way() const
+{
+    return cross_ ? cross_->is_under_way() : incremental_->is_under_way();
+}
+
 bool LiveScene::is_at_rest() const
 {
-    return !redistribution_.is_under_way() && !is_move_asked() &&
-           state_.residual <= options_.residual;
+    return !is_under_way() && !is_move_asked() && state_.residual <= options_.residual &&
+           (!cross_ || crossed_);
 }
 
 void LiveScene::begin_move()
@@ -129,34 +184,66 @@ void LiveScene::begin_move()
         move_.transforms.push_back(instance.transform);
         asked_[i].reset();
     }
-    if (!move_.boxes.empty())
-        redistribution_.begin(move_);
+    if (cross_)
+        begin_crossing();
+    else if (!move_.boxes.empty())
+        incremental_->begin(move_);
+}
+
+void LiveScene::begin_crossing()
+{
+    // Pairs with a moving lumel: all close pairs around what may move, less those that stay.
+    std::vector<std::uint32_t> all(movers_.begin(), movers_.end());
+    std::vector<MovedBox> boxes;
+    for (std::uint32_t i = 0; i < movers_.size(); ++i)
+        if (movers_[i])
+            boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
+    rays_ = RayScene(scene_);
+    NearFieldOptions options = near_field_options(progressive(options_.solver));
+    options.radius = near_.radius;
+    const NearField around =
+        build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
+                               rays_, lumels_, options);
+    solver_.set_near_field(joined(near_, around, lumels_));
+    cross_->begin(move_.transforms, around);
 }
 
 void LiveScene::end_move()
 {
+    state_.residual = 1.0;
+    if (cross_) {
+        crossed_ = true;
+        state_.residual = solver_.residual();
+        return;
+    }
     rays_ = RayScene(scene_);
     const std::vector<char> affected =
         affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
     near_ = update_near_field(near_, scene_, rays_, lumels_,
                               near_field_options(progressive(options_.solver)), affected);
     solver_.set_near_field(near_);
-    state_.residual = 1.0;
 }
 
 void LiveScene::work()
 {
-    if (redistribution_.is_under_way()) {
-        if (!redistribution_.step())
+    if (is_under_way()) {
+        if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
-    } else if (is_move_asked()) {
+    } else if (is_move_asked() || (cross_ && !crossed_ && state_.residual <= options_.residual)) {
         begin_move();
     } else {
-        for (int batch = 0; batch < kBatchesALook; ++batch)
-            solver_.step();
-        state_.residual = solver_.residual();
+        shoot();
     }
     solver_.pacer().finish();
+}
+
+void LiveScene::shoot()
+{
+    world_.show_movers(!cross_);
+    for (int batch = 0; batch < kBatchesALook; ++batch)
+        solver_.step();
+    state_.residual = solver_.residual();
+    crossed_ = false;
 }
 
 LiveState LiveScene::update(double budget_ms)
@@ -168,10 +255,11 @@ LiveState LiveScene::update(double budget_ms)
     };
     while (!is_at_rest() && elapsed() < budget_ms)
         work();
-    if (!redistribution_.is_under_way())
+    if (!is_under_way())
         show();
-    state_.under_way = redistribution_.is_under_way();
-    state_.hemicubes = redistribution_.hemicubes() + solver_.state().shots;
+    state_.under_way = is_under_way();
+    state_.hemicubes =
+        solver_.state().shots + (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
     state_.milliseconds = elapsed();
     return state_;
 }

@@ -7,12 +7,20 @@
 #include <optional>
 
 #include "atlas/atlas.h"
+#include "solve/cross.h"
 #include "solve/incremental.h"
 
 namespace lumel {
 
+/// How a move is redistributed.
+enum class Redistribution {
+    incremental,  ///< exact: every patch that shot looks at what moved
+    cross,        ///< only what moves looks: much faster where it is small
+};
+
 struct LiveOptions {
     AtlasOptions atlas;
+    Redistribution redistribution = Redistribution::incremental;
     SolverOptions solver;               ///< method, max_shots, … are not used; target_error is
     std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
     double residual = 0.002;            ///< light still to be shot, as a part of all, to rest at
@@ -63,7 +71,10 @@ private:
     void work();
     void begin_move();
     void end_move();
+    void begin_crossing();
+    void shoot();
     void show();
+    bool is_under_way() const;
     bool is_move_asked() const;
     bool is_at_rest() const;
     void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
@@ -75,14 +86,16 @@ private:
     RayScene rays_;
     Atlas atlas_;
     Lumels lumels_;
-    NearField near_;
+    NearField near_;  ///< with Redistribution::cross: among what stays
     World world_;
     ProgressiveRadiosity solver_;
-    IncrementalRedistribution redistribution_;
+    std::optional<IncrementalRedistribution> incremental_;
+    std::optional<CrossRedistribution> cross_;
     std::vector<std::optional<glm::mat4>> asked_;  ///< [instances] transforms asked for
     std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
     Move move_;                                                    ///< under way
     LiveState state_;
+    bool crossed_ = false;  ///< what movers do is known for all that is shot
     gpu::Array<glm::vec3> shown_far_, shown_near_;  ///< [N] H after the last whole move
 };
 

@@ -1,8 +1,10 @@
 #include "live/still_part.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "nearfield/buried.h"
 
@@ -12,7 +14,14 @@ namespace {
 /// Lengths may change by this much over a move that counts as rigid: transforms come as floats.
 constexpr float kStretch = 1e-3f;
 
-/// The scene with empty meshes in the places of what moves.
+float distance2_to(const MovedBox& box, const glm::vec3& x)
+{
+    const glm::vec3 d = x - glm::clamp(x, box.low, box.high);
+    return glm::dot(d, d);
+}
+
+}  // namespace
+
 Scene without(const Scene& scene, const std::vector<char>& movers)
 {
     Scene still = scene;
@@ -22,14 +31,6 @@ Scene without(const Scene& scene, const std::vector<char>& movers)
             still.instances[i].mesh = int(still.meshes.size()) - 1;
     return still;
 }
-
-float distance2_to(const MovedBox& box, const glm::vec3& x)
-{
-    const glm::vec3 d = x - glm::clamp(x, box.low, box.high);
-    return glm::dot(d, d);
-}
-
-}  // namespace
 
 void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels)
 {
@@ -60,6 +61,25 @@ MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& tra
             box.high = glm::max(box.high, world);
         }
     return box;
+}
+
+bool is_open(const Scene& scene, std::uint32_t instance)
+{
+    using Point = std::array<float, 3>;
+    std::map<std::pair<Point, Point>, int> joins;  // directed edges, and back: they cancel out
+    for (const Primitive& primitive : scene.meshes[scene.instances[instance].mesh].primitives) {
+        if (scene.materials[primitive.material].double_sided)
+            continue;
+        for (std::size_t k = 0; k < primitive.indices.size(); ++k) {
+            const std::size_t next = k % 3 == 2 ? k - 2 : k + 1;
+            const glm::vec3 a = primitive.positions[primitive.indices[k]];
+            const glm::vec3 b = primitive.positions[primitive.indices[next]];
+            const Point from{a.x, a.y, a.z}, to{b.x, b.y, b.z};
+            joins[std::pair<Point, Point>(std::min(from, to), std::max(from, to))] +=
+                from < to ? 1 : -1;
+        }
+    }
+    return std::any_of(joins.begin(), joins.end(), [](auto& edge) { return edge.second != 0; });
 }
 
 bool is_rigid(const glm::mat4& from, const glm::mat4& to)

@@ -10,12 +10,19 @@
 
 namespace lumel {
 
+/// The scene with nothing in the places of what moves.
+Scene without(const Scene& scene, const std::vector<char>& movers);
+
 /// Marks lumels that lie under or inside what never moves (nearfield/buried.h). What moves buries
 /// nothing, and is not buried.
 void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels);
 
 /// Where an instance's vertices are, under a transform [m].
 MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform);
+
+/// Does the instance's mesh have single-sided surfaces whose backs can be seen from outside: an
+/// edge that does not join two triangles?
+bool is_open(const Scene& scene, std::uint32_t instance);
 
 /// Is the way from one transform to the other free of stretching and shearing?
 bool is_rigid(const glm::mat4& from, const glm::mat4& to);

@@ -342,18 +342,25 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
     return table;
 }
 
+NearField build_near_field_among(const std::vector<char>& chosen, const Scene& scene,
+                                 const RayScene& rays, const Lumels& lumels,
+                                 NearFieldOptions options)
+{
+    // The others are put aside as if buried, which leaves them without partners.
+    Lumels some = lumels;
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (!chosen[i])
+            some.lumels[i].flags |= kLumelBuried;
+    options.most_pairs = std::numeric_limits<std::size_t>::max();
+    return build_near_field(scene, rays, some, options);
+}
+
 NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
                             const Lumels& lumels, NearFieldOptions options,
                             const std::vector<char>& affected)
 {
-    // The others are put aside as if buried, which leaves them without partners.
-    Lumels some = lumels;
-    for (std::size_t i = 0; i < affected.size(); ++i)
-        if (!affected[i])
-            some.lumels[i].flags |= kLumelBuried;
     options.radius = before.radius;
-    options.most_pairs = std::numeric_limits<std::size_t>::max();
-    const NearField fresh = build_near_field(scene, rays, some, options);
+    const NearField fresh = build_near_field_among(affected, scene, rays, lumels, options);
 
     NearField table;
     table.radius = before.radius;

@@ -34,6 +34,11 @@ struct NearField {
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options);
 
+/// The table of pairs of which both lumels are chosen [N], with the radius given.
+NearField build_near_field_among(const std::vector<char>& chosen, const Scene& scene,
+                                 const RayScene& rays, const Lumels& lumels,
+                                 NearFieldOptions options);
+
 /// The table after some of the scene has moved: pairs of which both lumels are affected (moved, or
 /// closer to where something moved than the table reaches) are built anew, the others kept.
 /// affected: [N].

@@ -5,8 +5,6 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kGatherGroup = 64u;  ///< threads per workgroup of directions.gather.comp
 
-LUMEL_CONST uint kNoLumel = 0xffffffffu;
-
 /// A direction that light is gathered from.
 struct GlobalDirection {
     vec3 toward;  ///< d: unit, from receivers to what they see

@@ -19,7 +19,7 @@ struct Move {
 /// Redistributes what was shot, batch by batch.
 class IncrementalRedistribution {
 public:
-    /// world: the solver's, Motion::moving. All must outlive it.
+    /// world: the solver's, made with movers. All must outlive it.
     IncrementalRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
                               ProgressiveRadiosity& solver, Projection projection);
 

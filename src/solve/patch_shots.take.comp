@@ -21,13 +21,13 @@ layout(binding = 8, scalar) readonly buffer Near { vec3 near[]; };
 layout(binding = 9, scalar) readonly buffer Sent { vec3 shot[]; };
 layout(binding = 10, scalar) buffer Sending { vec3 sending[]; };
 layout(binding = 11, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 12, scalar) writeonly buffer Shots { PatchShot shots[]; };
+layout(binding = 12, scalar) buffer Shots { PatchShot shots[]; };
 layout(binding = 13, scalar) readonly buffer Ambient { vec3 ambient; };
 
 #include "world/lumel.glsl"
 #include "solve/patches.glsl"
 #include "solve/shooter.glsl"
-#include "solve/unshot.glsl"
+#include "solve/foreseen.glsl"
 #include "visibility/channel.glsl"
 
 Patch patch_of(ChosenPatch c)
@@ -60,14 +60,6 @@ LumelPoint eye_point(ChosenPatch c, Patch block)
                     fract((float(part) + 0.5) * 0.6180339887));
 }
 
-// Unshot light, and what will be reflected of light that is still to arrive: overshooting [FP92].
-// Never more than was reflected so far, so that what no light reaches stays dark.
-vec3 foreseen(uint j)
-{
-    const vec3 reflected = abs(surface[j].rgb * (far[j] + near[j]));
-    return unshot_of(j) + clamp(surface[j].rgb * ambient, -reflected, reflected);
-}
-
 vec3 sent_by(uint j, uint send)
 {
     return send == kSendUnshot ? foreseen(j) : send == kSendBack ? -shot[j] : shot[j];
@@ -80,7 +72,7 @@ void main()
         return;
     const ChosenPatch c = chosen[k];
     if (c.chart == kNoPatch) {
-        shots[k] = PatchShot(vec3(0.0), 0.0, 0.0, 0u, 0u, 1u, 0u);
+        shots[k] = PatchShot(vec3(0.0), 0.0, 0.0, 0u, 0u, 1u, 0u, 1.0);
         eyes[k] = make_eye(lumels[0].position, lumels[0].normal, 0u, kAllChannels);
         return;
     }
@@ -94,9 +86,10 @@ void main()
         power += b / float(points) * surface[j].a;
         size = max(size, lumels[j].size);
     }
-    const bool any = power != vec3(0.0);
+    const bool any = power != vec3(0.0) || c.send >= kSendCrossing;
     shots[k] = PatchShot(power / kPi, block.size, size, block.first, any ? block.count : 0u, points,
-                         block.first * points + c.index % points);
+                         block.first * points + c.index % points,
+                         c.send == kSendBackSide ? -1.0 : 1.0);
     const LumelPoint y = eye_point(c, block);
-    eyes[k] = make_eye(y.position, y.normal, hash(block.first ^ hash(c.index)), kAllChannels);
+    eyes[k] = make_eye(y.position, shots[k].side_ * y.normal, hash(block.first ^ hash(c.index)), kAllChannels);
 }

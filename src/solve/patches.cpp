@@ -118,6 +118,7 @@ Patches make_patches(const Lumels& lumels)
         while (last < count && same_side(lumels.lumels[first], lumels.lumels[last]))
             ++last;
         PatchChart chart{.first_lumel = first, .lumel_count = last - first};
+        chart.moving = (lumels.lumels[first].flags & kLumelMoving) ? 1 : 0;
         for (std::uint32_t level = 0; level < kBlockLevels; ++level) {
             chart.first_patch[level] = std::uint32_t(result.patches.size());
             append_patches(lumels, {first, last}, kBlockLevels - level, result.patches);

@@ -24,6 +24,8 @@ struct PatchChart {
     uint lumel_count;
     uint first_patch[kBlockLevels];
     uint patch_count[kBlockLevels];
+    uint moving;  ///< 1: its lumels are kLumelMoving, and cross redistribution alone shoots from
+                  ///< them
 };
 
 LUMEL_SHARED_END

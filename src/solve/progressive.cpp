@@ -108,13 +108,13 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       near_radius_(near.radius),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       area_(std::max(area_of(lumels), 1e-30f)),
-      power_(device, "progressive.power", kPowerSpirv, 7, sizeof(ChooseParams), kProgressiveGroup),
+      power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kProgressiveGroup),
       select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams),
               kProgressiveGroup),
       receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
                sizeof(PatchReceiveParams), kProgressiveGroup, std::uint32_t(options.projection)),
       settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kProgressiveGroup),
-      residual_(device, "progressive.residual", kResidualSpirv, 6, sizeof(ResidualParams),
+      residual_(device, "progressive.residual", kResidualSpirv, 7, sizeof(ResidualParams),
                 kSumGroup),
       light_(device, lumels),
       shots_(device, world, lumels, options),
@@ -157,7 +157,7 @@ void ProgressiveRadiosity::choose()
     pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(power_,
                           {shots_.charts(), light_.surface, light_.emission, light_.far,
-                           light_.near, light_.shot, chart_light_},
+                           light_.near, light_.shot, ambient_, chart_light_},
                           params, std::size_t(charts) * kProgressiveGroup);
         commands.dispatch(
             select_,
@@ -217,10 +217,10 @@ void ProgressiveRadiosity::set_near_field(const NearField& near)
 void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
 {
     light_near(commands);
-    commands.dispatch(
-        residual_,
-        {light_.surface, light_.emission, light_.far, light_.near, light_.shot, figures_.parts()},
-        ResidualParams{count_}, count_);
+    commands.dispatch(residual_,
+                      {light_.surface, light_.emission, light_.far, light_.near, light_.shot,
+                       world_->lumels(), figures_.parts()},
+                      ResidualParams{count_}, count_);
     figures_.add_up(commands);
 }
 

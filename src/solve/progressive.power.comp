@@ -12,9 +12,10 @@ layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
 layout(binding = 3, scalar) readonly buffer Far { vec3 far[]; };
 layout(binding = 4, scalar) readonly buffer Near { vec3 near[]; };
 layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 6, scalar) writeonly buffer Lights { ChartLight lights[]; };
+layout(binding = 6, scalar) readonly buffer Ambient { vec3 ambient; };  // of the batch before
+layout(binding = 7, scalar) writeonly buffer Lights { ChartLight lights[]; };
 
-#include "solve/unshot.glsl"
+#include "solve/foreseen.glsl"
 #include "solve/chart_light.glsl"
 
 void main()
@@ -22,11 +23,12 @@ void main()
     const uint me = gl_LocalInvocationID.x;
     const PatchChart chart = charts[gl_WorkGroupID.x];
     ChartLight mine = no_light();
-    for (uint i = me; i < chart.lumel_count; i += kProgressiveGroup) {
+    for (uint i = me; chart.moving == 0u && i < chart.lumel_count;
+         i += kProgressiveGroup) {
         const uint j = chart.first_lumel + i;
         const vec4 s = surface[j];
         const vec3 arrived = far[j] + near[j], unshot = unshot_of(j);
-        mine = sum_of(mine, ChartLight(s.a * abs(luminance(unshot)), s.a * unshot, s.a * shot[j],
+        mine = sum_of(mine, ChartLight(s.a * abs(luminance(foreseen(j))), s.a * unshot, s.a * shot[j],
                                        s.a * arrived, s.a * s.rgb * arrived));
     }
     const ChartLight sum = add_over_group(mine);

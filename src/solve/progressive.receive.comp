@@ -33,7 +33,7 @@ void main()
     if (i >= p.last)
         return;
     const Lumel lumel = lumels[i];
-    if ((lumel.flags & kLumelBuried) != 0u)
+    if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < p.shots; ++k) {

@@ -1,6 +1,7 @@
 #version 460
 #include "solve/progressive.shared.h"
 #include "solve/figures.shared.h"
+#include "atlas/lumel.shared.h"
 #include "solve/radiosity.glsl"
 
 // Sums of light: what is still to be shot, what arrived, and what reflects it.
@@ -12,7 +13,8 @@ layout(binding = 1, scalar) readonly buffer Emission { vec3 emission[]; };
 layout(binding = 2, scalar) readonly buffer Far { vec3 far[]; };
 layout(binding = 3, scalar) readonly buffer Near { vec3 near[]; };
 layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 5, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(binding = 5, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 6, scalar) writeonly buffer Parts { Terms parts[]; };
 
 #include "solve/sum.glsl"
 #include "solve/unshot.glsl"
@@ -23,7 +25,7 @@ void main()
     Terms terms;
     for (uint c = 0u; c < kTermColumns; ++c)
         terms.column[c] = vec4(0.0);
-    if (i < p.count) {
+    if (i < p.count && (lumels[i].flags & kLumelMoving) == 0u) {
         const float area = surface[i].a;
         const vec3 arrived = far[i] + near[i];
         terms.column[0] = area * vec4(abs(luminance(unshot_of(i))), luminance(arrived),

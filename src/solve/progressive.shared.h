@@ -11,8 +11,10 @@ LUMEL_CONST uint kNoLevel = 0xffffffffu;  ///< of a chart that never shot
 
 /// What is shot of a patch.
 LUMEL_CONST uint kSendUnshot = 0u;
-LUMEL_CONST uint kSendBack = 1u;  ///< what was shot, negative: it is taken back
-LUMEL_CONST uint kSendShot = 2u;  ///< what was shot, once more
+LUMEL_CONST uint kSendBack = 1u;      ///< what was shot, negative: it is taken back
+LUMEL_CONST uint kSendShot = 2u;      ///< what was shot, once more
+LUMEL_CONST uint kSendCrossing = 3u;  ///< the same, also where that is nothing
+LUMEL_CONST uint kSendBackSide = 4u;  ///< nothing, from the side that has no lumels
 
 /// Where shooting goes on: patch `next` of a chart.
 struct Cursor {
@@ -33,7 +35,7 @@ struct ChosenPatch {
 
 /// Light of a chart, or of all of them [lm].
 struct ChartLight {
-    float power;     ///< Σ A |𝓛(B^u)|
+    float power;     ///< Σ A |𝓛| of what is sent next
     vec3 unshot;     ///< Σ A B^u
     vec3 shot;       ///< Σ A B^s
     vec3 arrived;    ///< Σ A H
@@ -49,6 +51,7 @@ struct PatchShot {
     uint count;        ///< 0: nothing is shot
     uint parts;        ///< so many points share the patch's light
     uint number;       ///< of the patch's point, the same whenever it shoots
+    float side_;       ///< 1, or -1 of what stands on the back of its lumels
 };
 
 /// Push constants of progressive.power.comp and progressive.select.comp.

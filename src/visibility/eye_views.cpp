@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "visibility/tiles.h"
+#include "visibility/hemicube_tiles.h"
 
 namespace lumel {
 namespace {
@@ -50,7 +50,7 @@ Tiles tiles_of(Projection projection, const EyeViewLayout& layout)
 {
     return projection == Projection::hemisphere
                ? Tiles{layout.side, layout.side, layout.columns}
-               : Tiles{2 * layout.side, 3 * layout.side / 2, layout.columns};
+               : hemicube_tiles(layout.side, layout.columns);
 }
 
 EyeViewLayout make_layout(const gpu::Device& device, const World& world, Projection projection,
@@ -61,11 +61,7 @@ EyeViewLayout make_layout(const gpu::Device& device, const World& world, Project
         throw Error(ErrorKind::device, device.info().name,
                     "has no tessellation shaders, which --projection hemisphere needs; leave it at "
                     "hemicube");
-    // Tiles of both are twice as wide as `side`.
-    const std::uint32_t fit = side > 0 ? device.max_image_side() / (2 * side) : 0;
-    if (side < 2 || side % 2 != 0 || fit == 0)
-        throw Error(ErrorKind::input, "--hemicube " + std::to_string(side),
-                    "must be an even number of pixels that fits the device's images");
+    const std::uint32_t fit = fitting_hemicubes(device, side);  // tiles of both are alike wide
     return {hemisphere ? 2 * side : side, tile_columns(capacity, fit),
             std::max(world.diagonal() * kNear, 1e-30f)};
 }
@@ -74,21 +70,8 @@ gpu::Area face_area(Projection projection, const EyeViewLayout& layout, std::uin
                     std::uint32_t face)
 {
     const gpu::Area tile = tiles_of(projection, layout).area(eye);
-    if (projection == Projection::hemisphere)
-        return tile;
-    const std::uint32_t side = layout.side, half = side / 2;
-    switch (face) {
-    case 0:
-        return {tile.x, tile.y, side, side};
-    case 1:
-        return {tile.x + side, tile.y, side, half};
-    case 2:
-        return {tile.x + side, tile.y + half, side, half};
-    case 3:
-        return {tile.x, tile.y + side, side, half};
-    default:
-        return {tile.x + side, tile.y + side, side, half};
-    }
+    return projection == Projection::hemisphere ? tile
+                                                : hemicube_face_area(tile, layout.side, face);
 }
 
 gpu::RasterState hemisphere_state(gpu::Spirv fragment, std::span<const gpu::Slot> slots)
@@ -190,12 +173,12 @@ void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
             commands.draw(params, range);
         }
     };
-    if (world_->opaque().inner_count > 0) {
+    if (world_->drawn(world_->opaque()).count > 0) {
         commands.use(opaque_, {eyes}, {{&vertices}, &indices});
-        draw_all({}, {world_->opaque().first_index, world_->opaque().inner_count});
+        draw_all({}, world_->drawn(world_->opaque()));
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        if (cut_out.range.inner_count == 0)
+        if (world_->drawn(cut_out.range).count == 0)
             continue;
         const gpu::Binding color{*cut_out.color, *cut_out.sampler};
         if (is_hemisphere())
@@ -203,7 +186,7 @@ void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, 
                          {{&vertices}, &indices});
         else
             commands.use(cut_out_, {eyes, color}, {{&vertices, &looks}, &indices});
-        draw_all(cut_out.passage, {cut_out.range.first_index, cut_out.range.inner_count});
+        draw_all(cut_out.passage, world_->drawn(cut_out.range));
     }
 }
 

@@ -141,15 +141,18 @@ std::vector<glm::vec3> lamp_corners(const Scene& scene)
 }
 
 struct IndexLists {
-    std::vector<std::uint32_t> inner, hull;
+    std::vector<std::uint32_t> still, moving, hull;
 };
 
 OccluderRange append_indices(Occluders& out, const IndexLists& lists)
 {
-    const OccluderRange range{std::uint32_t(out.indices.size()), std::uint32_t(lists.inner.size()),
-                              std::uint32_t(lists.inner.size() + lists.hull.size())};
-    out.indices.insert(out.indices.end(), lists.inner.begin(), lists.inner.end());
-    out.indices.insert(out.indices.end(), lists.hull.begin(), lists.hull.end());
+    const auto inner = std::uint32_t(lists.still.size() + lists.moving.size());
+    const OccluderRange range{.first_index = std::uint32_t(out.indices.size()),
+                              .still_count = std::uint32_t(lists.still.size()),
+                              .inner_count = inner,
+                              .index_count = inner + std::uint32_t(lists.hull.size())};
+    for (const auto* list : {&lists.still, &lists.moving, &lists.hull})
+        out.indices.insert(out.indices.end(), list->begin(), list->end());
     return range;
 }
 
@@ -168,8 +171,9 @@ std::vector<std::uint32_t> Occluders::inner_indices() const
     return inner;
 }
 
-Occluders find_occluders(const Scene& scene, bool with_hull, const Atlas* atlas)
+Occluders find_occluders(const Scene& scene, const std::vector<char>& movers, const Atlas* atlas)
 {
+    const bool with_hull = std::none_of(movers.begin(), movers.end(), [](char m) { return m; });
     std::vector<glm::vec3> points;
     for (const Instance& instance : scene.instances)
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
@@ -183,6 +187,7 @@ Occluders find_occluders(const Scene& scene, bool with_hull, const Atlas* atlas)
     std::vector<IndexLists> per_material(scene.materials.size());
     std::size_t triangle = 0, surface_index = 0;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const bool moves = i < movers.size() && movers[i];
         const bool mirrored = glm::determinant(glm::mat3(scene.instances[i].transform)) < 0.0f;
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
             // Surfaces come in the same order.
@@ -192,7 +197,9 @@ Occluders find_occluders(const Scene& scene, bool with_hull, const Atlas* atlas)
             IndexLists& lists =
                 may_be_transparent(material, primitive) ? per_material[primitive.material] : opaque;
             for (std::size_t k = 0; k + 2 < primitive.indices.size(); k += 3, ++triangle) {
-                std::vector<std::uint32_t>& indices = outer[triangle] ? lists.hull : lists.inner;
+                std::vector<std::uint32_t>& indices = moves             ? lists.moving
+                                                      : outer[triangle] ? lists.hull
+                                                                        : lists.still;
                 const std::vector<std::uint32_t>& corners =
                     surface ? surface->indices : primitive.indices;
                 for (const int c : {0, mirrored ? 2 : 1, mirrored ? 1 : 2})
@@ -202,7 +209,8 @@ Occluders find_occluders(const Scene& scene, bool with_hull, const Atlas* atlas)
     }
     out.opaque = append_indices(out, opaque);
     for (std::size_t m = 0; m < per_material.size(); ++m)
-        if (!per_material[m].inner.empty() || !per_material[m].hull.empty())
+        if (!per_material[m].still.empty() || !per_material[m].moving.empty() ||
+            !per_material[m].hull.empty())
             out.cut_outs.push_back({int(m), append_indices(out, per_material[m])});
     return out;
 }

@@ -9,11 +9,12 @@
 
 namespace lumel {
 
-/// A range of indices. Its first triangles can stand between two points of the scene; the rest lie
-/// on the scene's hull and hide only what is outside.
+/// A range of indices. Its first triangles can stand between two points of the scene, and of these
+/// the first never move; the rest lie on the scene's hull and hide only what is outside.
 struct OccluderRange {
     std::uint32_t first_index = 0;
-    std::uint32_t inner_count = 0;
+    std::uint32_t still_count = 0;
+    std::uint32_t inner_count = 0;  ///< still_count among them
     std::uint32_t index_count = 0;  ///< of all, inner_count among them
 };
 
@@ -42,6 +43,7 @@ struct Occluders {
 /// where instances will move, which makes every triangle an inner one.
 /// `atlas`: if given, vertices are split at chart borders and know their place. Corners go around
 /// a triangle counter-clockwise where it is seen from its front, mirrored instances' too.
-Occluders find_occluders(const Scene& scene, bool with_hull = true, const Atlas* atlas = nullptr);
+Occluders find_occluders(const Scene& scene, const std::vector<char>& movers = {},
+                         const Atlas* atlas = nullptr);
 
 }  // namespace lumel

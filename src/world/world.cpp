@@ -91,8 +91,8 @@ Box box_of(const Scene& scene)
 }  // namespace
 
 World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
-             const Atlas* atlas, Motion motion)
-    : World(device, scene, lumels, find_occluders(scene, motion == Motion::still, atlas))
+             const Atlas* atlas, const std::vector<char>& movers)
+    : World(device, scene, lumels, find_occluders(scene, movers, atlas))
 {
 }
 

@@ -24,20 +24,29 @@ struct CutOutDraw {
     Passage passage{};
 };
 
-/// Will instances move? Then any triangle may come between two points, and none is left out of
-/// views as the scene's hull.
-enum class Motion { still, moving };
-
 /// Local data stays; placed data (in the world) follows the instances' transforms.
 class World {
 public:
     /// The world looks at the scene's sky for as long as it lives. `atlas`: which the lumels were
     /// lifted from; null where no one asks where vertices are in it.
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
-          const Atlas* atlas = nullptr, Motion motion = Motion::still);
+          const Atlas* atlas = nullptr, const std::vector<char>& movers = {});
 
     /// Puts instances where `transforms` [instances] say. Waits for the device.
     void place(std::span<const glm::mat4> transforms);
+
+    /// From now on views show movers, as they do at first, or not.
+    void show_movers(bool shown) { movers_shown_ = shown; }
+    /// What views draw of a range.
+    gpu::Range drawn(const OccluderRange& range) const
+    {
+        return {range.first_index, movers_shown_ ? range.inner_count : range.still_count};
+    }
+    /// The same with the hull.
+    gpu::Range drawn_with_hull(const OccluderRange& range) const
+    {
+        return {range.first_index, movers_shown_ ? range.index_count : range.still_count};
+    }
 
     const std::vector<Placement>& placements() const { return placements_; }  ///< [instances]
     const gpu::Array<Lumel>& lumels() const { return lumels_; }               ///< [N] in the world
@@ -70,6 +79,7 @@ private:
     OccluderRange opaque_;
     std::vector<CutOutDraw> cut_outs_;
     bool coloured_glass_ = false;
+    bool movers_shown_ = true;
     gpu::Kernel place_lumels_, place_vertices_;
     glm::vec3 low_{0.0f}, high_{0.0f};
 

@@ -1,0 +1,74 @@
+#version 460
+#include "solve/cross.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "solve/radiosity.glsl"
+
+// What arrives at the lumels of moving patches, R_g(C, M) and R(M, M) of [Hoef13] 4.5.1:
+//
+//     H_m = Σ_i B_i^s A_i · V · cosθ_m cosθ_i / (π r²)
+//
+// over all lumels i that the patch's hemicube sees. A workgroup a patch.
+
+layout(local_size_x = kProgressiveGroup) in;
+layout(push_constant, scalar) uniform Params { CrossGatherParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 2, scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(binding = 3) uniform sampler2D views;
+layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
+layout(binding = 5, scalar) buffer Far { vec3 far[]; };
+
+#include "visibility/sees.glsl"
+
+shared vec3 sums[kProgressiveGroup];
+
+bool is_near(Lumel a, Lumel b)
+{
+    const vec3 between = a.position - b.position;
+    const float reach = p.near_radius * max(a.size, b.size);
+    return dot(between, between) < reach * reach;
+}
+
+void main()
+{
+    const uint k = gl_WorkGroupID.x, me = gl_LocalInvocationID.x;
+    const PatchShot s = shots[k];
+    if (s.side_ < 0.0)
+        return;
+    const Eye eye = eyes[k];
+    const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
+    vec3 mine[kMostBlock];
+    for (uint m = 0u; m < kMostBlock; ++m)
+        mine[m] = vec3(0.0);
+    for (uint i = me; i < p.count; i += kProgressiveGroup) {
+        const Lumel from = lumels[i];
+        const vec3 d = from.position - eye.position;
+        if (shot[i] == vec3(0.0) || (from.flags & kLumelBuried) != 0u ||
+            dot(d, eye.normal) <= 0.0 || dot(d, from.normal) >= 0.0)
+            continue;
+        if (!sees(p.views, k, d * frame, from.normal * frame))
+            continue;
+        const vec3 power = shot[i] * (from.area / kPi);
+        for (uint m = 0u; m < s.count; ++m) {
+            const Lumel to = lumels[s.first + m];
+            const vec3 way = to.position - from.position;
+            const float r2 = dot(way, way);
+            const float cosines = max(dot(way, from.normal), 0.0) * max(-dot(way, to.normal), 0.0);
+            if (cosines > 0.0 && !is_near(from, to))
+                mine[m] += power * (cosines / (r2 * r2));
+        }
+    }
+    for (uint m = 0u; m < s.count; ++m) {
+        sums[me] = mine[m];
+        barrier();
+        for (uint width = kProgressiveGroup / 2u; width > 0u; width /= 2u) {
+            if (me < width)
+                sums[me] += sums[me + width];
+            barrier();
+        }
+        if (me == 0u)
+            far[s.first + m] = sums[0];
+        barrier();
+    }
+}

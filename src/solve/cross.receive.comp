@@ -1,0 +1,166 @@
+#version 460
+#include "solve/cross.shared.h"
+#include "atlas/lumel.shared.h"
+#include "solve/radiosity.glsl"
+
+// What the patches j of what moves do to the lumels i of what stays [Hoef13] Eq. (3.3.1):
+//
+//     ΔH_i = Σ_j F_ij (B_j - P(C, j, i))
+//
+// They send their own light, R_p(M, C), and hide the light that would pass through them,
+// R_x(C, C): P is the mean of the light behind j that rays from i through the lumels of j meet, as
+// the hemicube on the back of j shows it. F_ij of close pairs is the near field's. Where a mesh is
+// open, the backs of its patches hide light as well; they send none.
+
+layout(local_size_x = kProgressiveGroup) in;
+layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(binding = 4) uniform sampler2D views;
+layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
+layout(binding = 6, scalar) readonly buffer Back { BackPixel back[]; };
+layout(binding = 7, scalar) readonly buffer NearFirst { uint near_first[]; };  // [N + 1]
+layout(binding = 8, scalar) readonly buffer NearColumn { uint near_column[]; };
+layout(binding = 9, scalar) readonly buffer NearFactor { float near_factor[]; };
+layout(binding = 10, scalar) buffer Fresh { vec3 fresh[]; };
+
+#include "world/lumel.glsl"
+#include "visibility/sees.glsl"
+#include "visibility/hemicube.glsl"
+#include "solve/cross.back.glsl"
+
+// Rays through a lumel, along each of its sides, for each radian that it measures from the
+// receiver; and at most.
+const float kRaysPerRadian = 16.0;
+const float kMostRays = 6.0;
+
+struct CrossReceiver {
+    vec3 x, normal, facing;  // of the receiving point
+    vec3 centre;             // of its lumel
+    float size;              // of its lumel
+    uint lumel;
+};
+
+// The pixel of a back hemicube's level in direction `way` (t, b, n of the back eye; n ≥ 0).
+BackPixel behind(uint k, uint level, vec3 way)
+{
+    const uint side = back_side(p.back, level);
+    const ViewPoint f = project_to_hemicube(EyeViewLayout(side, 1u, 1.0), way);
+    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
+    const vec2 second = f.front || !f.negative
+                            ? vec2(0.0)
+                            : (f.along_t ? vec2(0.0, 0.5 * float(side)) : vec2(side, 0.0));
+    return back[back_pixel(p.back, k, level, uvec2(corner + second + f.pixel))];
+}
+
+// Light that a ray from x through the point y of a patch meets behind it, if it stands for a bundle
+// `width` wide at y [m]. The depth in the ray's own direction guesses where it ends; the back eye
+// looks there [Hoef13] 4.5.2, Reproject.
+vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
+{
+    const vec3 ray = y - x;
+    const float r = length(ray);
+    const vec3 way = ray * frame / r;
+    if (way.z <= 0.0)
+        return vec3(0.0);
+    const float inverse = behind(k, 0u, way).inverse;
+    if (inverse <= 0.0)
+        return vec3(0.0);
+    const vec3 toward = (y - eyes[k].position) * frame + way / inverse;
+    // As wide is its end as seen from the back eye [rad], and in pixels.
+    const float pixels = width * (inverse + 1.0 / r) * 0.5 * float(p.back.side);
+    const uint level = uint(clamp(log2(max(pixels, 1.0)) + 0.5, 0.0, float(kBackLevels - 1u)));
+    return toward.z > 0.0 ? behind(k, level, toward).shot : vec3(0.0);
+}
+
+// P(C, j, i) for the lumel m of the patch: more rays where it is close, each counted by how much
+// light would go that way.
+vec3 light_behind(uint k, vec3 x, vec3 normal, Lumel m)
+{
+    const Eye eye = eyes[k];
+    const mat3 frame = mat3(eye.tangent, -eye.bitangent, -eye.normal);
+    const float wide = m.size / max(distance(x, m.position), 1e-6);  // [rad]
+    const uint side = uint(clamp(ceil(wide * kRaysPerRadian), 1.0, kMostRays));
+    if (side == 1u)
+        return light_along(k, frame, x, m.position, m.size);
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint q = 0u; q < side * side; ++q) {
+        const vec2 at = (vec2(q % side, q / side) + 0.5) / float(side);
+        const vec3 y = point_on(m, at.x, at.y).position;
+        const vec3 d = y - x;
+        const float r2 = dot(d, d) + 0.01 * m.area;  // finite where they touch
+        const float weight = max(dot(d, normal), 0.0) * abs(dot(d, eye.normal)) / (r2 * r2);
+        if (weight > 0.0)
+            sum += weight * light_along(k, frame, x, y, m.size / float(side));
+        weights += weight;
+    }
+    return weights > 0.0 ? sum / weights : vec3(0.0);
+}
+
+// F_ij of the near field, for i's row.
+float near_factor_of(uint i, uint j)
+{
+    float factor = 0.0;
+    for (uint n = near_first[i]; n < near_first[i + 1u]; ++n)
+        factor = near_column[n] == j ? near_factor[n] : factor;
+    return factor;
+}
+
+vec3 close_light(CrossReceiver r, uint k, uint j)
+{
+    const float factor = near_factor_of(r.lumel, j);
+    return factor > 0.0 ? factor * (shot[j] - light_behind(k, r.x, r.normal, lumels[j])) : vec3(0.0);
+}
+
+// Of all lumels of patch k.
+vec3 crossing_light(CrossReceiver r, uint k)
+{
+    const PatchShot s = shots[k];
+    const vec3 d = r.x - eyes[k].position;
+    const mat3 frame = mat3(eyes[k].tangent, eyes[k].bitangent, eyes[k].normal);
+    const bool seen = dot(d, eyes[k].normal) > 0.0 && dot(d, r.normal) < 0.0 &&
+                      sees(p.views, k, d * frame, r.facing * frame);
+    vec3 sum = vec3(0.0);
+    for (uint j = s.first; j < s.first + s.count; ++j) {
+        const Lumel from = lumels[j];
+        const vec3 between = r.centre - from.position;
+        const float reach = p.near_radius * max(r.size, from.size);
+        const bool is_back = s.side_ < 0.0;
+        if (!is_back && dot(between, between) < reach * reach) {
+            sum += close_light(r, k, j);
+            continue;
+        }
+        const vec3 way = r.x - from.position;
+        const float r2 = dot(way, way);
+        const float cosines =
+            max(s.side_ * dot(way, from.normal), 0.0) * max(-dot(way, r.normal), 0.0);
+        // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
+        const float disc = is_back ? from.area / kPi : 0.0;
+        const vec3 sent = is_back ? vec3(0.0) : shot[j];
+        if (seen && cosines > 0.0)
+            sum += (sent - light_behind(k, r.x, r.normal, from)) *
+                   (from.area * cosines / (kPi * r2 * (r2 + disc)));
+    }
+    return sum;
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
+        return;
+    // From one point, so that what the patches hide fits together.
+    const CrossReceiver r = CrossReceiver(lumel.position, lumel.normal, lumel.normal,
+                                          lumel.position, lumel.size, i);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < p.shots; ++k)
+        if (shots[k].count > 0u)
+            sum += crossing_light(r, k);
+    fresh[i] += sum;
+}

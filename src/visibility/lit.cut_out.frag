@@ -1,0 +1,29 @@
+#version 460
+#include "visibility/lit_views.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "visibility/alpha.glsl"
+#include "visibility/hemicube.glsl"
+
+// lit.frag for surfaces with alpha. Glass that light ends in is black.
+
+layout(push_constant, scalar) uniform Params { LitParams p; };
+layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(binding = 1, scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
+layout(binding = 2, scalar) readonly buffer Radiosity { vec3 radiosity[]; };
+layout(binding = 3) uniform sampler2D base_color;
+layout(location = 0) centroid in vec2 place;
+layout(location = 1) centroid in vec3 look;
+layout(location = 0) out vec4 color;
+
+#include "visibility/lit.glsl"
+
+void main()
+{
+    const Eye eye = eyes[p.eye];
+    const Meeting met = meet(p.passage, base_color, look, eye.channel, gl_FragCoord.xy,
+                             gl_FragCoord.z, eye.random);
+    if (!met.blocked)
+        discard;
+    color = vec4(met.there ? radiosity_at(p, place) : vec3(0.0), gl_FragCoord.z);
+}

@@ -1,0 +1,17 @@
+#version 460
+#include "visibility/lit_views.shared.h"
+#include "visibility/hemicube.glsl"
+
+// One vertex as the eye sees it through one face of its hemicube, with its place in the atlas.
+
+layout(push_constant, scalar) uniform Params { LitParams p; };
+layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 place_in_;
+layout(location = 0) out vec2 place;
+
+void main()
+{
+    gl_Position = through_face(eyes[p.eye], p.face, p.near, position);
+    place = place_in_;
+}
