@@ -28,7 +28,8 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
-    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options);
+    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options,
+                                   setting.particles ? &*setting.particles : nullptr);
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
     return solution;

@@ -170,8 +170,10 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     check_size(device, options);
     DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
     const std::optional<Lumels> lumels = shining(world.lumels, lamps.irradiance);
+    // Without rays shooters do it all.
+    const LobeParticles* particles = options.rays > 0 ? &*setting.particles : nullptr;
     GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
-                              setting.near, options.bake.solver);
+                              setting.near, options.bake.solver, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 

@@ -50,6 +50,8 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
       near(near_field_of(world, options.solver, stages)),
       resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas)
 {
+    if (method_of(options.solver.method).materials == MaterialModel::glossy)
+        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages)

@@ -1,11 +1,13 @@
 #pragma once
 // A scene made ready for a solver, and a solver let run, as the stages that a user sees.
 
+#include <optional>
 #include <vector>
 
 #include "bake/bake.h"
 #include "bake/prepare.h"
 #include "bake/stages.h"
+#include "solve/lobe_particles.h"
 
 namespace lumel {
 
@@ -25,6 +27,7 @@ struct Setting {
     Prepared world;
     NearField near;
     World resident;
+    std::optional<LobeParticles> particles;  ///< for a solver that knows gloss
 };
 
 /// How a solve went.

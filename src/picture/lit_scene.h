@@ -2,10 +2,10 @@
 // A solved scene as rays meet it.
 
 #include <cstdint>
-#include <vector>
 
 #include "atlas/atlas.h"
 #include "core/image.h"
+#include "nearfield/hit_lumels.h"
 #include "rays/ray_scene.h"
 
 namespace lumel {
@@ -23,18 +23,13 @@ public:
     /// Radiance of the sky in a unit direction [cd/m²].
     glm::vec3 sky(const glm::vec3& direction) const;
 
-    static constexpr std::uint32_t kNone = ~0u;
-    /// Index of the lumel, on the side that was hit; kNone where there is none.
-    std::uint32_t lumel(const RayHit& hit) const;
+    /// Index of the lumel, on the side that was hit; HitLumels::kNone where there is none.
+    std::uint32_t lumel(const RayHit& hit) const { return lumels_.lumel(hit); }
 
 private:
-    glm::vec2 place(const RayHit& hit) const;
-
     const Scene* scene_;
-    const Atlas* atlas_;
+    HitLumels lumels_;
     const Image *front_map_, *back_map_;
-    std::vector<std::size_t> first_surface_;   ///< [instances]
-    std::vector<std::uint32_t> front_, back_;  ///< [height][width] lumel of each texel
 };
 
 }  // namespace lumel

@@ -3,9 +3,8 @@
 //
 //     w ρ_s L(y → x) cosθ / max(cosθ, cosθ_eye),        w = n_B q_B / (n_A q_A + n_B q_B).
 //
-// What y sends is what it emits and reflects diffusely, from the lightmap. Where the lobes of x and
-// y are both narrow the ray goes on along y's; else that light belongs to the shooters
-// (eye_image.receive.comp). Where there are none, it always goes on.
+// What y sends is what it emits and reflects diffusely, from the lightmap. What its lobe sends the
+// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp).
 
 #include "picture/lobe_rays.h"
 
@@ -73,8 +72,7 @@ public:
             const float density = phong_density(glm::dot(mirror, way), x.shininess);
             sum += throughput * sent * (lobe == 0 ? weight(hit, density, way) : 1.0f);
 
-            if (there.reflectance.specular == glm::vec3(0.0f) ||
-                (lobe == 0 && !goes_on(x.shininess, there.reflectance.shininess)))
+            if (there.reflectance.specular == glm::vec3(0.0f))
                 break;
             throughput *=
                 survival(throughput, there.reflectance.specular, samples.random(pair + 1));
@@ -91,18 +89,12 @@ public:
     }
 
 private:
-    /// True if the light of y's lobe, as x reflects it, is the rays' to find.
-    bool goes_on(float x, float y) const
-    {
-        return options_.shooters == 0.0f || std::min(x, y) >= kNarrowLobe;
-    }
-
     /// The balance heuristic against shooters on the lumel that was hit.
     float weight(const RayHit& hit, float density, const glm::vec3& way) const
     {
         const std::uint32_t j = lit_.lumel(hit);
         const float cos_there = std::abs(glm::dot(hit.normal, way));
-        if (options_.shooters == 0.0f || j == LitScene::kNone || cos_there <= 0.0f)
+        if (options_.shooters == 0.0f || j == HitLumels::kNone || cos_there <= 0.0f)
             return 1.0f;
         const float shooters =
             options_.shooters * brightness_[j] * hit.distance * hit.distance / cos_there;

@@ -12,9 +12,8 @@
 //
 //     w = n_A q_A / (n_A q_A + n_B q_B),     q_A = 𝓛(B_j) / Φ · r² / cosθ_j,  q_B = the lobe's.
 //
-// The shooters' own lobes are not weighed: where they and the point's are narrow, rays follow them
-// and count alone; else rays leave them out. Without rays w is 1. Where w is 1, the disc of Eq. (8)
-// bounds what close shooters give.
+// The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send them; the disc
+// of Eq. (8) then bounds what close shooters give.
 
 layout(local_size_x = kEyeGroup) in;
 layout(push_constant, scalar) uniform Params { EyeParams p; };
@@ -48,17 +47,14 @@ vec3 reflect_to_eye(EyePoint x, uint k)
         return vec3(0.0);
 
     const GlossyShot shot = shots[k];
-    const float bounded = lobe * toward_i * toward_j / (r2 * (r2 + shot.disc));
-    vec3 reflected = vec3(0.0);
-    if (p.rays == 0.0 || min(x.shininess, shot.shininess) < kNarrowLobe)
-        reflected = bounded * lobes_toward(k, shot, eye, way, shot.shininess);
     if (p.rays == 0.0)
-        return reflected + shot.diffuse * bounded;
+        return (shot.diffuse + lobes_toward(k, shot, eye, way, shot.shininess)) *
+               (lobe * toward_i * toward_j / (r2 * (r2 + shot.disc)));
     const float shooters = p.shooters * density[shot.lumel] * r2 * sqrt(r2) / toward_j;
     const float cos_out = dot(x.normal, x.toward_eye);
     const float rays = p.rays * lobe * max(toward_i * inversesqrt(r2), cos_out);
     const float weight = shooters > 0.0 ? shooters / (shooters + rays) : 0.0;
-    return reflected + shot.diffuse * (weight * lobe * toward_i * toward_j / (r2 * r2));
+    return shot.diffuse * (weight * lobe * toward_i * toward_j / (r2 * r2));
 }
 
 void main()

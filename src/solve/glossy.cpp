@@ -36,6 +36,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/samples.h"
 #include "solve/lumel_arrays.h"
 #include "solve/phong.h"
 
@@ -56,6 +57,8 @@ constexpr std::uint32_t kEvaluateSpirv[] = {
 constexpr std::uint64_t kRestarts[] = {8, 32};
 /// Iterations after the last restart before the error is stated.
 constexpr std::uint64_t kFirstStated = 2;
+/// Shooters for which each lumel has one particle: then both take about as long.
+constexpr std::size_t kShootersPerParticle = 8;
 /// Share of a frame's shooters spread by area: light may reach what was dark before.
 constexpr float kFrameByArea = 0.1f;
 
@@ -64,7 +67,7 @@ constexpr gpu::Slot kReceiveSlots[] = {
     gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
     gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
-    gpu::Slot::array,   gpu::Slot::array};
+    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array};
 
 }  // namespace
 
@@ -80,7 +83,8 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection proje
 
 GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
                                        const Lumels& lumels, const NearField& near,
-                                       const SolverOptions& options)
+                                       const SolverOptions& options,
+                                       const LobeParticles* particles)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(checked_batch(method_of("glossy"), options.batch)),
@@ -91,6 +95,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       device_(&device),
       world_(&world),
       lumels_(&lumels),
+      particles_(!paper_ && particles && particles->any() ? particles : nullptr),
       kernels_(device, options.projection),
       views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
       eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
@@ -103,7 +108,9 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       exitance_(device, count_),
       diffuse_(device, count_),
       near_(device, count_),
-      last_(device, std::size_t(batch_) * count_),
+      last_(device, particles_ ? 1 : std::size_t(batch_) * count_),
+      carried_(device, count_),
+      passed_on_(device, count_),
       sums_(device, 2 * count_),
       absorbed_(device, 2 * count_),
       irradiance_(device, count_),
@@ -119,7 +126,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
 void GlossyIllumination::begin()
 {
     pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_})
+        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_,
+                                  &passed_on_})
             commands.fill(array->buffer());
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
@@ -134,6 +142,7 @@ void GlossyIllumination::step()
         std::end(kRestarts))
         restart();
     select();
+    carry();
     views_.look_from(pacer_, eyes_[state_.iterations % 2], batch_);
     receive();
     if (eye_)
@@ -163,7 +172,7 @@ void GlossyIllumination::select()
     const GlossySelectParams params{.layout_ = power_.layout(),
                                     .count = count_,
                                     .shots = batch_,
-                                    .before = state_.iterations > 0 ? batch_ : 0u,
+                                    .before = state_.iterations > 0 && !particles_ ? batch_ : 0u,
                                     .index = next_shot_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u,
@@ -175,6 +184,19 @@ void GlossyIllumination::select()
                            lobes_},
                           params, batch_);
     });
+}
+
+void GlossyIllumination::carry()
+{
+    if (!particles_)
+        return;
+    pacer_.finish();
+    const std::vector<glm::vec3> exitance = diffuse_.download();
+    const std::size_t particles = std::size_t(batch_) * count_ / kShootersPerParticle + 1;
+    const LobeParticles::Carried carried =
+        particles_->carry(exitance, particles, PathSamples::hash(options_.seed, iteration_));
+    carried_.upload(carried.irradiance);
+    passed_on_.upload(carried.reflected);
 }
 
 void GlossyIllumination::receive()
@@ -191,7 +213,8 @@ void GlossyIllumination::receive()
                                .iteration = iteration_,
                                .seed = options_.seed,
                                .centre = options_.rule == SampleRule::centre ? 1u : 0u,
-                               .near_radius = near_radius_};
+                               .near_radius = near_radius_,
+                               .particles = particles_ ? 1u : 0u};
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                     params.first = first;
@@ -214,7 +237,9 @@ void GlossyIllumination::receive()
                                        near_rows_.first(),
                                        near_rows_.column(),
                                        near_rows_.factor(),
-                                       lobes_},
+                                       lobes_,
+                                       carried_,
+                                       passed_on_},
                                       params, last - first);
                 });
     if (!held_)
@@ -260,7 +285,7 @@ void GlossyIllumination::rewind()
                            {*device_, count_},
                            {*device_, count_},
                            {*device_, count_},
-                           {*device_, std::size_t(batch_) * count_},
+                           {*device_, last_.size()},
                            {*device_, kMostGlossyBatch},
                            {*device_, view(mean_exitance())}});
     pacer_.work("rewind", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -325,7 +350,7 @@ std::vector<glm::vec3> GlossyIllumination::mean_exitance()
     // The lobes' albedo counts as 1: what is drawn by need not be exact.
     for (std::size_t i = 0; i < count_; ++i) {
         const Gloss& gloss = lumels_->gloss[i];
-        exitance[i] += (gloss.diffuse + gloss.specular) * arriving[i];
+        exitance[i] += (particles_ ? gloss.diffuse : gloss.diffuse + gloss.specular) * arriving[i];
     }
     return exitance;
 }

@@ -9,6 +9,7 @@
 #include "solve/eye_image.h"
 #include "solve/figures.h"
 #include "solve/glossy.shared.h"
+#include "solve/lobe_particles.h"
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
 #include "solve/solver.h"
@@ -25,8 +26,11 @@ struct EnergyBalance {
 /// Shooters drawn by power send diffuse light and the lobes of their last irradiance.
 class GlossyIllumination final : public Solver {
 public:
+    /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
+    /// outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const NearField& near, const SolverOptions& options);
+                       const NearField& near, const SolverOptions& options,
+                       const LobeParticles* particles = nullptr);
 
     void step() override;
     SolverState state() const override { return state_; }
@@ -79,6 +83,7 @@ private:
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     void select();
+    void carry();
     void receive();
     void restart();
     void evaluate(gpu::Commands& commands);
@@ -95,6 +100,7 @@ private:
     const gpu::Device* device_;
     const World* world_;
     const Lumels* lumels_;
+    const LobeParticles* particles_;  ///< null: shooters send lobes
     Kernels kernels_;
     EyeViews views_;
     gpu::Array<Eye> eyes_[2];  ///< this iteration's and the one's before, by turns
@@ -108,6 +114,7 @@ private:
     gpu::Array<glm::vec3> diffuse_;   ///< [N] the part of it that is the same in all directions
     gpu::Array<glm::vec3> near_;      ///< [N] near light of the B before it
     gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
+    gpu::Array<glm::vec3> carried_, passed_on_;  ///< [N] LobeParticles::Carried of this iteration
     gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;

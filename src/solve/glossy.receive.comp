@@ -11,6 +11,9 @@
 //
 // Near pairs exchange diffuse light in the near field; only lobes are shot at them, through the
 // same form factors. Scheme::paper has no near field and takes r² + A_j/π for r², Eq. (8).
+//
+// Where particles carry what lobes send on (lobe_particles.cpp), shooters send none, and B_i lacks
+// it: it is counted as not absorbed, and arrives elsewhere with the particles.
 
 layout(local_size_x = kGlossyReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };
@@ -32,6 +35,8 @@ layout(binding = 14, scalar) readonly buffer NearFirst { uint near_first[]; };
 layout(binding = 15, scalar) readonly buffer NearColumn { uint near_column[]; };
 layout(binding = 16, scalar) readonly buffer NearFactor { float near_factors[]; };
 layout(binding = 17, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
+layout(binding = 18, scalar) readonly buffer Carried { vec3 carried[]; };  // [N] by particles
+layout(binding = 19, scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, by lobes
 
 #include "world/lumel.glsl"
 #include "solve/phong.glsl"
@@ -113,19 +118,28 @@ void main()
     const Gloss g = gloss[i];
     const bool open = (lumel.flags & kLumelBuried) == 0u;
     const LumelPoint x = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
+    const bool particles = p.particles != 0u;
+    const vec3 near_lobes = near[i] * g.specular * phong_mean_albedo(g.shininess);
     vec3 sum = near[i];
-    vec3 diffuse = near[i] * (g.diffuse + g.specular * phong_mean_albedo(g.shininess));
+    vec3 diffuse = near[i] * g.diffuse;
     vec3 lobes = vec3(0.0);
+    if (particles) {
+        sum += carried[i];
+        diffuse += carried[i] * g.diffuse;
+        lobes = near_lobes + passed_on[i];
+    } else
+        diffuse += near_lobes;
     for (uint k = 0u; k < p.shots; ++k) {
         float cos_in = 0.0;
         const vec3 irradiance = open ? receive(i, lumel, x, k, cos_in) : vec3(0.0);
-        last[k * p.count + i] = irradiance;
+        if (!particles)
+            last[k * p.count + i] = irradiance;
         sum += irradiance;
         diffuse += irradiance * g.diffuse;
         lobes += irradiance * g.specular * phong_albedo(cos_in, g.shininess);
     }
     diffuse_exitance[i] = emission[i] + diffuse;
-    exitance[i] = emission[i] + diffuse + lobes;
+    exitance[i] = emission[i] + diffuse + (particles ? vec3(0.0) : lobes);
     const uint at = p.half_ * p.count + i;
     sums[at] += sum;
     absorbed[at] += sum - diffuse - lobes;

@@ -55,6 +55,7 @@ struct GlossyReceiveParams {
     uint seed;
     uint centre;        ///< 1: receive at the centroid
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    uint particles;     ///< 1: particles carry what lobes send on, 0: shooters
 };
 
 /// Push constants of glossy.evaluate.comp.

@@ -68,14 +68,15 @@ std::uint32_t checked_batch(const MethodInfo& method, int batch)
 
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
-                                    const SolverOptions& options)
+                                    const SolverOptions& options, const LobeParticles* particles)
 {
     if (options.method == "directions")
         return std::make_unique<GlobalDirections>(device, world, lumels, options);
     if (options.method == "progressive")
         return std::make_unique<ProgressiveRadiosity>(device, world, lumels, near, options);
     if (method_of(options.method).materials == MaterialModel::glossy)
-        return std::make_unique<GlossyIllumination>(device, world, lumels, near, options);
+        return std::make_unique<GlossyIllumination>(device, world, lumels, near, options,
+                                                    particles);
     return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
 }
 

@@ -21,6 +21,8 @@
 
 namespace lumel {
 
+class LobeParticles;
+
 enum class Scheme {
     phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
     paper,   ///< the papers' iteration: random shooters, running average, no near field
@@ -114,10 +116,11 @@ NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels&
                          const SolverOptions& options, float radius = 0.0f);
 
 /// Throws Error{input} if options.method is not in the table or cannot take options.batch. `near`
-/// may be empty for methods and schemes without a near field.
+/// may be empty for methods and schemes without a near field. particles: see GlossyIllumination.
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
-                                    const SolverOptions& options);
+                                    const SolverOptions& options,
+                                    const LobeParticles* particles = nullptr);
 
 /// Steps until a limit of the options is met or `go_on` returns false. Returns true unless
 /// go_on ended it.

@@ -1,0 +1,169 @@
+// A lobe of exponent n sends all its power into about 2π / n sr: what one shooter's lobes bring to
+// a receiver, Eq. (4) of [BSS05], has a variance in proportion to n / r², without bound where both
+// are close, for p_j knows the power that a shooter sends and not where to. A particle instead
+// draws ω from the lobe: with the density q of phong_density,
+//
+//     f_r cosθ' / q = ρ_s cosθ' / max(cosθ, cosθ') ≤ 1,
+//
+// so that each brings the same power, wherever it lands, and no lumel more than its share of them.
+//
+//   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
+//           GPU. 2005.
+
+#include "solve/lobe_particles.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/parallel.h"
+#include "reference/samples.h"
+#include "solve/lumel_arrays.h"
+#include "solve/phong.h"
+
+namespace lumel {
+namespace {
+
+/// Particles worth a task.
+constexpr std::size_t kParticlesPerTask = 512;
+/// Lobes that one particle follows at most: mirrors that face each other would hold it for ever.
+constexpr std::uint32_t kMostLobes = 256;
+/// Lobes whose directions are stratified; later ones add too little for it to pay.
+constexpr std::uint32_t kStratifiedLobes = 1;
+
+/// Dimension pairs of a particle's random numbers.
+constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kFirstLobePair = 2, kPairsPerLobe = 2;
+
+bool has_lobes(const Lumels& lumels)
+{
+    return std::any_of(lumels.gloss.begin(), lumels.gloss.end(),
+                       [](const Gloss& gloss) { return gloss.specular != glm::vec3(0.0f); });
+}
+
+/// [N] running sum of A 𝓛(B) [lm]
+std::vector<double> running_power(const Lumels& lumels, std::span<const glm::vec3> exitance)
+{
+    std::vector<double> running(exitance.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i < exitance.size(); ++i) {
+        if ((lumels.lumels[i].flags & kLumelBuried) == 0)
+            sum += double(lumels.lumels[i].area) * luminance(exitance[i]);
+        running[i] = sum;
+    }
+    return running;
+}
+
+}  // namespace
+
+/// Power that arrives at a lumel, and how much of it a lobe reflects.
+struct LobeParticles::Landing {
+    std::uint32_t lumel;
+    glm::vec3 power, reflected;  ///< [lm]
+};
+
+struct LobeParticles::Start {
+    std::uint32_t lumel;
+    glm::vec3 power;  ///< [lm]
+    PathSamples samples;
+};
+
+LobeParticles::LobeParticles(const Scene& scene, const Atlas& atlas, const RayScene& rays,
+                             const Lumels& lumels)
+    : rays_(&rays),
+      lumels_(&lumels),
+      world_(scene, rays, lumels),
+      surfaces_(scene),
+      hits_(scene, atlas, lumels),
+      any_(has_lobes(lumels))
+{
+}
+
+void LobeParticles::follow(Start start, std::vector<Landing>& landings) const
+{
+    const PathSamples& samples = start.samples;
+    const LumelPoint y = world_.point_on(start.lumel, samples.stratified(kPointPair));
+    const float lift = rays_->lift();
+    const double whole = luminance(start.power);
+    glm::vec3 position = y.position + lift * y.normal;
+    // A lobe of exponent 1 about the normal is what a diffuse surface sends.
+    glm::vec3 way = phong_direction(y.normal, 1.0f, samples.stratified(kWayPair));
+    glm::vec3 power = start.power;
+    for (std::uint32_t lobe = 0; lobe < kMostLobes; ++lobe) {
+        const std::uint32_t pair = kFirstLobePair + kPairsPerLobe * lobe;
+        RayHit hit;
+        if (!rays_->closest(position, way, 0.0f, std::numeric_limits<float>::max(),
+                            samples.bits(pair), hit))
+            break;
+        const std::uint32_t i = hits_.lumel(hit);
+        if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
+            break;
+        power *= hit.tint;
+        const Gloss& gloss = lumels_->gloss[i];
+        const Shading there = surfaces_.shade(hit);
+        const float cos_in = -glm::dot(there.normal, way);
+        const glm::vec3 mirror = way + 2.0f * cos_in * there.normal;
+        const glm::vec3 onward = phong_direction(
+            mirror, gloss.shininess,
+            lobe < kStratifiedLobes ? samples.stratified(pair) : samples.random(pair));
+        const float cos_out = glm::dot(there.normal, onward);
+        const bool leaves = cos_in > 0.0f && cos_out > 0.0f &&
+                            glm::dot(there.geometric, onward) > 0.0f;
+        const glm::vec3 reflected =
+            leaves ? power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
+                   : glm::vec3(0.0f);
+        if (lobe > 0)
+            landings.push_back({i, power, reflected});
+
+        const double chance = luminance(reflected) / whole;
+        if (!(double(samples.random(pair + 1).x) < chance))
+            break;
+        power = reflected * float(1.0 / std::min(chance, 1.0));
+        position += way * hit.distance + lift * there.geometric;
+        way = onward;
+    }
+}
+
+LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
+                                            std::size_t particles, std::uint32_t seed) const
+{
+    const std::size_t count = exitance.size();
+    Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
+                    std::vector<glm::vec3>(count, glm::vec3(0.0f))};
+    const std::vector<double> running = running_power(*lumels_, exitance);
+    const double total = count > 0 ? running.back() : 0.0;
+    if (!(total > 0.0) || particles == 0)
+        return carried;
+
+    // Each lumel sends as many particles as its power is worth, spread evenly. Tasks keep their
+    // landings apart, so that sums do not depend on which is first.
+    const double each = total / double(particles);
+    const double offset = double(PathSamples(seed, 0).random(0).x);
+    const std::size_t tasks = (particles + kParticlesPerTask - 1) / kParticlesPerTask;
+    std::vector<std::vector<Landing>> landings(tasks);
+    const auto follow_some = [&](std::size_t task) {
+        const std::size_t first = task * kParticlesPerTask;
+        const std::size_t last = std::min(first + kParticlesPerTask, particles);
+        const auto place_of = [&](std::size_t m) { return (double(m) + offset) * each; };
+        auto at = std::upper_bound(running.begin(), running.end(), place_of(first));
+        for (std::size_t m = first; m < last; ++m) {
+            at = std::find_if(at, running.end(), [&](double sum) { return sum > place_of(m); });
+            if (at == running.end())
+                break;
+            const auto j = std::uint32_t(at - running.begin());
+            const glm::vec3 power = exitance[j] * float(each / luminance(exitance[j]));
+            follow({j, power, PathSamples(seed, std::uint32_t(m))}, landings[task]);
+        }
+    };
+    parallel_for(tasks, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t task = first; task < last; ++task)
+            follow_some(task);
+    });
+    for (const std::vector<Landing>& some : landings)
+        for (const Landing& landing : some) {
+            const float area = lumels_->lumels[landing.lumel].area;
+            carried.irradiance[landing.lumel] += landing.power / area;
+            carried.reflected[landing.lumel] += landing.reflected / area;
+        }
+    return carried;
+}
+
+}  // namespace lumel
