@@ -104,11 +104,12 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
+    const PowerDraw senders(setting.particles->world(), setting.world.lumels, brightness);
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = options.bake.solver.seed};
     const std::vector<glm::vec3> along =
-        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, brightness, lobes,
+        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, senders, lobes,
                            [&](double fraction) { return stages.tell(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
         reflected[g] += along[g];

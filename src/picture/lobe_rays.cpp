@@ -4,7 +4,10 @@
 //     w ρ_s L(y → x) cosθ / max(cosθ, cosθ_eye),        w = n_B q_B / (n_A q_A + n_B q_B).
 //
 // What y sends is what it emits and reflects diffusely, from the lightmap. What its lobe sends the
-// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp).
+// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at x
+// if there are no shooters, a second ray to a point drawn by what it sends takes the shooters' place
+// in the weights: Russian roulette makes what few rays go on carry much, and small lamps would be
+// met by few of those.
 
 #include "picture/lobe_rays.h"
 
@@ -22,7 +25,9 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Lobes that one ray follows at most: mirrors that face each other would hold it for ever.
-constexpr int kMostLobes = 16;
+constexpr std::uint32_t kMostLobes = 16;
+/// Dimension pairs of a ray's random numbers: its direction, roulette, and whom it seeks.
+constexpr std::uint32_t kPairsPerLobe = 4;
 /// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
 /// Points between two progress reports.
@@ -31,11 +36,11 @@ constexpr std::size_t kPointsPerStep = 65536;
 class LobeRays {
 public:
     LobeRays(const RayScene& rays, const Surfaces& surfaces, const LitScene& lit,
-             std::span<const float> brightness, const LobeRayOptions& options)
+             const PowerDraw& senders, const LobeRayOptions& options)
         : rays_(rays),
           surfaces_(surfaces),
           lit_(lit),
-          brightness_(brightness),
+          senders_(senders),
           options_(options),
           lift_(rays.lift())
     {
@@ -45,12 +50,16 @@ public:
     glm::vec3 estimate(EyePoint x, const PathSamples& samples) const
     {
         glm::vec3 sum(0.0f), throughput(1.0f);
-        for (int lobe = 0; lobe < kMostLobes; ++lobe) {
-            const auto pair = std::uint32_t(2 * lobe);
+        for (std::uint32_t lobe = 0; lobe < kMostLobes; ++lobe) {
+            const std::uint32_t pair = kPairsPerLobe * lobe;
+            const Ways ways = ways_at(lobe);
             const float cos_eye = glm::dot(x.normal, x.toward_eye);
             if (cos_eye <= 0.0f)
                 break;
             const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
+            if (ways.seeks)
+                sum += throughput * sought(x, mirror, samples, pair);
+
             const glm::vec3 way = phong_direction(
                 mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
             const float cos_in = glm::dot(x.normal, way);
@@ -63,14 +72,13 @@ public:
                                            samples.bits(pair), hit);
             throughput *= hit.tint;
             if (!met) {
-                sum += throughput * lit_.sky(way);  // shooters do not send it
+                sum += throughput * lit_.sky(way);  // nobody else sends it
                 break;
             }
             const Shading there = surfaces_.shade(hit);
-            const glm::vec3 sent =
-                there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
-            const float density = phong_density(glm::dot(mirror, way), x.shininess);
-            sum += throughput * sent * (lobe == 0 ? weight(hit, density, way) : 1.0f);
+            const float rays = ways.rays * phong_density(glm::dot(mirror, way), x.shininess);
+            const float others = ways.others * density(hit, way);
+            sum += throughput * sent(there, hit) * (rays > 0.0f ? rays / (rays + others) : 0.0f);
 
             if (there.reflectance.specular == glm::vec3(0.0f))
                 break;
@@ -89,17 +97,62 @@ public:
     }
 
 private:
-    /// The balance heuristic against shooters on the lumel that was hit.
-    float weight(const RayHit& hit, float density, const glm::vec3& way) const
+    /// The ways to choose y from a point.
+    struct Ways {
+        float rays;    ///< how many along its lobe
+        float others;  ///< how many drawn by what they send
+        bool seeks;    ///< the latter by a ray, one for each along the lobe; else by the shooters
+    };
+
+    Ways ways_at(std::uint32_t lobe) const
+    {
+        if (lobe == 0 && options_.shooters > 0.0f)
+            return {float(options_.rays), options_.shooters, false};
+        const bool seeks = senders_.power() > 0.0;
+        return {1.0f, seeks ? 1.0f : 0.0f, seeks};
+    }
+
+    /// What y sends equally in all directions [cd/m²].
+    glm::vec3 sent(const Shading& there, const RayHit& hit) const
+    {
+        return there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
+    }
+
+    /// q_A of what a ray hit: with which y is drawn by what it sends [1/sr].
+    float density(const RayHit& hit, const glm::vec3& way) const
     {
         const std::uint32_t j = lit_.lumel(hit);
         const float cos_there = std::abs(glm::dot(hit.normal, way));
-        if (options_.shooters == 0.0f || j == HitLumels::kNone || cos_there <= 0.0f)
-            return 1.0f;
-        const float shooters =
-            options_.shooters * brightness_[j] * hit.distance * hit.distance / cos_there;
-        const float rays = float(options_.rays) * density;
-        return rays > 0.0f ? rays / (shooters + rays) : 0.0f;
+        if (!(senders_.power() > 0.0) || j == HitLumels::kNone || cos_there <= 0.0f)
+            return 0.0f;
+        return senders_.density(j) * hit.distance * hit.distance / cos_there;
+    }
+
+    /// What x reflects to the eye of a y drawn by what it sends, weighed against one along the
+    /// lobe.
+    glm::vec3 sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                     std::uint32_t pair) const
+    {
+        const double place = double(samples.random(pair + 2).x) * senders_.power();
+        const std::uint32_t j = senders_.lumel(place);
+        const glm::vec3 origin = x.position + lift_ * x.facing;
+        const glm::vec3 way =
+            glm::normalize(senders_.point(j, samples.random(pair + 3)).position - origin);
+        const float cos_in = glm::dot(x.normal, way), cos_eye = glm::dot(x.normal, x.toward_eye);
+        const float along = phong_density(glm::dot(mirror, way), x.shininess);
+        if (!(along > 0.0f) || cos_in <= 0.0f || !(glm::dot(x.facing, way) > 0.0f))
+            return glm::vec3(0.0f);
+        RayHit hit;
+        if (!rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
+                           samples.bits(pair + 2), hit) ||
+            lit_.lumel(hit) != j)
+            return glm::vec3(0.0f);
+        const float drawn = density(hit, way);
+        if (!(drawn > 0.0f))
+            return glm::vec3(0.0f);
+        const float reflects = along * cos_in / std::max(cos_in, cos_eye);
+        return hit.tint * x.specular * sent(surfaces_.shade(hit), hit) *
+               (reflects / (drawn + along));
     }
 
     /// Russian roulette before another lobe: 0, or what makes up for those that end.
@@ -114,7 +167,7 @@ private:
     const RayScene& rays_;
     const Surfaces& surfaces_;
     const LitScene& lit_;
-    std::span<const float> brightness_;
+    const PowerDraw& senders_;
     LobeRayOptions options_;
     float lift_;  ///< [m]
 };
@@ -123,11 +176,11 @@ private:
 
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
-                                          std::span<const float> brightness,
+                                          const PowerDraw& senders,
                                           const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress)
 {
-    const LobeRays lobes(rays, surfaces, lit, brightness, options);
+    const LobeRays lobes(rays, surfaces, lit, senders, options);
     std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
     // One ray of every point at a time: weighed for as many as were asked for, fewer are as right.
     std::uint32_t taken = 0;

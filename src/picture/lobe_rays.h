@@ -10,6 +10,7 @@
 #include "picture/lit_scene.h"
 #include "reference/surfaces.h"
 #include "solve/eye_image.h"
+#include "solve/power_draw.h"
 
 namespace lumel {
 
@@ -20,12 +21,12 @@ struct LobeRayOptions {
 };
 
 /// [P] cd/m² toward the eye, weighed against the shooters by the balance heuristic [VG95].
-/// brightness [N]: 𝓛(B_j) / Φ [1/m²], as the shooters were weighed with. `progress` is given the
+/// senders: with the brightness that the shooters were weighed with. `progress` is given the
 /// fraction done and returns false to stop, which leaves each point as many rays as the others, one
 /// at least.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
-                                          std::span<const float> brightness,
+                                          const PowerDraw& senders,
                                           const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress = {});
 

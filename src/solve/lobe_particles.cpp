@@ -19,6 +19,7 @@
 #include "reference/samples.h"
 #include "solve/lumel_arrays.h"
 #include "solve/phong.h"
+#include "solve/power_draw.h"
 
 namespace lumel {
 namespace {
@@ -31,7 +32,8 @@ constexpr std::uint32_t kMostLobes = 256;
 constexpr std::uint32_t kStratifiedLobes = 1;
 
 /// Dimension pairs of a particle's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kFirstLobePair = 2, kPairsPerLobe = 2;
+constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kOffsetPair = 2,
+                        kFirstLobePair = 3, kPairsPerLobe = 2;
 
 bool has_lobes(const Lumels& lumels)
 {
@@ -39,17 +41,13 @@ bool has_lobes(const Lumels& lumels)
                        [](const Gloss& gloss) { return gloss.specular != glm::vec3(0.0f); });
 }
 
-/// [N] running sum of A 𝓛(B) [lm]
-std::vector<double> running_power(const Lumels& lumels, std::span<const glm::vec3> exitance)
+std::vector<float> brightness_of(std::span<const glm::vec3> exitance)
 {
-    std::vector<double> running(exitance.size());
-    double sum = 0.0;
-    for (std::size_t i = 0; i < exitance.size(); ++i) {
-        if ((lumels.lumels[i].flags & kLumelBuried) == 0)
-            sum += double(lumels.lumels[i].area) * luminance(exitance[i]);
-        running[i] = sum;
-    }
-    return running;
+    std::vector<float> brightness;
+    brightness.reserve(exitance.size());
+    for (const glm::vec3& value : exitance)
+        brightness.push_back(float(luminance(value)));
+    return brightness;
 }
 
 }  // namespace
@@ -128,27 +126,20 @@ LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
     const std::size_t count = exitance.size();
     Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
                     std::vector<glm::vec3>(count, glm::vec3(0.0f))};
-    const std::vector<double> running = running_power(*lumels_, exitance);
-    const double total = count > 0 ? running.back() : 0.0;
-    if (!(total > 0.0) || particles == 0)
+    const PowerDraw senders(world_, *lumels_, brightness_of(exitance));
+    if (!(senders.power() > 0.0) || particles == 0)
         return carried;
 
     // Each lumel sends as many particles as its power is worth, spread evenly. Tasks keep their
     // landings apart, so that sums do not depend on which is first.
-    const double each = total / double(particles);
-    const double offset = double(PathSamples(seed, 0).random(0).x);
+    const double each = senders.power() / double(particles);
+    const double offset = double(PathSamples(seed, 0).random(kOffsetPair).x);
     const std::size_t tasks = (particles + kParticlesPerTask - 1) / kParticlesPerTask;
     std::vector<std::vector<Landing>> landings(tasks);
     const auto follow_some = [&](std::size_t task) {
         const std::size_t first = task * kParticlesPerTask;
-        const std::size_t last = std::min(first + kParticlesPerTask, particles);
-        const auto place_of = [&](std::size_t m) { return (double(m) + offset) * each; };
-        auto at = std::upper_bound(running.begin(), running.end(), place_of(first));
-        for (std::size_t m = first; m < last; ++m) {
-            at = std::find_if(at, running.end(), [&](double sum) { return sum > place_of(m); });
-            if (at == running.end())
-                break;
-            const auto j = std::uint32_t(at - running.begin());
+        for (std::size_t m = first; m < std::min(first + kParticlesPerTask, particles); ++m) {
+            const std::uint32_t j = senders.lumel((double(m) + offset) * each);
             const glm::vec3 power = exitance[j] * float(each / luminance(exitance[j]));
             follow({j, power, PathSamples(seed, std::uint32_t(m))}, landings[task]);
         }
