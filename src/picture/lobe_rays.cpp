@@ -26,6 +26,9 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Lobes that one ray follows at most: mirrors that face each other would hold it for ever.
 constexpr std::uint32_t kMostLobes = 16;
+/// Throughput below which a ray takes part in Russian roulette: what glazed surfaces reflect. With
+/// more, the few narrow lobes behind one that lead to a lamp would show.
+constexpr float kRouletteBelow = 0.04f;
 /// Dimension pairs of a ray's random numbers: its direction, roulette, and whom it seeks.
 constexpr std::uint32_t kPairsPerLobe = 4;
 /// Fewest points worth a task.
@@ -160,7 +163,7 @@ private:
                           const glm::vec2& random)
     {
         const glm::vec3 next = throughput * specular;
-        const float chance = std::min(std::max({next.x, next.y, next.z}), 1.0f);
+        const float chance = std::min(std::max({next.x, next.y, next.z}) / kRouletteBelow, 1.0f);
         return random.x < chance ? 1.0f / chance : 0.0f;
     }
 
