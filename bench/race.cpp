@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "bake/lighting.h"
+#include "bake/setting.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
@@ -121,8 +122,9 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const double before = watch.cpu;
     const std::vector<glm::vec3> direct = light_of(settings, device, gpu_world, world);
     const std::optional<Lumels> lit = shining(world.lumels, direct);
-    const auto solver =
-        make_solver(device, gpu_world, lit ? *lit : world.lumels, near, settings.solver);
+    const std::optional<LobeParticles> particles = particles_for(world, settings.solver);
+    const auto solver = make_solver(device, gpu_world, lit ? *lit : world.lumels, near,
+                                    settings.solver, particles ? &*particles : nullptr);
     watch.stop();
     fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);
     std::vector<Row> rows;

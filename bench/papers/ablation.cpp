@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "bake/setting.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/spread.h"
@@ -41,6 +42,8 @@ struct Sight {
     Prepared world;
     NearField near;
     World resident;
+    std::optional<LobeParticles> particles;
+    WorldLumels standing;
     Surfaces surfaces;
     Seen seen;
     std::vector<char> counts;  ///< [pixels] 1: shows gloss and no lamp
@@ -66,6 +69,8 @@ Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
             AtlasOptions{.size = settings.shared.size}),
       near(build_near_field(world.scene, world.rays, world.lumels, near_field_options(options))),
       resident(device, world.scene, world.lumels),
+      particles(particles_for(world, options)),
+      standing(world.scene, world.rays, world.lumels),
       surfaces(world.scene),
       seen(seen_by_camera(settings, world, surfaces)),
       counts(std::size_t(seen.width) * std::size_t(seen.height), 0)
@@ -107,8 +112,9 @@ void take(Way& way, const Sight& sight, GlossyIllumination& solver, const LitSce
     }
     const LobeRayOptions lobes{
         .rays = way.rays, .shooters = way.shots > 0 ? sampling.shooters() : 0.0f, .seed = seed};
+    const PowerDraw senders(sight.standing, sight.world.lumels, brightness);
     const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, sight.world.rays,
-                                                            sight.surfaces, lit, brightness, lobes);
+                                                            sight.surfaces, lit, senders, lobes);
     for (std::size_t g = 0; g < radiance.size(); ++g)
         radiance[g] += along[g];
     watch.stop();
@@ -145,8 +151,12 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         options.seed += std::uint32_t(i);
         options.max_shots = std::uint64_t(settings.solving_shots);
         options.target_error = 0.0;
-        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options);
+        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options,
+                                  &*sight.particles);
         solve(solver, options);
+        // Without rays, shooters send what lobes do.
+        GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, options);
+        solve(alone, options);
         const Prepared& world = sight.world;
         const SideMaps maps =
             finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
@@ -156,7 +166,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
             take(warm, sight, solver, lit, options.seed);
         }
         for (Way& way : ways)
-            take(way, sight, solver, lit, options.seed);
+            take(way, sight, way.rays > 0 ? solver : alone, lit, options.seed);
     }
     print_ways(ways, sight, settings.seeds);
 }

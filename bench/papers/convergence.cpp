@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "bake/render.h"
+#include "bake/setting.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
@@ -109,12 +110,14 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
 {
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
+    const std::optional<LobeParticles> particles = particles_for(world, options);
+    const LobeParticles* carriers = particles ? &*particles : nullptr;
     {  // the driver compiles shaders when they first run
-        const auto warm = make_solver(device, resident, world.lumels, near, options);
+        const auto warm = make_solver(device, resident, world.lumels, near, options, carriers);
         warm->step();
         warm->irradiance();
     }
-    const auto solver = make_solver(device, resident, world.lumels, near, options);
+    const auto solver = make_solver(device, resident, world.lumels, near, options, carriers);
     std::vector<Step> steps;
     Stopwatch watch;
     for (const int iterations : settings.iterations) {

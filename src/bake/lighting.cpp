@@ -29,7 +29,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
     solution->solver = make_solver(device, setting.resident, lumels, setting.near, options,
-                                   setting.particles ? &*setting.particles : nullptr);
+                                   setting.carriers());
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
     return solution;

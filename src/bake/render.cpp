@@ -104,7 +104,8 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
-    const PowerDraw senders(setting.particles->world(), setting.world.lumels, brightness);
+    const WorldLumels standing(setting.world.scene, setting.world.rays, setting.world.lumels);
+    const PowerDraw senders(standing, setting.world.lumels, brightness);
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = options.bake.solver.seed};
@@ -172,7 +173,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
     const std::optional<Lumels> lumels = shining(world.lumels, lamps.irradiance);
     // Without rays shooters do it all.
-    const LobeParticles* particles = options.rays > 0 ? &*setting.particles : nullptr;
+    const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
     GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
                               setting.near, options.bake.solver, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);

@@ -45,13 +45,21 @@ const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 
 }  // namespace
 
+std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
+{
+    std::optional<LobeParticles> particles;
+    if (method_of(options.method).materials == MaterialModel::glossy &&
+        options.scheme != Scheme::paper)
+        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
+    return particles;
+}
+
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
     : world(in_stage(std::move(scene), stages), options.atlas),
       near(near_field_of(world, options.solver, stages)),
-      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas)
+      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),
+      particles(particles_for(world, options.solver))
 {
-    if (method_of(options.solver.method).materials == MaterialModel::glossy)
-        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages)

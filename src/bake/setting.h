@@ -17,6 +17,10 @@ void tell_warnings(const Scene& scene);
 /// Says what the scene's reader and the atlas had to say.
 void tell_user(const Prepared& world);
 
+/// Who carries what lobes send on, for a solver that knows gloss; none for Scheme::paper, whose
+/// shooters send it. The world must outlive them.
+std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options);
+
 /// A scene on a device with all that a solver is made of. Stays where it was made.
 struct Setting {
     /// Throws Error.
@@ -27,7 +31,10 @@ struct Setting {
     Prepared world;
     NearField near;
     World resident;
-    std::optional<LobeParticles> particles;  ///< for a solver that knows gloss
+    std::optional<LobeParticles> particles;  ///< see particles_for
+
+    /// The same for a solver, null if there are none.
+    const LobeParticles* carriers() const { return particles ? &*particles : nullptr; }
 };
 
 /// How a solve went.

@@ -22,9 +22,6 @@ public:
     /// False if no lumel has a lobe.
     bool any() const { return any_; }
 
-    /// The lumels where they stand.
-    const WorldLumels& world() const { return world_; }
-
     /// An unbiased estimate.
     struct Carried {
         std::vector<glm::vec3> irradiance;  ///< [N] [lx] that arrives from lobes
