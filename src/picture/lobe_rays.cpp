@@ -4,10 +4,10 @@
 //     w ρ_s L(y → x) cosθ / max(cosθ, cosθ_eye),        w = n_B q_B / (n_A q_A + n_B q_B).
 //
 // What y sends is what it emits and reflects diffusely, from the lightmap. What its lobe sends the
-// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at x
-// if there are no shooters, a second ray to a point drawn by what it sends takes the shooters' place
-// in the weights: Russian roulette makes what few rays go on carry much, and small lamps would be
-// met by few of those.
+// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at
+// x if there are no shooters, a second ray to a point drawn by what it sends takes the shooters'
+// place in the weights: Russian roulette makes what few rays go on carry much, and small lamps
+// would be met by few of those.
 
 #include "picture/lobe_rays.h"
 
@@ -179,8 +179,7 @@ private:
 
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
-                                          const PowerDraw& senders,
-                                          const LobeRayOptions& options,
+                                          const PowerDraw& senders, const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress)
 {
     const LobeRays lobes(rays, surfaces, lit, senders, options);

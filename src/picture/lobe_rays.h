@@ -26,8 +26,7 @@ struct LobeRayOptions {
 /// at least.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
-                                          const PowerDraw& senders,
-                                          const LobeRayOptions& options,
+                                          const PowerDraw& senders, const LobeRayOptions& options,
                                           const std::function<bool(double)>& progress = {});
 
 }  // namespace lumel

@@ -12,8 +12,8 @@
 //
 //     w = n_A q_A / (n_A q_A + n_B q_B),     q_A = 𝓛(B_j) / Φ · r² / cosθ_j,  q_B = the lobe's.
 //
-// The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send them; the disc
-// of Eq. (8) then bounds what close shooters give.
+// The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send them; the
+// disc of Eq. (8) then bounds what close shooters give.
 
 layout(local_size_x = kEyeGroup) in;
 layout(push_constant, scalar) uniform Params { EyeParams p; };

@@ -83,8 +83,7 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection proje
 
 GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
                                        const Lumels& lumels, const NearField& near,
-                                       const SolverOptions& options,
-                                       const LobeParticles* particles)
+                                       const SolverOptions& options, const LobeParticles* particles)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(checked_batch(method_of("glossy"), options.batch)),
@@ -126,8 +125,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
 void GlossyIllumination::begin()
 {
     pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_,
-                                  &passed_on_})
+        for (const auto* array :
+             {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_, &passed_on_})
             commands.fill(array->buffer());
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));

@@ -115,7 +115,7 @@ private:
     gpu::Array<glm::vec3> near_;      ///< [N] near light of the B before it
     gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
     gpu::Array<glm::vec3> carried_, passed_on_;  ///< [N] LobeParticles::Carried of this iteration
-    gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
+    gpu::Array<glm::vec3> sums_, absorbed_;      ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;
     std::optional<EyeImage> eye_;

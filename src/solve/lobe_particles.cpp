@@ -32,8 +32,8 @@ constexpr std::uint32_t kMostLobes = 256;
 constexpr std::uint32_t kStratifiedLobes = 1;
 
 /// Dimension pairs of a particle's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kOffsetPair = 2,
-                        kFirstLobePair = 3, kPairsPerLobe = 2;
+constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kOffsetPair = 2, kFirstLobePair = 3,
+                        kPairsPerLobe = 2;
 
 bool has_lobes(const Lumels& lumels)
 {
@@ -99,12 +99,12 @@ void LobeParticles::follow(Start start, std::vector<Landing>& landings) const
         const Shading there = surfaces_.shade(hit);
         const float cos_in = -glm::dot(there.normal, way);
         const glm::vec3 mirror = way + 2.0f * cos_in * there.normal;
-        const glm::vec3 onward = phong_direction(
-            mirror, gloss.shininess,
-            lobe < kStratifiedLobes ? samples.stratified(pair) : samples.random(pair));
+        const glm::vec3 onward = phong_direction(mirror, gloss.shininess,
+                                                 lobe < kStratifiedLobes ? samples.stratified(pair)
+                                                                         : samples.random(pair));
         const float cos_out = glm::dot(there.normal, onward);
-        const bool leaves = cos_in > 0.0f && cos_out > 0.0f &&
-                            glm::dot(there.geometric, onward) > 0.0f;
+        const bool leaves =
+            cos_in > 0.0f && cos_out > 0.0f && glm::dot(there.geometric, onward) > 0.0f;
         const glm::vec3 reflected =
             leaves ? power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
                    : glm::vec3(0.0f);

@@ -70,8 +70,8 @@ bool is_beside_lamp(const Image& truth, int x, int y)
     return false;
 }
 
-/// Relative RMSE away from lamps, free of the noise of two halves of a reference: the product of the
-/// deviations from them has the true squared error as its mean.
+/// Relative RMSE away from lamps, free of the noise of two halves of a reference: the product of
+/// the deviations from them has the true squared error as its mean.
 double error_alone(const Image& image, const Image& first, const Image& second)
 {
     double square = 0.0, sum = 0.0, count = 0.0;
