@@ -22,8 +22,10 @@
 // averaged.
 //
 // Differs from the paper else:
-// - K shooters per iteration. Of a shooter's K lobes some stand for all, drawn by what they
-//   reflect: one where they are wide, K but at most 64 where they are narrow.
+// - K shooters per iteration.
+// - Given LobeParticles, these carry what lobes send on, and shooters send E + ρ_d I alone. Without
+//   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
+//   wide, K but at most 64 where they are narrow.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
 //   diffusely; lobes between them go through the same form factors. In the paper all pairs have

@@ -13,13 +13,14 @@
 #include "solve/lobe_particles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/parallel.h"
 #include "reference/samples.h"
 #include "solve/lumel_arrays.h"
 #include "solve/phong.h"
-#include "solve/power_draw.h"
 
 namespace lumel {
 namespace {
@@ -41,13 +42,11 @@ bool has_lobes(const Lumels& lumels)
                        [](const Gloss& gloss) { return gloss.specular != glm::vec3(0.0f); });
 }
 
-std::vector<float> brightness_of(std::span<const glm::vec3> exitance)
+/// A 𝓛(B) [lm], 0 where buried.
+double power_of(const Lumel& lumel, const glm::vec3& exitance)
 {
-    std::vector<float> brightness;
-    brightness.reserve(exitance.size());
-    for (const glm::vec3& value : exitance)
-        brightness.push_back(float(luminance(value)));
-    return brightness;
+    const bool counts = (lumel.flags & kLumelBuried) == 0;
+    return counts ? double(lumel.area) * luminance(exitance) : 0.0;
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ LobeParticles::LobeParticles(const Scene& scene, const Atlas& atlas, const RaySc
 {
 }
 
-void LobeParticles::follow(Start start, std::vector<Landing>& landings) const
+void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) const
 {
     const PathSamples& samples = start.samples;
     const LumelPoint y = world_.point_on(start.lumel, samples.stratified(kPointPair));
@@ -120,29 +119,50 @@ void LobeParticles::follow(Start start, std::vector<Landing>& landings) const
     }
 }
 
+/// Each lumel sends as many as its power is worth, rounded up or down by a number of its own:
+/// what one sends does not depend on the others', so that a little more light changes little. The
+/// numbers of neighbours are spread evenly.
+std::vector<LobeParticles::Start> LobeParticles::starts_of(std::span<const glm::vec3> exitance,
+                                                           std::size_t particles,
+                                                           std::uint32_t seed) const
+{
+    double total = 0.0;
+    for (std::size_t j = 0; j < exitance.size(); ++j)
+        total += power_of(lumels_->lumels[j], exitance[j]);
+    std::vector<Start> starts;
+    if (!(total > 0.0))
+        return starts;
+    starts.reserve(particles);
+    const double offset = double(PathSamples(seed, 0).random(kOffsetPair).x);
+    const double per_power = double(particles) / total;
+    for (std::size_t j = 0; j < exitance.size(); ++j) {
+        const double power = power_of(lumels_->lumels[j], exitance[j]);
+        const double number = offset + double(j) * std::numbers::phi;
+        const auto count = std::uint32_t(power * per_power + number - std::floor(number));
+        const std::uint32_t stream = PathSamples::hash(seed, std::uint32_t(j));
+        for (std::uint32_t t = 0; t < count; ++t)
+            starts.push_back({std::uint32_t(j),
+                              exitance[j] * float(1.0 / (per_power * luminance(exitance[j]))),
+                              PathSamples(stream, t)});
+    }
+    return starts;
+}
+
 LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
                                             std::size_t particles, std::uint32_t seed) const
 {
     const std::size_t count = exitance.size();
     Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
                     std::vector<glm::vec3>(count, glm::vec3(0.0f))};
-    const PowerDraw senders(world_, *lumels_, brightness_of(exitance));
-    if (!(senders.power() > 0.0) || particles == 0)
-        return carried;
-
-    // Each lumel sends as many particles as its power is worth, spread evenly. Tasks keep their
-    // landings apart, so that sums do not depend on which is first.
-    const double each = senders.power() / double(particles);
-    const double offset = double(PathSamples(seed, 0).random(kOffsetPair).x);
-    const std::size_t tasks = (particles + kParticlesPerTask - 1) / kParticlesPerTask;
+    const std::vector<Start> starts = starts_of(exitance, particles, seed);
+    // Tasks keep their landings apart, so that sums do not depend on which is first.
+    const std::size_t tasks = (starts.size() + kParticlesPerTask - 1) / kParticlesPerTask;
     std::vector<std::vector<Landing>> landings(tasks);
     const auto follow_some = [&](std::size_t task) {
         const std::size_t first = task * kParticlesPerTask;
-        for (std::size_t m = first; m < std::min(first + kParticlesPerTask, particles); ++m) {
-            const std::uint32_t j = senders.lumel((double(m) + offset) * each);
-            const glm::vec3 power = exitance[j] * float(each / luminance(exitance[j]));
-            follow({j, power, PathSamples(seed, std::uint32_t(m))}, landings[task]);
-        }
+        const std::size_t last = std::min(first + kParticlesPerTask, starts.size());
+        for (std::size_t m = first; m < last; ++m)
+            follow(starts[m], landings[task]);
     };
     parallel_for(tasks, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t task = first; task < last; ++task)

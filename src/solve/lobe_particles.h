@@ -27,15 +27,17 @@ public:
         std::vector<glm::vec3> irradiance;  ///< [N] [lx] that arrives from lobes
         std::vector<glm::vec3> reflected;   ///< [N] [lm/m²] that lobes reflect of it
     };
-    /// exitance: [N] [lm/m²] that lumels send diffusely, 0 where they are buried. The same seed and
-    /// exitance give the same bytes.
+    /// exitance: [N] [lm/m²] that lumels send diffusely. About as many particles as asked for. The
+    /// same seed and exitance give the same bytes.
     Carried carry(std::span<const glm::vec3> exitance, std::size_t particles,
                   std::uint32_t seed) const;
 
 private:
     struct Landing;
     struct Start;
-    void follow(Start start, std::vector<Landing>& landings) const;
+    std::vector<Start> starts_of(std::span<const glm::vec3> exitance, std::size_t particles,
+                                 std::uint32_t seed) const;
+    void follow(const Start& start, std::vector<Landing>& landings) const;
 
     const RayScene* rays_;
     const Lumels* lumels_;

@@ -33,16 +33,22 @@ Lumels lit_by(Lumels lumels, const std::vector<glm::vec3>& emission)
     return lumels;
 }
 
+/// Who brings what lobes send on: shooters or particles.
+enum class Lobes { shot, carried };
+
 /// The glossy Cornell box with a solver at work on it.
 struct Running {
     explicit Running(std::uint32_t seed,
-                     std::vector<glm::vec3> (*lamps)(const Lumels&) = emission_of)
+                     std::vector<glm::vec3> (*lamps)(const Lumels&) = emission_of,
+                     Lobes lobes = Lobes::shot)
         : world(read_gltf(support::scene_path("glossy-cornell-box"), MaterialModel::glossy),
                 AtlasOptions{.size = 32}),
           lumels(lit_by(world.lumels, lamps(world.lumels))),
           options{.method = "glossy", .seed = seed},
           resident(world.scene, world.rays, lumels, options),
-          solver(resident.device, resident.world, lumels, resident.near, options)
+          particles(world.scene, world.atlas, world.rays, lumels),
+          solver(resident.device, resident.world, lumels, resident.near, options,
+                 lobes == Lobes::carried ? &particles : nullptr)
     {
         step();
     }
@@ -88,6 +94,7 @@ struct Running {
     Lumels lumels;
     SolverOptions options;
     support::Resident resident;
+    LobeParticles particles;
     GlossyIllumination solver;
 };
 
@@ -128,6 +135,13 @@ TEST(Frames, ALampThatBrightensALittleLeavesTheNoiseWhereItWas)
     const std::vector<glm::vec3> before = same.lit(1.0f), after = same.lit(1.01f);
     EXPECT_LE(difference(after, before), 0.5 * difference(other.lit(1.0f), before));
     EXPECT_EQ(same.resident.device.validation_messages(), "");
+}
+
+TEST(Frames, ALampThatBrightensALittleLeavesTheNoiseOfParticlesToo)
+{
+    Running same(1, emission_of, Lobes::carried), other(2, emission_of, Lobes::carried);
+    const std::vector<glm::vec3> before = same.lit(1.0f), after = same.lit(1.01f);
+    EXPECT_LE(difference(after, before), 0.5 * difference(other.lit(1.0f), before));
 }
 
 TEST(Frames, ACameraThatMovesALittleSeesTheSameNoise)
