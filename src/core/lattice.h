@@ -2,6 +2,7 @@
 // Points of the unit square, evenly spread, of which it is known how many there will be.
 //
 //   [HN04] J. Hannay, J. Nye. Fibonacci numerical integration on a sphere. 2004.
+//   [Rob18] M. Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.
 
 #include <cstdint>
 
@@ -9,20 +10,40 @@
 
 namespace lumel {
 
-/// Point `index` of `count` in [0, 1)²: a lattice of the golden ratio, moved by a shift of its own
-/// for every `key`. The first coordinate takes each count-th part of the interval once.
-inline glm::vec2 lattice_point(std::uint32_t index, std::uint32_t count, std::uint32_t key)
+/// Spreads the bits of a key (MurmurHash3's finalizer).
+inline std::uint32_t mixed_bits(std::uint32_t key)
 {
-    constexpr std::uint32_t kGolden = 2654435769u;  // 2³² / φ: the sum wraps as fractions do
-    // Mixes the key's bits (MurmurHash3's finalizer).
     std::uint32_t mixed = key ^ (key >> 16);
     mixed *= 0x85ebca6bu;
     mixed ^= mixed >> 13;
     mixed *= 0xc2b2ae35u;
     mixed ^= mixed >> 16;
-    const float shift = float(mixed >> 8) * 0x1p-24f;
-    const std::uint32_t y = mixed * kGolden + index * kGolden;
-    return {(float(index) + shift) / float(count), float(y >> 8) * 0x1p-24f};
+    return mixed;
+}
+
+/// 0 ≤ result < 1, from the upper 24 bits.
+inline float unit_float(std::uint32_t bits)
+{
+    return float(bits >> 8) * 0x1p-24f;
+}
+
+/// Point `index` of `count` in [0, 1)²: a lattice of the golden ratio, moved by a shift of its own
+/// for every `key`. The first coordinate takes each count-th part of the interval once.
+inline glm::vec2 lattice_point(std::uint32_t index, std::uint32_t count, std::uint32_t key)
+{
+    constexpr std::uint32_t kGolden = 2654435769u;  // 2³² / φ: the sum wraps as fractions do
+    const std::uint32_t mixed = mixed_bits(key);
+    const float shift = unit_float(mixed);
+    return {(float(index) + shift) / float(count), unit_float(mixed * kGolden + index * kGolden)};
+}
+
+/// Point `index` of a sequence in [0, 1)² that starts elsewhere for every `key` [Rob18]. Of one
+/// index, this and a lattice_point are spread over [0, 1)⁴ together, as two lattice_points are not.
+inline glm::vec2 sequence_point(std::uint32_t index, std::uint32_t key)
+{
+    constexpr std::uint32_t kX = 3242174889u, kY = 2447445414u;  // 2³² / ψ, / ψ²; ψ³ = ψ + 1
+    const std::uint32_t x = mixed_bits(key), y = mixed_bits(x);
+    return {unit_float(x + index * kX), unit_float(y + index * kY)};
 }
 
 }  // namespace lumel

@@ -56,16 +56,14 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
     const double parts = double(sources.size()) + 1.0;  // the lamps are one
     double part = 0.0;
     const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
-    ParallelLightOptions parallel{
+    const ParallelLightOptions parallel{
         .side = parallel_side(lumels, world.diagonal(), device.max_image_side()),
-        .points = options.sky_points,
         .seed = options.seed,
         .centre = options.centre};
     DirectLight light;
     for (const std::vector<ParallelSource>& directions : sources) {
         light.finished =
             light.finished && add_parallel_light(device, world, directions, parallel, summed, told);
-        parallel.points = options.sun_points;  // the sky is the first source
         part += 1.0;
     }
     light.finished =

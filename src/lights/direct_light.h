@@ -13,12 +13,8 @@ namespace lumel {
 
 struct DirectLightOptions {
     std::uint32_t sky_directions = 1024;  ///< looked along for the sky, 0: without it
-    std::uint32_t sun_directions = 64;    ///< for each directional light
-    std::uint32_t disc_directions = 256;  ///< for each that has a disc
-    /// Of a lumel that look along each direction: in the city of scenes/ under an even sky, four
-    /// leave 1.5 % of error where one leaves 2.3 %, at half as much more time.
-    std::uint32_t sky_points = 4;
-    std::uint32_t sun_points = 8;  ///< of the sun and other directional lights
+    std::uint32_t sun_directions = 256;   ///< for each directional light
+    std::uint32_t disc_directions = 512;  ///< for each that has a disc
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };

@@ -45,13 +45,14 @@ std::uint32_t batch_of(const ParallelLightOptions& options)
     return std::uint32_t(std::clamp<std::uint64_t>(fit, 1, kMostViews));
 }
 
-ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t count,
-                     std::uint32_t channel, const World& world, const ParallelLightOptions& options)
+ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uint32_t channel,
+                     const World& world, const ParallelLightOptions& options)
 {
     const std::uint32_t keys = options.seed * kKeys;
+    // Pictures that are all turned alike divide one another's pixels evenly.
     const ParallelPose pose{.toward = source.toward,
-                            .turn = 2.0f * kPi * lattice_point(index, count, keys + kTurnKey).y,
-                            .offset = lattice_point(index, count, keys + kOffsetKey),
+                            .turn = 2.0f * kPi * sequence_point(0, keys + kTurnKey).x,
+                            .offset = sequence_point(index, keys + kOffsetKey),
                             .random = index + options.seed * 0x9e3779b9u,
                             .channel = channel};
     return fit_view(world.low(), world.high(), options.side, pose);
@@ -62,13 +63,12 @@ std::vector<ParallelView> views_of(const std::vector<ParallelSource>& sources, c
                                    const ParallelLightOptions& options)
 {
     std::vector<ParallelView> views;
-    const auto count = std::uint32_t(sources.size());
-    for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t i = 0; i < std::uint32_t(sources.size()); ++i)
         if (!world.has_coloured_glass())
-            views.push_back(view_of(sources[i], i, count, kAllChannels, world, options));
+            views.push_back(view_of(sources[i], i, kAllChannels, world, options));
         else
             for (std::uint32_t c = 0; c < kChannels; ++c)
-                views.push_back(view_of(sources[i], i, count, 1 + c, world, options));
+                views.push_back(view_of(sources[i], i, 1 + c, world, options));
     return views;
 }
 
@@ -151,7 +151,6 @@ bool add_parallel_light(const gpu::Device& device, const World& world,
                                                           .first_view = begin,
                                                           .views = count,
                                                           .views_per_source = views_per_source,
-                                                          .points = options.points,
                                                           .seed = options.seed,
                                                           .centre = options.centre ? 1u : 0u};
                        commands.dispatch(receive,

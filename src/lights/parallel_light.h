@@ -17,13 +17,12 @@ namespace lumel {
 std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed);
 
 /// `count` directions, evenly spread over the light's disc; all the same where it has none. Only
-/// their pixels and receiving points differ then.
+/// where their pixels lie differs then.
 std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
                                         std::uint32_t seed);
 
 struct ParallelLightOptions {
     std::uint32_t side = 512;  ///< of each view [pixels]
-    std::uint32_t points = 1;  ///< of a lumel that look along each direction
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };

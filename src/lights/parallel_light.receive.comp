@@ -7,8 +7,9 @@
 //
 //     H = Σ_k  illuminance_k · V_k · max(cosθ_k, 0).
 //
-// Among coloured glass V differs from channel to channel, and each view tells of one.
-// What is known of V is summed up as light_sums.shared.h says.
+// Among coloured glass V differs from channel to channel, and each view tells of one. What is known
+// of V is summed up as light_sums.shared.h says, P being the number of rays that meet a lumel in
+// the mean: all of them are asked.
 
 layout(local_size_x = kParallelGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
@@ -25,6 +26,69 @@ layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 #include "visibility/parallel.glsl"
 #include "visibility/first_met.glsl"
 #include "visibility/piece_along.glsl"
+#include "visibility/rays_along.glsl"
+
+// Pieces of a lumel that are asked about: all, or so many chosen by chance.
+const uint kMostPieces = 4u;
+// Rays that are asked about a piece, about: where more meet it, some are left out.
+const float kMostRays = 64.0;
+
+bool is_lit(PieceInView piece, uint tile, vec2 pixel)
+{
+    const ivec2 place = ivec2(tile_corner(p.layout_, tile)) + ivec2(pixel);
+    return is_first(piece, RayMet(pixel, 1.0), texelFetch(parallel_image, place, 0).x);
+}
+
+// Rays that meet a piece, and those of them that are lit, each counted as what it stands for: 1 for
+// all in the mean. `random`: which are left out where there are many.
+vec2 rays_of(ParallelView view, uint tile, Piece piece, uint random)
+{
+    const PieceInView s = piece_along(view, piece);
+    const RaysAlong rays = rays_along(view, p.layout_, piece, s);
+    const float stride = max(ceil(sqrt(rays.area / kMostRays)), 1.0);
+    const vec2 start = floor(stride * vec2(unit_float(random), unit_float(hash(random))));
+    float met = 0.0, lit = 0.0;
+    for (float y = rays.rows.x + start.y; y <= rays.rows.y; y += stride) {
+        const vec2 columns = columns_of(rays, p.layout_, y);
+        for (float x = columns.x + start.x; x <= columns.y; x += stride) {
+            met += 1.0;
+            if (is_lit(s, tile, vec2(x, y)))
+                lit += 1.0;
+        }
+    }
+    return vec2(met, lit) * (stride * stride / rays.area);
+}
+
+// The same for the ray next to a lumel's centroid.
+vec2 ray_of(ParallelView view, uint tile, Piece piece, vec3 middle)
+{
+    const PieceInView s = piece_along(view, piece);
+    RayMet ray;
+    if (!find_ray(s, place_in(view, middle), vec2(p.layout_.side), ray))
+        return vec2(0.0);
+    return vec2(1.0, is_lit(s, tile, ray.pixel) ? 1.0 : 0.0) / ray.chance;
+}
+
+uint pieces_asked(Lumel lumel)
+{
+    return p.centre != 0u ? 1u : min(lumel.piece_count, kMostPieces);
+}
+
+// The n-th of them, and the share of the lumel that it stands for. `draw` tells apart all that are
+// chosen of a lumel.
+Piece piece_asked(Lumel lumel, uint i, uint n, uint draw, out float share)
+{
+    if (p.centre == 0u && lumel.piece_count <= kMostPieces) {
+        const Piece piece = pieces[lumel.first_piece + n];
+        share = n == 0u ? piece.share : piece.share - pieces[lumel.first_piece + n - 1u].share;
+        return piece;
+    }
+    const LumelPoint point = receiving_point(lumel, i, draw, p.seed, p.centre != 0u);
+    Piece piece = pieces[point.piece];
+    piece.normal = point.normal;
+    share = 1.0 / float(pieces_asked(lumel));
+    return piece;
+}
 
 void main()
 {
@@ -34,29 +98,25 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
+    const uint asked = pieces_asked(lumel);
     LightSums sum = sums[i];
-    for (uint n = 0u; n < p.views * p.points; ++n) {
-        const uint k = n / p.points;
+    for (uint ask = 0u; ask < p.views * asked; ++ask) {
+        const uint k = ask / asked, index = (p.first_view + k) / p.views_per_source;
         const ParallelView view = views[p.first_view + k];
-        const uint index = (p.first_view + k) / p.views_per_source;
         const ParallelSource source = sources[index];
-        // The point moves over the lumel all the time.
-        const LumelPoint point = receiving_point(lumel, i, index * p.points + n % p.points, p.seed,
-                                                 p.centre != 0u);
-        const float cosine = dot(point.normal, source.toward);
-        if (cosine <= 0.0 || dot(point.facing, source.toward) <= 0.0)
+        const uint draw = index * asked + ask % asked;
+        float share;
+        const Piece piece = piece_asked(lumel, i, ask % asked, draw, share);
+        const float cosine = dot(piece.normal, source.toward);
+        const vec3 facing = cross(piece.edge_u, piece.edge_v);
+        if (cosine <= 0.0 || dot(facing, source.toward) <= 0.0)
             continue;
-        const vec3 open = cosine / float(p.points) * source.illuminance * carried(view.channel);
+        const vec3 open = share * cosine * source.illuminance * carried(view.channel);
+        const vec2 rays = p.centre != 0u ? ray_of(view, k, piece, lumel.position)
+                                         : rays_of(view, k, piece, hash(i ^ hash(draw ^ p.seed)));
         sum.open += open;
-        const PieceInView piece = piece_along(view, pieces[point.piece]);
-        RayMet ray;
-        if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
-            continue;
-        const vec3 known = open / ray.chance;
-        sum.known += known;
-        const ivec2 place = ivec2(tile_corner(p.layout_, k)) + ivec2(ray.pixel);
-        if (is_first(piece, ray, texelFetch(parallel_image, place, 0).x))
-            sum.arrived += known;
+        sum.known += open * rays.x;
+        sum.arrived += open * rays.y;
     }
     sums[i] = sum;
 }

@@ -20,7 +20,6 @@ struct ParallelReceiveParams {
     uint first_view;  ///< views [first_view, first_view + views), drawn into tiles 0, 1, …
     uint views;
     uint views_per_source;  ///< that follow one another
-    uint points;            ///< of a lumel for each view
     uint seed;
     uint centre;  ///< 1: receive at the centroid
 };

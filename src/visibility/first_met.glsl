@@ -29,9 +29,15 @@ struct RayMet {
     float chance;  // that a view has one that meets the piece: about its area in pixels, at most 1
 };
 
-// Does the pixel's ray meet the piece, at a safe distance from its edges? Where another surface
-// meets an edge at a right angle, the two differ in depth by 2 pixels' widths for every pixel of
-// that distance.
+// A safe distance from a piece's edges in its coordinates, which change by du, dv per pixel. Where
+// another surface meets an edge at a right angle, the two differ in depth by 2 pixels' widths for
+// every pixel of that distance.
+vec2 margin_of(float steepness, vec2 du, vec2 dv)
+{
+    return kSnap * (2.0 + steepness) * vec2(abs(du.x) + abs(du.y), abs(dv.x) + abs(dv.y));
+}
+
+// Does the pixel's ray meet the piece, at a safe distance from its edges?
 bool meets(PieceInView s, vec2 pixel, out float area)
 {
     const vec3 p = vec3(pixel + 0.5, 1.0);
@@ -40,8 +46,7 @@ bool meets(PieceInView s, vec2 pixel, out float area)
     const vec2 du = (s.u_form.xy - at.x * s.weight.xy) * w;  // per pixel
     const vec2 dv = (s.v_form.xy - at.y * s.weight.xy) * w;
     area = (s.parallelogram ? 1.0 : 0.5) / abs(du.x * dv.y - du.y * dv.x);
-    const vec2 margin =
-        kSnap * (2.0 + s.steepness) * vec2(abs(du.x) + abs(du.y), abs(dv.x) + abs(dv.y));
+    const vec2 margin = margin_of(s.steepness, du, dv);
     return w > 0.0 && all(greaterThan(at, margin)) &&
            (s.parallelogram ? all(lessThan(at, 1.0 - margin))
                             : at.x + at.y < 1.0 - margin.x - margin.y);

@@ -84,6 +84,32 @@ TEST(City, IsLitAlikeByShootersAndAlongGlobalDirections)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+// Most of the error is in the lumels that the patch of sun ends in.
+TEST(TwoRooms, SunThroughTheWindowIsAsPathTraced)
+{
+    const Prepared world(read_scene(support::scene_path("two-rooms-window"), MaterialModel::diffuse,
+                                    {.sky_color = glm::vec3(0.0f),
+                                     .sun = SunPosition{.azimuth = glm::radians(280.0),
+                                                        .elevation = glm::radians(35.0)}}),
+                         AtlasOptions{.size = kSize});
+    std::array<std::vector<glm::vec3>, 2> half;
+    for (std::uint32_t h = 0; h < 2; ++h)
+        half[h] = reference_irradiance(
+            world.scene, world.rays, world.lumels,
+            {.samples_per_lumel = 2048, .seed = 1 + h, .parts = Parts::direct});
+    const gpu::Device device;
+    const World resident(device, world.scene, world.lumels);
+    const std::vector<glm::vec3> irradiance =
+        direct_light(device, resident, world.scene, world.lumels, {}).irradiance;
+    EXPECT_LE(support::error_alone(irradiance, half[0], half[1]), 0.02);
+    EXPECT_LE(
+        std::abs(support::lumel_error(world.lumels, irradiance, support::mean_of(half[0], half[1]),
+                                      [](const Lumel&) { return true; })
+                     .bias),
+        0.005);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 /// A square of clear texels with an opaque disc in its middle, one metre above a floor.
 constexpr float kLeafRadius = 0.35f;  // [m], of a square of 1 m
 

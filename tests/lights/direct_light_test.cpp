@@ -145,31 +145,57 @@ TEST_P(Sun, LightsAPlaneByTheCosine)
 
 INSTANTIATE_TEST_SUITE_P(OfDegrees, Sun, testing::Values(0.0f, 0.27f, 5.0f));
 
-TEST(SunLight, ShadowOfAnEdgeIsSharpAndWhereItBelongs)
+/// A floor of 4 m with 64 lumels a side, one metre below a plate that covers x < `past` [m], under
+/// a sun at 45° towards +x. The shadow ends at x = past - 1.
+support::HandMade floor_under_plate(float past, float sun_angle)
 {
-    // A plate one metre above the floor covers x < 0; the sun stands at 45° towards +x, so that its
-    // shadow ends at x = -1.
-    std::vector<support::Quad> quads{floor_of(2.0f, 64)};
-    quads.push_back({.corner = {-4.0f, 1.0f, -4.0f},
-                     .edge_u = {0.0f, 0.0f, 8.0f},
-                     .edge_v = {4.0f, 0.0f, 0.0f},
-                     .res_u = 128,
-                     .res_v = 64});
-    support::HandMade scene = support::make_quads(quads);
+    support::HandMade scene = support::make_quads({floor_of(2.0f, 64),
+                                                   {.corner = {-4.0f, 1.0f, -4.0f},
+                                                    .edge_u = {0.0f, 0.0f, 8.0f},
+                                                    .edge_v = {4.0f + past, 0.0f, 0.0f},
+                                                    .res_u = 16,
+                                                    .res_v = 8}});
     PunctualLight sun;
     sun.kind = PunctualLight::Kind::directional;
     sun.intensity = 1.0f;
+    sun.angle = sun_angle;
     sun.transform = shining({-1.0f, -1.0f, 0.0f});
     scene.scene.lights.push_back(sun);
+    return scene;
+}
+
+constexpr float kFullSun = 0.70710678f;      // of 1 lx from 45° [lx]
+constexpr float kFloorLumel = 4.0f / 64.0f;  // [m]
+
+TEST(SunLight, ShadowOfAnEdgeIsSharpAndWhereItBelongs)
+{
+    const support::HandMade scene = floor_under_plate(0.0f, 0.0f);
     const std::vector<glm::vec3> irradiance = lit(scene);
-    const float full = std::sqrt(0.5f), lumel = 4.0f / 64.0f;
     for (std::size_t i = 0; i < 64u * 64u; ++i) {
         const float x = scene.lumels.lumels[i].position.x;
-        if (x < -1.0f - 0.6f * lumel) {
+        if (x < -1.0f - 0.6f * kFloorLumel) {
             EXPECT_EQ(irradiance[i].x, 0.0f) << x;
-        } else if (x > -1.0f + 0.6f * lumel) {
-            EXPECT_NEAR(irradiance[i].x, full, 0.005f * full) << x;
+        } else if (x > -1.0f + 0.6f * kFloorLumel) {
+            EXPECT_NEAR(irradiance[i].x, kFullSun, 0.005f * kFullSun) << x;
         }
+    }
+}
+
+TEST(SunLight, LumelUnderAnEdgeIsLitByItsPartInTheSun)
+{
+    const std::pair<float, float> cases[] = {{0.0f, 0.2f}, {glm::radians(0.2665f), 0.7f}};
+    for (const auto& [angle, part] : cases) {
+        const support::HandMade scene = floor_under_plate((1.0f - part) * kFloorLumel, angle);
+        const std::vector<glm::vec3> irradiance = lit(scene);
+        std::size_t at_edge = 0;
+        for (std::size_t i = 0; i < 64u * 64u; ++i) {
+            const float x = scene.lumels.lumels[i].position.x;
+            if (std::abs(x - (-1.0f + 0.5f * kFloorLumel)) > 0.1f * kFloorLumel)
+                continue;
+            ++at_edge;
+            EXPECT_NEAR(irradiance[i].x / kFullSun, part, 0.02f) << angle;
+        }
+        EXPECT_EQ(at_edge, 64u);
     }
 }
 

@@ -1,0 +1,55 @@
+// All rays of a parallel view that meet a piece of a lumel. Needs what piece_along.glsl needs.
+//
+// Where something's edge crosses a lumel, how much of it is lit is found only as exactly as the
+// points that are asked are evenly spread. The points where rays meet it are, and each stands for
+// the area of a pixel.
+
+struct RaysAlong {
+    vec3 sides[4];  // a ray through p meets the piece where each dot(side, p) > 0
+    vec2 rows;      // of pixels, first and last
+    float area;     // of the piece [pixels]: so many rays meet it in the mean
+};
+
+// Pieces that are smaller, as seen along the view, are left out [pixels].
+const float kLeastArea = 1e-6;
+
+RaysAlong rays_along(ParallelView view, ParallelLayout layout_, Piece piece, PieceInView s)
+{
+    const vec2 margin = margin_of(s.steepness, s.u_form.xy, s.v_form.xy);
+    const vec3 one = vec3(0.0, 0.0, 1.0);
+    const vec3 end = s.parallelogram ? (1.0 - margin.x) * one - s.u_form
+                                     : (1.0 - margin.x - margin.y) * one - s.u_form - s.v_form;
+    RaysAlong rays;
+    rays.sides = vec3[4](s.u_form - margin.x * one, s.v_form - margin.y * one, end,
+                         s.parallelogram ? (1.0 - margin.y) * one - s.v_form : end);
+
+    const float u = dot(view.up, piece.edge_u), v = dot(view.up, piece.edge_v);
+    const vec4 corners = place_in(view, piece.origin).y +
+                         vec4(0.0, u, v, s.parallelogram ? u + v : 0.0);
+    const float low = min(min(corners.x, corners.y), min(corners.z, corners.w));
+    const float high = max(max(corners.x, corners.y), max(corners.z, corners.w));
+    rays.area = (s.parallelogram ? 1.0 : 0.5) /
+                abs(s.u_form.x * s.v_form.y - s.u_form.y * s.v_form.x);
+    const vec2 rows = clamp(vec2(ceil(low - 0.5), floor(high - 0.5)), vec2(0.0),
+                            vec2(layout_.side) - 1.0);
+    rays.rows = rays.area > kLeastArea ? rows : vec2(0.0, -1.0);
+    return rays;
+}
+
+// First and last pixel of a row whose rays meet the piece; the last is before the first where none
+// does.
+vec2 columns_of(RaysAlong rays, ParallelLayout layout_, float row)
+{
+    float low = 0.5, high = float(layout_.side) - 0.5;
+    for (uint k = 0u; k < 4u; ++k) {
+        const vec3 side = rays.sides[k];
+        const float there = side.y * (row + 0.5) + side.z;
+        if (side.x > 0.0)
+            low = max(low, -there / side.x);
+        else if (side.x < 0.0)
+            high = min(high, -there / side.x);
+        else if (there <= 0.0)
+            high = -1.0;
+    }
+    return vec2(ceil(low - 0.5), floor(high - 0.5));
+}
