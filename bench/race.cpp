@@ -124,7 +124,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const std::optional<Lumels> lit = shining(world.lumels, direct);
     const std::optional<LobeParticles> particles = particles_for(world, settings.solver);
     const auto solver = make_solver(device, gpu_world, lit ? *lit : world.lumels, near,
-                                    settings.solver, particles ? &*particles : nullptr);
+                                    settings.solver, {}, particles ? &*particles : nullptr);
     watch.stop();
     fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);
     std::vector<Row> rows;

@@ -23,12 +23,12 @@ Lumels dark(Lumels lumels)
 
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
-                              Stages& stages)
+                              std::span<const glm::vec3> known, Stages& stages)
 {
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
-    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options,
+    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options, known,
                                    setting.carriers());
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
@@ -43,17 +43,18 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
     const Lumels& lumels = setting.world.lumels;
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
-            run(device, setting, options.solver, shining(lumels, direct), stages);
+            run(device, setting, options.solver, shining(lumels, direct), direct, stages);
         add_light(all->irradiance, direct);
         return all;
     }
-    std::unique_ptr<Solution> first = run(device, setting, options.solver, black(lumels), stages);
+    std::unique_ptr<Solution> first =
+        run(device, setting, options.solver, black(lumels), direct, stages);
     add_light(first->irradiance, direct);
     if (options.parts == Parts::direct)
         return first;
     SolverOptions onward = options.solver;
     onward.sky = false;
-    return run(device, setting, onward, shining(dark(lumels), first->irradiance), stages);
+    return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages);
 }
 
 }  // namespace

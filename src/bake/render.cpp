@@ -175,7 +175,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
     GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
-                              setting.near, options.bake.solver, particles);
+                              setting.near, options.bake.solver, lamps.irradiance, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 

@@ -81,7 +81,8 @@ IlluminationMaps maps_for(const gpu::Device& device, const World& world, const L
 }  // namespace
 
 GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world,
-                                   const Lumels& lumels, const SolverOptions& options)
+                                   const Lumels& lumels, const SolverOptions& options,
+                                   std::span<const glm::vec3> known)
     : options_(options),
       device_(&device),
       world_(&world),
@@ -94,7 +95,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
       news_(device, 1),
       heard_(device, lumels.lumels.size()),
-      iteration_(device, lumels, NearField{}, options, batch_),
+      iteration_(device, lumels, NearField{}, known, options, batch_),
       pacer_(device)
 {
     gpu::Commands commands(device);

@@ -17,7 +17,7 @@ class GlobalDirections final : public Solver {
 public:
     /// `world` must know the atlas. Throws Error{device} if the device cannot keep the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
-                     const SolverOptions& options);
+                     const SolverOptions& options, std::span<const glm::vec3> known = {});
 
     void step() override;
     SolverState state() const override { return iteration_.state(); }

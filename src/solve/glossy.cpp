@@ -85,7 +85,9 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection proje
 
 GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
                                        const Lumels& lumels, const NearField& near,
-                                       const SolverOptions& options, const LobeParticles* particles)
+                                       const SolverOptions& options,
+                                       std::span<const glm::vec3> known,
+                                       const LobeParticles* particles)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(checked_batch(method_of("glossy"), options.batch)),
@@ -93,6 +95,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
+      known_sum_(irradiance_sum(known)),
       device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -266,7 +269,7 @@ void GlossyIllumination::take_figures()
     if (!(sums.y > 0.0f) || count <= 0.0)
         state_.error = emitted_power_ > 0.0 && !settled ? -1.0 : 0.0;
     else if (settled)
-        state_.error = std::sqrt(double(sums.x) / count) / (double(sums.y) / count);
+        state_.error = std::sqrt(double(sums.x) / count) / ((double(sums.y) + known_sum_) / count);
 }
 
 std::vector<glm::vec3> GlossyIllumination::irradiance()

@@ -30,6 +30,7 @@ public:
     /// outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const NearField& near, const SolverOptions& options,
+                       std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
 
     void step() override;
@@ -95,6 +96,7 @@ private:
     bool paper_;
     float near_radius_;
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
+    double known_sum_;       ///< of light beside what is found here [lx]
     double emitted_power_;   ///< Σ A 𝓛(E) [lm]
 
     const gpu::Device* device_;

@@ -49,8 +49,9 @@ constexpr float kRoughWeight = 0.25f;
 /// The halves share the source of each phase and the near field, so their spread misses a part of
 /// the error. Measured on the Cornell box over five seeds, the true error is this times the spread.
 constexpr double kSharedError = 1.3;
-/// The stated error is that of the whole map, or this part of the mean error of lumels relative to
-/// their own light, if that is larger: a dark room beside a bright one counts too.
+/// The stated error is that of the whole map, light beside what is found here included, or this
+/// part of the mean error of lumels relative to their own light, if that is larger: a dark room
+/// beside a bright one counts too.
 constexpr double kLocalShare = 0.6;
 /// Light below this part of the map's mean counts as that much when relative errors are taken.
 constexpr double kDimShare = 0.01;
@@ -60,18 +61,21 @@ constexpr int kPolishSweeps = 1;
 }  // namespace
 
 Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const NearField& near,
-                     const SolverOptions& options, std::uint32_t batch)
+                     std::span<const glm::vec3> known, const SolverOptions& options,
+                     std::uint32_t batch)
     : count_(std::uint32_t(lumels.lumels.size())),
       batch_(batch),
       paper_(options.scheme == Scheme::paper),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
+      known_sum_(irradiance_sum(known)),
       balance_(device, "iteration.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
-      evaluate_(device, "iteration.evaluate", kEvaluateSpirv, 10, sizeof(AverageParams), kSumGroup),
+      evaluate_(device, "iteration.evaluate", kEvaluateSpirv, 11, sizeof(AverageParams), kSumGroup),
       advance_(device, "iteration.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams),
                kIterationGroup),
       polish_(device, "iteration.polish", kPolishSpirv, 6, sizeof(PolishParams), kIterationGroup),
       surface_(device, view(surfaces_of(lumels))),
       emission_(device, view(emission_of(lumels))),
+      known_(device, count_),
       source_(device, count_),
       direct_(device, 2 * count_),
       indirect_(device, 2 * count_),
@@ -87,6 +91,8 @@ Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const Near
       figures_(device, count_),
       phase_length_(paper_ ? 1 : std::max(2u, kFirstPhaseShots / batch))
 {
+    if (!known.empty())
+        known_.upload(known);
 }
 
 void Iteration::begin(gpu::Pacer& pacer)
@@ -95,6 +101,8 @@ void Iteration::begin(gpu::Pacer& pacer)
         for (const auto* array : {&source_, &direct_, &indirect_, &earlier_, &near_emission_,
                                   &near_source_, &far_, &irradiance_})
             commands.fill(array->buffer());
+        if (known_sum_ == 0.0)
+            commands.fill(known_.buffer());
         if (paper_)
             commands.copy(emission_.buffer(), source_.buffer(), count_ * sizeof(glm::vec3));
         else
@@ -145,7 +153,7 @@ void Iteration::evaluate(gpu::Commands& commands)
     }
     commands.dispatch(evaluate_,
                       {surface_, direct_, indirect_, near_emission_, near_source_, earlier_,
-                       totals_, far_, irradiance_, figures_.parts()},
+                       totals_, known_, far_, irradiance_, figures_.parts()},
                       params, count_);
     figures_.add_up(commands);
 }
@@ -191,7 +199,7 @@ void Iteration::take_figures(gpu::Pacer& pacer)
         state_.error = emitted_power_ > 0.0 && phase_ <= 1 ? -1.0 : 0.0;
         return;
     }
-    mean_irradiance_ = double(sums.y) / count;
+    mean_irradiance_ = (double(sums.y) + known_sum_) / count;
     const double local = std::sqrt(double(terms->column[1].x) / count);
     if (paper_ || phase_ > 1)
         state_.error = kSharedError * std::max(std::sqrt(double(sums.x) / count) / mean_irradiance_,

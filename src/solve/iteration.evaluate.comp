@@ -7,7 +7,8 @@
 //     H = mean over h of (D_h + far_h)  +  near light,
 //     terms: Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N,
 //            Σ A 𝓛(ρH);
-//            Σ |H_0 - H_1|²/4 / (H² + dim²), the same relative to each lumel's own light.
+//            Σ |H_0 - H_1|²/4 / (H'² + dim²), the same relative to each lumel's own light, H' with
+//            what is known beside H.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
@@ -18,9 +19,10 @@ layout(binding = 3, scalar) readonly buffer NearEmission { vec3 near_emission[];
 layout(binding = 4, scalar) readonly buffer NearSource { vec3 near_source[]; };
 layout(binding = 5, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N]
 layout(binding = 6, scalar) readonly buffer Totals { Terms totals[]; };
-layout(binding = 7, scalar) writeonly buffer Far { vec3 far[]; };
-layout(binding = 8, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 9, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(binding = 7, scalar) readonly buffer Known { vec3 known[]; };  // H beside what is found here
+layout(binding = 8, scalar) writeonly buffer Far { vec3 far[]; };
+layout(binding = 9, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
+layout(binding = 10, scalar) writeonly buffer Parts { Terms parts[]; };
 
 #include "solve/iteration.glsl"
 #include "solve/sum.glsl"
@@ -51,7 +53,8 @@ void main()
         const vec3 d = 0.5 * (half_[0] - half_[1]);
         terms.column[0] = vec4(dot(d, d), h_i.r + h_i.g + h_i.b, 1.0,
                                surface[i].w * luminance(surface[i].rgb * h_i));
-        terms.column[1].x = dot(d, d) / (dot(h_i, h_i) / 3.0 + p.dim * p.dim + 1e-30);
+        const vec3 all_light = h_i + known[i];
+        terms.column[1].x = dot(d, d) / (dot(all_light, all_light) / 3.0 + p.dim * p.dim + 1e-30);
     } else if (i < p.count) {
         far[i] = vec3(0.0);
         irradiance[i] = vec3(0.0);

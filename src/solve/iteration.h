@@ -20,9 +20,10 @@ namespace lumel {
 /// indirect(), and then calls finish_batch().
 class Iteration {
 public:
-    /// batch: shots of one batch. With Scheme::paper the near field is not used.
+    /// batch: shots of one batch. With Scheme::paper the near field is not used. `known` as
+    /// make_solver takes it.
     Iteration(const gpu::Device& device, const Lumels& lumels, const NearField& near,
-              const SolverOptions& options, std::uint32_t batch);
+              std::span<const glm::vec3> known, const SolverOptions& options, std::uint32_t batch);
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
@@ -60,10 +61,12 @@ private:
     std::uint32_t batch_;
     bool paper_;
     double emitted_power_;  ///< Σ A 𝓛(E) [lm]
+    double known_sum_;      ///< Σ of `known` [lx]
 
     gpu::Kernel balance_, evaluate_, advance_, polish_;
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission_;  ///< E
+    gpu::Array<glm::vec3> known_;     ///< H that is received beside what is found here
     gpu::Array<glm::vec3> source_;    ///< X: reflected light to be sent
     gpu::Array<glm::vec3> direct_;    ///< [2][N] sums over shots of E
     gpu::Array<glm::vec3> indirect_;  ///< [2][N] sums over shots of X, this phase

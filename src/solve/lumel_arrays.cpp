@@ -50,4 +50,12 @@ double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission)
     return sum;
 }
 
+double irradiance_sum(std::span<const glm::vec3> irradiance)
+{
+    double sum = 0.0;
+    for (const glm::vec3& h : irradiance)
+        sum += double(h.r) + double(h.g) + double(h.b);
+    return sum;
+}
+
 }  // namespace lumel

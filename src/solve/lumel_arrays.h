@@ -32,4 +32,7 @@ std::span<const T> view(const std::vector<T>& values)
     return values;
 }
 
+/// Σ H over lumels and channels [lx].
+double irradiance_sum(std::span<const glm::vec3> irradiance);
+
 }  // namespace lumel

@@ -68,16 +68,17 @@ std::uint32_t checked_batch(const MethodInfo& method, int batch)
 
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
-                                    const SolverOptions& options, const LobeParticles* particles)
+                                    const SolverOptions& options, std::span<const glm::vec3> known,
+                                    const LobeParticles* particles)
 {
     if (options.method == "directions")
-        return std::make_unique<GlobalDirections>(device, world, lumels, options);
+        return std::make_unique<GlobalDirections>(device, world, lumels, options, known);
     if (options.method == "progressive")
         return std::make_unique<ProgressiveRadiosity>(device, world, lumels, near, options);
     if (method_of(options.method).materials == MaterialModel::glossy)
-        return std::make_unique<GlossyIllumination>(device, world, lumels, near, options,
+        return std::make_unique<GlossyIllumination>(device, world, lumels, near, options, known,
                                                     particles);
-    return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options);
+    return std::make_unique<StochasticRadiosity>(device, world, lumels, near, options, known);
 }
 
 bool solve(Solver& solver, const SolverOptions& options,

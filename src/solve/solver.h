@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -116,10 +117,13 @@ NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels&
                          const SolverOptions& options, float radius = 0.0f);
 
 /// Throws Error{input} if options.method is not in the table or cannot take options.batch. `near`
-/// may be empty for methods and schemes without a near field. particles: see GlossyIllumination.
+/// may be empty for methods and schemes without a near field. `known`: H [N] [lx] that lumels
+/// receive beside what the solver finds, or empty: the error it states is a part of both, but the
+/// noise of what is known is not in it. particles: see GlossyIllumination.
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
                                     const Lumels& lumels, const NearField& near,
                                     const SolverOptions& options,
+                                    std::span<const glm::vec3> known = {},
                                     const LobeParticles* particles = nullptr);
 
 /// Steps until a limit of the options is met or `go_on` returns false. Returns true unless

@@ -54,7 +54,8 @@ constexpr gpu::Slot kReceiveSlots[] = {
 
 StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World& world,
                                          const Lumels& lumels, const NearField& near,
-                                         const SolverOptions& options)
+                                         const SolverOptions& options,
+                                         std::span<const glm::vec3> known)
     : options_(options),
       atlas_width_(std::uint32_t(lumels.width)),
       paper_(options.scheme == Scheme::paper),
@@ -69,7 +70,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       batch_(views_.capacity()),
       eyes_(device, kMostBatch),
       shots_(device, kMostBatch),
-      iteration_(device, lumels, near, options, batch_),
+      iteration_(device, lumels, near, known, options, batch_),
       emission_power_pyramid_(device, lumels.lumels.size()),
       source_power_pyramid_(device, lumels.lumels.size()),
       pacer_(device)

@@ -14,7 +14,8 @@ namespace lumel {
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                        const NearField& near, const SolverOptions& options);
+                        const NearField& near, const SolverOptions& options,
+                        std::span<const glm::vec3> known = {});
 
     void step() override;
     SolverState state() const override { return iteration_.state(); }
