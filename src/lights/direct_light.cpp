@@ -13,6 +13,10 @@ bool is_parallel(const PunctualLight& light)
     return light.kind == PunctualLight::Kind::directional;
 }
 
+/// Pixels of a view across a typical lumel. In the city of scenes/ under an even sky, 5 leave 1.1 %
+/// of error where 3.5 leave 1.8 %, at a third more time.
+constexpr float kPixelsPerLumel = 5.0f;
+
 /// The directions of each source of parallel light.
 std::vector<std::vector<ParallelSource>> parallel_sources(const Scene& scene,
                                                           const DirectLightOptions& options)
@@ -40,7 +44,7 @@ std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float
 {
     std::uint64_t pixels = 0;
     if (!scene.sky.empty() || std::any_of(scene.lights.begin(), scene.lights.end(), is_parallel))
-        pixels = parallel_light_pixels({.side = parallel_side(lumels, diagonal)});
+        pixels = parallel_light_pixels({.side = parallel_side(lumels, diagonal, kPixelsPerLumel)});
     if (!std::all_of(scene.lights.begin(), scene.lights.end(), is_parallel))
         pixels = std::max(pixels, lamp_pixels({}));
     const std::uint64_t sums = has_lights(scene) ? SummedLight::bytes(lumels.lumels.size()) : 0;
@@ -57,7 +61,7 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
     double part = 0.0;
     const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
     const ParallelLightOptions parallel{
-        .side = parallel_side(lumels, world.diagonal(), device.max_image_side()),
+        .side = parallel_side(lumels, world.diagonal(), kPixelsPerLumel, device.max_image_side()),
         .seed = options.seed,
         .centre = options.centre};
     DirectLight light;

@@ -14,7 +14,7 @@ namespace lumel {
 struct DirectLightOptions {
     std::uint32_t sky_directions = 1024;  ///< looked along for the sky, 0: without it
     std::uint32_t sun_directions = 256;   ///< for each directional light
-    std::uint32_t disc_directions = 512;  ///< for each that has a disc
+    std::uint32_t disc_directions = 256;  ///< for each that has a disc
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };

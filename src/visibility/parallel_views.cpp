@@ -27,9 +27,6 @@ constexpr float kBorder = 1.5f;
 /// Part of the range of depths that is left free at both ends.
 constexpr float kDepthBorder = 0.01f;
 
-/// Pixels of a view across a typical lumel: fewer, and the rays of pixels miss lumels that are
-/// seen from the side; more cost time.
-constexpr float kPixelsPerLumel = 3.5f;
 constexpr std::uint32_t kLeastSide = 128, kMostSide = 2048;
 
 /// How far a box reaches along an axis.
@@ -63,7 +60,7 @@ Tiles tiles_of(const ParallelLayout& layout)
     return {layout.side, layout.side, layout.columns};
 }
 
-std::uint32_t parallel_side(const Lumels& lumels, float diagonal, std::uint32_t most)
+std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels, std::uint32_t most)
 {
     std::vector<float> sizes;
     for (const Lumel& lumel : lumels.lumels)
@@ -73,9 +70,9 @@ std::uint32_t parallel_side(const Lumels& lumels, float diagonal, std::uint32_t 
         return kLeastSide;
     const auto median = sizes.begin() + std::ptrdiff_t(sizes.size() / 2);
     std::nth_element(sizes.begin(), median, sizes.end());
-    const float pixels = kPixelsPerLumel * diagonal / std::max(*median, 1e-30f);
+    const float across = pixels * diagonal / std::max(*median, 1e-30f);
     const std::uint32_t largest = std::min(kMostSide, most);
-    return std::clamp(std::uint32_t(std::min(pixels, float(largest))), kLeastSide, largest);
+    return std::clamp(std::uint32_t(std::min(across, float(largest))), kLeastSide, largest);
 }
 
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,

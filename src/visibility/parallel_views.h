@@ -24,9 +24,10 @@ struct ParallelPose {
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose);
 
-/// The side of parallel views that shows typical lumels a few pixels wide. diagonal: of the scene's
-/// bounding box [m]; most: side that the device's images may have [pixels].
-std::uint32_t parallel_side(const Lumels& lumels, float diagonal,
+/// The side of parallel views that shows typical lumels so many pixels wide, within limits.
+/// diagonal: of the scene's bounding box [m]; most: side that the device's images may have
+/// [pixels].
+std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels,
                             std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
 
 /// How tiles of that side lie in an image, about square, that holds `capacity` of them if it may be
