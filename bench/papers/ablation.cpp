@@ -152,7 +152,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         options.max_shots = std::uint64_t(settings.solving_shots);
         options.target_error = 0.0;
         GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options,
-                                  &*sight.particles);
+                                  {}, &*sight.particles);
         solve(solver, options);
         // Without rays, shooters send what lobes do.
         GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, options);

@@ -113,11 +113,11 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
     const std::optional<LobeParticles> particles = particles_for(world, options);
     const LobeParticles* carriers = particles ? &*particles : nullptr;
     {  // the driver compiles shaders when they first run
-        const auto warm = make_solver(device, resident, world.lumels, near, options, carriers);
+        const auto warm = make_solver(device, resident, world.lumels, near, options, {}, carriers);
         warm->step();
         warm->irradiance();
     }
-    const auto solver = make_solver(device, resident, world.lumels, near, options, carriers);
+    const auto solver = make_solver(device, resident, world.lumels, near, options, {}, carriers);
     std::vector<Step> steps;
     Stopwatch watch;
     for (const int iterations : settings.iterations) {

@@ -81,7 +81,7 @@ struct RasterState {
     std::span<const VertexStream> streams;  ///< stream n is attribute location n
     bool color = false;                     ///< draws into a colour target
     Pixel color_pixel = Pixel::srgba8;
-    bool depth_test = true;  ///< false: every fragment counts, and no depth is written
+    bool depth_test = true;     ///< false: every fragment counts, and no depth is written
     std::uint32_t samples = 1;  ///< of its targets
 };
 

@@ -112,7 +112,9 @@ float near_factor_of(uint i, uint j)
 vec3 close_light(CrossReceiver r, uint k, uint j)
 {
     const float factor = near_factor_of(r.lumel, j);
-    return factor > 0.0 ? factor * (shot[j] - light_behind(k, r.x, r.normal, lumels[j])) : vec3(0.0);
+    if (factor <= 0.0)
+        return vec3(0.0);
+    return factor * (shot[j] - light_behind(k, r.x, r.normal, lumels[j]));
 }
 
 // Of all lumels of patch k.

@@ -91,5 +91,6 @@ void main()
                          block.first * points + c.index % points,
                          c.send == kSendBackSide ? -1.0 : 1.0);
     const LumelPoint y = eye_point(c, block);
-    eyes[k] = make_eye(y.position, shots[k].side_ * y.normal, hash(block.first ^ hash(c.index)), kAllChannels);
+    eyes[k] = make_eye(y.position, shots[k].side_ * y.normal, hash(block.first ^ hash(c.index)),
+                       kAllChannels);
 }

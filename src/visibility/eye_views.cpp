@@ -48,9 +48,8 @@ constexpr gpu::Slot kHemisphereCutOutSlots[] = {
 
 Tiles tiles_of(Projection projection, const EyeViewLayout& layout)
 {
-    return projection == Projection::hemisphere
-               ? Tiles{layout.side, layout.side, layout.columns}
-               : hemicube_tiles(layout.side, layout.columns);
+    return projection == Projection::hemisphere ? Tiles{layout.side, layout.side, layout.columns}
+                                                : hemicube_tiles(layout.side, layout.columns);
 }
 
 EyeViewLayout make_layout(const gpu::Device& device, const World& world, Projection projection,

@@ -3,8 +3,8 @@
 #include "atlas/lumel.shared.h"
 #include "visibility/hemicube.glsl"
 
-// A pixel shows the radiosity of the lumel under it, and its depth. Places are read where the surface covers the
-// pixel: beyond its edge lie texels of others.
+// A pixel shows the radiosity of the lumel under it, and its depth. Places are read where the
+// surface covers the pixel: beyond its edge lie texels of others.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };

@@ -47,7 +47,7 @@ struct Running {
           options{.method = "glossy", .seed = seed},
           resident(world.scene, world.rays, lumels, options),
           particles(world.scene, world.atlas, world.rays, lumels),
-          solver(resident.device, resident.world, lumels, resident.near, options,
+          solver(resident.device, resident.world, lumels, resident.near, options, {},
                  lobes == Lobes::carried ? &particles : nullptr)
     {
         step();

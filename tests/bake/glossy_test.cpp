@@ -31,7 +31,7 @@ GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
     const support::Resident resident(furnace.scene, furnace.rays, furnace.lumels, options);
     const auto& [near, device, world] = resident;
     const LobeParticles particles(furnace.scene, furnace.atlas, furnace.rays, furnace.lumels);
-    GlossyIllumination solver(device, world, furnace.lumels, near, options, &particles);
+    GlossyIllumination solver(device, world, furnace.lumels, near, options, {}, &particles);
     EXPECT_TRUE(solve(solver, options));
 
     GlossySolution solution;

@@ -307,7 +307,10 @@ TEST(Occluders, WallsOfAConvexRoomHideNothing)
         quads.push_back(wall);
     const support::HandMade empty = support::make_quads(quads);
     EXPECT_EQ(find_occluders(empty.scene).inner_indices().size(), 0u);
-    EXPECT_EQ(find_occluders(empty.scene, std::vector<char>(empty.scene.instances.size(), 1)).inner_indices().size(), 36u);
+    EXPECT_EQ(find_occluders(empty.scene, std::vector<char>(empty.scene.instances.size(), 1))
+                  .inner_indices()
+                  .size(),
+              36u);
     // The room with blocks keeps the blocks' 24 triangles but for the bottoms, which lie in the
     // floor's plane.
     EXPECT_EQ(find_occluders(room_with_blocks().scene).inner_indices().size() / 3, 20u);
