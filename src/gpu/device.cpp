@@ -315,7 +315,33 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    learn_limits();
+}
 
+Device::Device(const HostDevice& host)
+    : validation_(std::make_unique<Validation>()),
+      instance_(host.instance),
+      physical_(host.physical),
+      device_(host.device),
+      queue_(host.queue),
+      queue_family_(host.queue_family),
+      owned_(false),
+      can_tessellate_(host.tessellation),
+      can_list_fragments_(host.fragment_stores)
+{
+    if (!instance_ || !physical_ || !device_ || !queue_)
+        throw Error(ErrorKind::device, "", "the host gave a Vulkan handle that is null");
+    load_vulkan();
+    volkLoadInstance(instance_);
+    volkLoadDevice(device_);
+    info_ = describe(physical_);
+    if (!info_.usable)
+        throw Error(ErrorKind::device, info_.name, info_.reason);
+    learn_limits();
+}
+
+void Device::learn_limits()
+{
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical_, &properties);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
@@ -328,6 +354,8 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
 
 Device::~Device()
 {
+    if (!owned_)
+        return;
     if (device_)
         vkDestroyDevice(device_, nullptr);
     if (messenger_)

@@ -29,6 +29,19 @@ struct Recorded {
     std::uint64_t dispatches = 0, passes = 0, draws = 0;
 };
 
+/// A device that a host application made. It must have Vulkan 1.3, the extension
+/// VK_KHR_push_descriptor, and these features on: dynamicRendering, synchronization2, maintenance4,
+/// scalarBlockLayout, fullDrawIndexUint32.
+struct HostDevice {
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;  ///< for graphics, compute and transfer
+    std::uint32_t queue_family = 0;
+    bool tessellation = false;     ///< the feature tessellationShader is on
+    bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
+};
+
 /// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
 /// made from it holds a reference and must not outlive it.
 class Device {
@@ -38,6 +51,10 @@ public:
     /// Environment: LUMEL_VALIDATION=1 turns the Khronos validation layer on.
     /// Throws Error{device} listing what was found and why it will not do.
     explicit Device(const std::string& pick = "");
+    /// Works on a host's device and queue, which stay the host's: it keeps its own work off the
+    /// queue while calls to this library run, and destroys the device after this. Throws
+    /// Error{device} if a handle is missing or the device cannot do what is needed.
+    explicit Device(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -63,6 +80,8 @@ public:
         return double((to - from) & timestamp_mask_) * timestamp_period_ * 1e-6;
     }
 
+    VkInstance instance() const { return instance_; }
+    VkPhysicalDevice physical() const { return physical_; }
     VkDevice handle() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
@@ -73,6 +92,8 @@ public:
     void free(VkDeviceMemory memory, std::uint64_t bytes) const;
 
 private:
+    void learn_limits();
+
     struct Validation;
     std::unique_ptr<Validation> validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
@@ -81,6 +102,7 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
+    bool owned_ = true;  ///< false: instance and device are a host's
     DeviceInfo info_;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::uint64_t max_array_bytes_ = 0;

@@ -4,11 +4,21 @@
 #include <chrono>
 
 #include "core/error.h"
+#include "live/live.shared.h"
 #include "live/still_part.h"
 #include "solve/lumel_arrays.h"
 
 namespace lumel {
 namespace {
+
+constexpr std::uint32_t kShowSpirv[] = {
+#include "live/live.show.comp.inc"
+};
+
+gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
+{
+    return {device, gpu::Pixel::rgba32, std::uint32_t(atlas.width), std::uint32_t(atlas.height)};
+}
 
 /// Batches between two looks at how much light is still to be shot: looking costs a wait.
 constexpr int kBatchesALook = 8;
@@ -102,8 +112,15 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       shown_far_(device, lumels_.lumels.size()),
-      shown_near_(device, lumels_.lumels.size())
+      shown_near_(device, lumels_.lumels.size()),
+      texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
+      images_{image_of(device, atlas_), image_of(device, atlas_)},
+      show_(device, "live.show", kShowSpirv, 4, sizeof(ShowParams), kShowGroup)
 {
+    solver_.pacer().work("prepare", 1, 1,
+                         [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+                             commands.fill(texels_.buffer());
+                         });
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, options.solver, open_meshes(scene_));
     else
@@ -276,6 +293,11 @@ void LiveScene::show()
     pacer.work("show", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.copy(solver_.light().far.buffer(), shown_far_.buffer(), bytes);
         commands.copy(solver_.light().near.buffer(), shown_near_.buffer(), bytes);
+        const ShowParams params{std::uint32_t(lumels_.lumels.size())};
+        commands.dispatch(show_, {world_.lumels(), shown_far_, shown_near_, texels_}, params,
+                          params.count);
+        shown_image_ = 1 - shown_image_;
+        commands.copy(texels_.buffer(), images_[shown_image_]);
     });
     pacer.finish();
 }

@@ -4,6 +4,7 @@
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013.
 
+#include <array>
 #include <optional>
 
 #include "atlas/atlas.h"
@@ -61,6 +62,11 @@ public:
     /// H [N] [lx] after the last move that is wholly redistributed. Waits for the device.
     std::vector<glm::vec3> irradiance() const;
 
+    /// The same as texels of the atlas, front sides: RGB = H [lx], A = 1 where there is a lumel;
+    /// rgba32, in the general layout, whole when update() returns. Each update() that changes it
+    /// draws into the other of two images, so that a host may still read the one before.
+    const gpu::Target& irradiance_image() const { return images_[shown_image_]; }
+
     const Scene& scene() const { return scene_; }
     const Atlas& atlas() const { return atlas_; }
     const Lumels& lumels() const { return lumels_; }
@@ -97,6 +103,10 @@ private:
     LiveState state_;
     bool crossed_ = false;  ///< what movers do is known for all that is shot
     gpu::Array<glm::vec3> shown_far_, shown_near_;  ///< [N] H after the last whole move
+    gpu::Array<glm::vec4> texels_;                  ///< [height][width] of the image
+    std::array<gpu::Target, 2> images_;
+    std::size_t shown_image_ = 0;
+    gpu::Kernel show_;
 };
 
 }  // namespace lumel

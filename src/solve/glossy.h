@@ -96,8 +96,8 @@ private:
     bool paper_;
     float near_radius_;
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
-    double known_sum_;       ///< of light beside what is found here [lx]
     double emitted_power_;   ///< Σ A 𝓛(E) [lm]
+    double known_sum_;       ///< of light beside what is found here [lx]
 
     const gpu::Device* device_;
     const World* world_;

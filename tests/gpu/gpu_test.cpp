@@ -35,6 +35,27 @@ TEST(Device, AWrongPickIsRefusedWithTheList)
     }
 }
 
+TEST(Device, OfAHostServesAndStaysTheHosts)
+{
+    const Device host;
+    const HostDevice handles{.instance = host.instance(),
+                             .physical = host.physical(),
+                             .device = host.handle(),
+                             .queue = host.queue(),
+                             .queue_family = host.queue_family()};
+    const std::vector<std::uint32_t> values = {3, 1, 4, 1, 5};
+    {
+        const Device guest(handles);
+        EXPECT_EQ(guest.info().name, host.info().name);
+        const Array<std::uint32_t> array(guest, std::span<const std::uint32_t>(values));
+        EXPECT_EQ(array.download(), values);
+    }
+    const Array<std::uint32_t> after(host, std::span<const std::uint32_t>(values));
+    EXPECT_EQ(after.download(), values);
+    EXPECT_THROW(Device(HostDevice{}), Error);
+    EXPECT_EQ(host.validation_messages(), "");
+}
+
 TEST(Array, ComesBackAsItWent)
 {
     const Device device;

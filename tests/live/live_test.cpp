@@ -114,5 +114,71 @@ TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+TEST_P(LiveScenes, TheImageShowsTheIrradianceOfWholeMovesOnly)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = 32;
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto first = live.irradiance();
+    live.move(options.movers[0], shifted(scene, 0.2f, 0.5f));
+    LiveState state;
+    do {
+        state = live.update(0.001);  // a batch at a time
+        if (state.under_way) {
+            EXPECT_EQ(live.irradiance(), first);
+        }
+    } while (state.under_way);
+    const auto moved = live.settle().residual <= options.residual ? live.irradiance() : first;
+    EXPECT_NE(moved, first);
+
+    std::vector<glm::vec4> texels(std::size_t(live.atlas().width) * live.atlas().height);
+    live.irradiance_image().download(texels.data());
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        const Lumel& lumel = live.lumels().lumels[i];
+        EXPECT_EQ(glm::vec3(texels[lumel.texel]), moved[i]);
+    }
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST_P(LiveScenes, BrighterAndDarkerSurfacesAreLitAsIfTheyAlwaysWereSo)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = 32;
+    const std::uint32_t lamp = index_of(scene, "lamp"), wall = index_of(scene, "wall -y");
+    const glm::vec3 dimmed(0.25f, 0.5f, 1.0f), stained(0.1f, 0.9f, 0.5f);
+    LiveScene changed(device, scene, options);
+    changed.settle();
+    changed.set_emission(lamp, dimmed);      // Eq. (2.2.9)
+    changed.set_reflectance(wall, stained);  // Eq. (2.2.10)
+    changed.settle();
+    LiveScene fresh(device, scene, options);
+    fresh.set_emission(lamp, dimmed);
+    fresh.set_reflectance(wall, stained);
+    fresh.settle();
+    EXPECT_LE(apart(fresh, changed.irradiance(), fresh.irradiance()), 0.01);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(LiveScene, RefusesWhatItCannotDo)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, Redistribution::incremental);
+    options.atlas.size = 32;
+    LiveScene live(device, scene, options);
+    const glm::mat4 here(1.0f);
+    EXPECT_THROW(live.move(index_of(scene, "lamp"), here), Error);  // not a mover
+    EXPECT_THROW(live.move(options.movers[0], glm::scale(here, glm::vec3(2.0f))), Error);
+    EXPECT_THROW(live.set_emission(99, glm::vec3(1.0f)), Error);
+    EXPECT_THROW(live.set_reflectance(0, glm::vec3(-1.0f)), Error);
+    options.movers = {99};
+    EXPECT_THROW(LiveScene(device, scene, options), Error);
+}
+
 }  // namespace
 }  // namespace lumel
