@@ -34,9 +34,9 @@ glm::mat4 turned(const glm::mat4& transform, const glm::vec3& about, float angle
 void play(const std::string& path)
 {
     constexpr int kFrames = 12;
-    constexpr float kStep = 0.1f;          // [rad] a frame
-    constexpr double kBudget = 100.0;      // [ms] a call
-    const lumel::gpu::Device device;       // or one made of a host's handles: gpu::HostDevice
+    constexpr float kStep = 0.1f;      // [rad] a frame
+    constexpr double kBudget = 100.0;  // [ms] a call
+    const lumel::gpu::Device device;   // or one made of a host's handles: gpu::HostDevice
     const lumel::Scene scene = lumel::read_gltf(path);
     lumel::LiveOptions options;
     options.atlas.size = 64;
