@@ -293,6 +293,8 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     can_tessellate_ = have.core.features.tessellationShader == VK_TRUE;
     Features features;
     features.core.features.tessellationShader = have.core.features.tessellationShader;
+    can_clip_ = have.core.features.shaderClipDistance == VK_TRUE;
+    features.core.features.shaderClipDistance = have.core.features.shaderClipDistance;
     can_list_fragments_ = have.core.features.fragmentStoresAndAtomics == VK_TRUE;
     features.core.features.fragmentStoresAndAtomics = have.core.features.fragmentStoresAndAtomics;
     features.v13.dynamicRendering = VK_TRUE;
@@ -348,6 +350,7 @@ void Device::learn_limits()
     max_array_bytes_ = properties.limits.maxStorageBufferRange;
     max_image_side_ = properties.limits.maxImageDimension2D;
     max_groups_ = properties.limits.maxComputeWorkGroupCount[0];
+    standard_samples_ = properties.limits.standardSampleLocations == VK_TRUE;
     timestamp_period_ = double(properties.limits.timestampPeriod);
     timestamp_mask_ = ~std::uint64_t(0) >> (64 - timestamp_bits(physical_, queue_family_));
 }

@@ -69,7 +69,10 @@ public:
     std::uint32_t max_groups() const { return max_groups_; }         ///< of one dispatch
     bool can_list_fragments() const { return can_list_fragments_; }  ///< fragments may write arrays
     bool can_tessellate() const { return can_tessellate_; }          ///< has tessellation shaders
-    std::uint64_t peak_bytes() const { return peak_bytes_; }         ///< most that was held at once
+    bool can_clip() const { return can_clip_; }                      ///< by planes of a shader
+    /// Are samples where Vulkan's standard has them?
+    bool has_standard_samples() const { return standard_samples_; }
+    std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
 
     /// By all Commands of this device so far; they count here themselves.
     Recorded& recorded() const { return recorded_; }
@@ -107,7 +110,8 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
-    bool can_tessellate_ = false, can_list_fragments_ = false;
+    bool can_tessellate_ = false, can_list_fragments_ = false, can_clip_ = false,
+         standard_samples_ = false;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
     mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;
