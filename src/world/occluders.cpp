@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 
 #include "core/parallel.h"
@@ -106,6 +107,24 @@ std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
     return outer;
 }
 
+/// [V] The rectangle, low and high, that the chart of each vertex fills in the atlas [texels].
+std::vector<glm::vec4> chart_corners(const Surface& surface)
+{
+    std::map<std::uint32_t, glm::vec4> corners;
+    for (std::size_t k = 0; k < surface.indices.size(); ++k) {
+        const glm::vec2 place = surface.texcoord[surface.indices[k]];
+        const auto [chart, is_new] =
+            corners.try_emplace(surface.chart[k / 3], glm::vec4(place, place));
+        if (!is_new)
+            chart->second = glm::vec4(glm::min(glm::vec2(chart->second), place),
+                                      glm::max(glm::vec2(chart->second.z, chart->second.w), place));
+    }
+    std::vector<glm::vec4> of_vertices(surface.texcoord.size(), glm::vec4(0.0f));
+    for (std::size_t k = 0; k < surface.indices.size(); ++k)
+        of_vertices[surface.indices[k]] = corners[surface.chart[k / 3]];
+    return of_vertices;
+}
+
 /// Everything about one primitive of one instance, appended to the vertex arrays.
 std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::uint32_t instance,
                               const Material& material, const Surface* surface)
@@ -114,6 +133,10 @@ std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::u
     const TextureUse& use = material.base_color_texture;
     const auto& uv = primitive.texcoords[use.texcoord == 1 ? 1 : 0];
     const std::size_t count = surface ? surface->source_vertex.size() : primitive.positions.size();
+    if (surface) {
+        const std::vector<glm::vec4> corners = chart_corners(*surface);
+        out.chart.insert(out.chart.end(), corners.begin(), corners.end());
+    }
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t v = surface ? surface->source_vertex[i] : i;
         if (surface)

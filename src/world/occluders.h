@@ -30,6 +30,7 @@ struct Occluders {
     std::vector<std::uint32_t> instances;  ///< [V] whose frame
     std::vector<glm::vec3> look;           ///< [V] (u, v, alpha factor) for cut-outs
     std::vector<glm::vec2> place;          ///< [V] in the atlas [texels]; empty without one
+    std::vector<glm::vec4> chart;          ///< [V] its chart's corners there, low and high
     std::vector<std::uint32_t> indices;    ///< [3T]
     OccluderRange opaque;
     std::vector<CutOut> cut_outs;

@@ -111,6 +111,7 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
       vertex_instances_(device, std::span<const std::uint32_t>(occluders.instances)),
       looks_(device, std::span<const glm::vec3>(occluders.look)),
       places_(device, std::span<const glm::vec2>(occluders.place)),
+      charts_(device, std::span<const glm::vec4>(occluders.chart)),
       indices_(device, std::span<const std::uint32_t>(occluders.indices)),
       opaque_(occluders.opaque),
       place_lumels_(device, "world.place_lumels", kPlaceLumelsSpirv, 5, sizeof(PlaceParams),

@@ -54,6 +54,8 @@ public:
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }       ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
     const gpu::Array<glm::vec2>& places() const { return places_; }  ///< [V] [texels], or none
+    /// [V] corners of the rectangle that a vertex's chart fills there, low and high, or none
+    const gpu::Array<glm::vec4>& charts() const { return charts_; }
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
@@ -75,6 +77,7 @@ private:
     gpu::Array<std::uint32_t> vertex_instances_;
     gpu::Array<glm::vec3> looks_;
     gpu::Array<glm::vec2> places_;
+    gpu::Array<glm::vec4> charts_;
     gpu::Array<std::uint32_t> indices_;
     OccluderRange opaque_;
     std::vector<CutOutDraw> cut_outs_;
