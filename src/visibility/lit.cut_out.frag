@@ -12,8 +12,9 @@ layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(binding = 1, scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
 layout(binding = 2, scalar) readonly buffer Radiosity { vec3 radiosity[]; };
 layout(binding = 3) uniform sampler2D base_color;
-layout(location = 0) centroid in vec2 place;
-layout(location = 1) centroid in vec3 look;
+layout(location = 0) in vec2 place;
+layout(location = 1) flat in vec4 chart;
+layout(location = 2) in vec3 look;
 layout(location = 0) out vec4 color;
 
 #include "visibility/lit.glsl"
@@ -25,5 +26,5 @@ void main()
                              gl_FragCoord.z, eye.random);
     if (!met.blocked)
         discard;
-    color = vec4(met.there ? radiosity_at(p, place) : vec3(0.0), gl_FragCoord.z);
+    color = vec4(met.there ? radiosity_at(p, place, chart) : vec3(0.0), gl_FragCoord.z);
 }

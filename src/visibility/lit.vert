@@ -8,10 +8,16 @@ layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 place_in_;
+layout(location = 2) in vec4 chart_in;
 layout(location = 0) out vec2 place;
+layout(location = 1) flat out vec4 chart;
+
+#include "visibility/lit.clip.glsl"
 
 void main()
 {
     gl_Position = through_face(eyes[p.eye], p.face, p.near, position);
+    clip_to_face(gl_Position);
     place = place_in_;
+    chart = chart_in;
 }

@@ -18,7 +18,7 @@ constexpr std::uint32_t kCutOutFragmentSpirv[] = {
 #include "visibility/lit.cut_out.frag.inc"
 };
 
-constexpr gpu::VertexStream kStreams[] = {{3}, {2}, {3}};
+constexpr gpu::VertexStream kStreams[] = {{3}, {2}, {4}, {3}};
 constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
                                 gpu::Slot::texture};
 
@@ -35,10 +35,19 @@ gpu::Raster make_raster(const gpu::Device& device, bool cut_out)
              .fragment = cut_out ? gpu::Spirv(kCutOutFragmentSpirv) : gpu::Spirv(kFragmentSpirv),
              .slots = std::span(kSlots, cut_out ? 4 : 3),
              .param_bytes = sizeof(LitParams),
-             .streams = std::span(kStreams, cut_out ? 3 : 2),
+             .streams = std::span(kStreams, cut_out ? 4 : 3),
              .color = true,
              .color_pixel = gpu::Pixel::rgba32,
              .samples = gpu::kManySamples}};
+}
+
+EyeViewLayout make_layout(const gpu::Device& device, std::uint32_t side, float near,
+                          std::uint32_t capacity)
+{
+    if (!device.can_clip())
+        throw Error(ErrorKind::device, device.info().name,
+                    "has no clip distances, which what gathers light needs");
+    return {side, tile_columns(capacity, fitting_hemicubes(device, side)), near};
 }
 
 }  // namespace
@@ -46,7 +55,7 @@ gpu::Raster make_raster(const gpu::Device& device, bool cut_out)
 LitViews::LitViews(const gpu::Device& device, const World& world, std::uint32_t side, float near,
                    std::uint32_t capacity)
     : world_(&world),
-      layout_{side, tile_columns(capacity, fitting_hemicubes(device, side)), near},
+      layout_(make_layout(device, side, near, capacity)),
       capacity_(tiles_of(layout_).fitting(capacity, device.max_image_side())),
       image_(device, gpu::Pixel::rgba32, tiles_of(layout_).image_width(),
              tiles_of(layout_).image_height(capacity_), 1, gpu::kManySamples),
@@ -62,6 +71,7 @@ void LitViews::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, const 
 {
     const gpu::Buffer& vertices = world_->vertices().buffer();
     const gpu::Buffer& places = world_->places().buffer();
+    const gpu::Buffer& charts = world_->charts().buffer();
     const gpu::Buffer& indices = world_->indices().buffer();
     const auto draw_all = [&](const OccluderRange& range, const Passage& passage) {
         for (std::uint32_t eye = first; eye < last; ++eye)
@@ -79,7 +89,7 @@ void LitViews::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, const 
     };
     if (world_->drawn_with_hull(world_->opaque()).count > 0) {
         commands.use(opaque_, {eyes, *light.lumel_of, *light.radiosity},
-                     {{&vertices, &places}, &indices});
+                     {{&vertices, &places, &charts}, &indices});
         draw_all(world_->opaque(), {});
     }
     for (const CutOutDraw& cut_out : world_->cut_outs()) {
@@ -87,7 +97,7 @@ void LitViews::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, const 
             continue;
         commands.use(cut_out_,
                      {eyes, *light.lumel_of, *light.radiosity, {*cut_out.color, *cut_out.sampler}},
-                     {{&vertices, &places, &world_->looks().buffer()}, &indices});
+                     {{&vertices, &places, &charts, &world_->looks().buffer()}, &indices});
         draw_all(cut_out.range, cut_out.passage);
     }
 }

@@ -21,14 +21,14 @@ struct SurfaceLight {
 };
 
 /// Images of what `capacity` eyes see, side by side, each pixel in kManySamples samples: radiosity,
-/// and near / distance along the face's axis, 0 where nothing is seen. A kernel
-/// reads those by texelFetch from a sampler2DMS, in tiles as EyeViewLayout has them for hemicubes.
+/// and near / distance along the face's axis, 0 where nothing is seen. A kernel reads those by
+/// texelFetch from a sampler2DMS, in tiles as EyeViewLayout has them for hemicubes.
 class LitViews {
 public:
     /// side: pixels of a hemicube's front face, even. near: closer surfaces are not seen [m]. The
     /// capacity given is what fits the device's images and is at most the one asked for. `world`
     /// must know the atlas.
-    /// Throws Error{input} if the side will not do.
+    /// Throws Error{input} if the side will not do, Error{device} if the device cannot clip.
     LitViews(const gpu::Device& device, const World& world, std::uint32_t side, float near,
              std::uint32_t capacity);
 
