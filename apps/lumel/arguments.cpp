@@ -427,6 +427,9 @@ void check_map_options(const CLI::App& command, const SolverOptions& solver)
     for (const char* option : {"--layers", "--lookups", "--map-side"})
         require(option, solver.method == "directions", "--solver directions");
     require("--lookups", solver.layers == Layers::stochastic, "--layers stochastic");
+    if (solver.method == "gather" && solver.projection != Projection::hemicube)
+        throw Error(ErrorKind::input, "--projection",
+                    "must be hemicube with --solver gather, which knows no other");
 }
 
 /// What CLI11 did not accept, as one sentence.

@@ -17,6 +17,14 @@ constexpr double kGrowth = 1.12;
 /// Iterations between asking and taking.
 constexpr std::uint64_t kLag = 2;
 
+Terms checked(const Terms& terms)
+{
+    if (!std::isfinite(terms.column[0].x) || !std::isfinite(terms.column[0].y))
+        throw Error(ErrorKind::input, "emission",
+                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
+    return terms;
+}
+
 }  // namespace
 
 Figures::Figures(const gpu::Device& device, std::size_t lumel_count)
@@ -54,11 +62,15 @@ std::optional<Terms> Figures::take(gpu::Pacer& pacer, std::uint64_t iteration)
         return {};
     pacer.wait(ticket_);
     waiting_ = false;
-    const Terms terms = *host_.mapped();
-    if (!std::isfinite(terms.column[0].x) || !std::isfinite(terms.column[0].y))
-        throw Error(ErrorKind::input, "emission",
-                    "is too bright to be computed in 32-bit floats; lower the emissive strength");
-    return terms;
+    return checked(*host_.mapped());
+}
+
+Terms Figures::hear(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate)
+{
+    pacer.work("figures", 1, 1,
+               [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
+    pacer.finish();
+    return checked(now());
 }
 
 }  // namespace lumel

@@ -31,6 +31,9 @@ public:
     /// finite.
     std::optional<Terms> take(gpu::Pacer& pacer, std::uint64_t iteration);
 
+    /// The same at once, whenever asked. Waits for the device.
+    Terms hear(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate);
+
     /// Forgets figures that are on their way. The pacer must have finished.
     void drop() { waiting_ = false; }
 

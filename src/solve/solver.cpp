@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "solve/directions.h"
+#include "solve/gather.h"
 #include "solve/glossy.h"
 #include "solve/progressive.h"
 #include "solve/stochastic.h"
@@ -37,8 +38,9 @@ NearFieldOptions near_field_options(const SolverOptions& options)
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius)
 {
-    // Along global directions no pair is too close.
-    if (options.scheme == Scheme::paper || options.method == "directions")
+    // Along global directions no pair is too close, nor is any to a hemicube of its own.
+    if (options.scheme == Scheme::paper || options.method == "directions" ||
+        options.method == "gather")
         return {};
     NearFieldOptions near = near_field_options(options);
     if (radius > 0.0f)
@@ -73,6 +75,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
 {
     if (options.method == "directions")
         return std::make_unique<GlobalDirections>(device, world, lumels, options, known);
+    if (options.method == "gather")
+        return std::make_unique<GatherRadiosity>(device, world, lumels, options);
     if (options.method == "progressive")
         return std::make_unique<ProgressiveRadiosity>(device, world, lumels, near, options);
     if (method_of(options.method).materials == MaterialModel::glossy)

@@ -13,6 +13,7 @@
 #include "gpu/pacer.h"
 #include "nearfield/near_field.h"
 #include "reference/reference.h"
+#include "solve/gather.shared.h"
 #include "solve/glossy.shared.h"
 #include "solve/progressive.shared.h"
 #include "solve/stochastic.shared.h"
@@ -97,6 +98,9 @@ inline constexpr MethodInfo kMethods[] = {
     {"progressive", "Progressive refinement radiosity", "[CCWG88], [Hoef13]",
      "small scenes of diffuse surfaces; what is corrected when things move", MaterialModel::diffuse,
      6.0f, kMostPatchBatch},
+    {"gather", "Gather radiosity by hemicubes on every lumel", "[CG85], [Hoef13]",
+     "a reference for the others, which shares nothing with them: slow; --hemicube 64 is enough",
+     MaterialModel::diffuse, NearFieldOptions{}.radius, kMostHemicubes},
 };
 
 /// The method of that name. Throws Error{input} if there is none.

@@ -76,11 +76,18 @@ SolverOptions method(const char* id, std::uint64_t shots)
         .method = id, .hemicube = 128, .map_side = 256, .max_shots = shots, .target_error = 0.0};
 }
 
+/// Three hemicubes a lumel, for four bounces.
+SolverOptions gather()
+{
+    return {
+        .method = "gather", .batch = 48, .hemicube = 32, .max_shots = 40000, .target_error = 0.0};
+}
+
 // With stochastic layers the nearest of several pixels counts, each of which decides by chance
 // whether the pane blocks: it does too often.
 INSTANTIATE_TEST_SUITE_P(By, Glass,
                          testing::Values(method("stochastic", 6144), method("glossy", 18432),
-                                         method("directions", 24576)));
+                                         method("directions", 24576), gather()));
 
 }  // namespace
 }  // namespace lumel

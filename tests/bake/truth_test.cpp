@@ -11,8 +11,29 @@ using support::LumelError;
 using support::Solved;
 
 /// Solvers that are held to the same truths.
-const auto kEverySolver = testing::Values("stochastic", "progressive");
+const auto kEverySolver = testing::Values("stochastic", "progressive", "gather");
+const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
+
+/// What is enough of a solver that gathers where it is to meet closed forms.
+struct Gathering {
+    std::uint64_t bounces = 5;  ///< the first, and two pairs of opposite points
+    int hemicube = 64;          ///< [pixels], multisampled
+};
+
+/// As many hemicubes as the bounces take, if the method gathers; else `shooters`.
+SolverOptions with_shots(SolverOptions options, std::uint64_t shooters, const Lumels& lumels,
+                         const Gathering& gathering = {})
+{
+    options.target_error = 0.0;
+    options.max_shots = shooters;
+    if (options.method == "gather") {
+        options.batch = 64;
+        options.hemicube = gathering.hemicube;
+        options.max_shots = gathering.bounces * lumels.lumels.size();
+    }
+    return options;
+}
 
 /// Area-weighted mean of B = E + ρH over all channels, and the share of lumels within
 /// `tolerance` of `truth`.
@@ -22,10 +43,10 @@ struct Glow {
 
 Glow furnace_glow(const std::string& name, double truth, double tolerance, SolverOptions options)
 {
-    const Prepared furnace(support::scene_path(name), AtlasOptions{.size = 64});
-    options.max_shots = 16384;
-    options.target_error = 0.0;
-    const Solved solved = support::solve_scene(furnace, options);
+    const bool gathers = options.method == "gather";
+    const Prepared furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
+    const Solved solved =
+        support::solve_scene(furnace, with_shots(options, 16384, furnace.lumels, {40, 32}));
     Glow glow;
     double area = 0.0, within = 0.0, count = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -58,7 +79,11 @@ TEST_P(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
     EXPECT_GE(glow.share_within, 0.99);
 }
 
-TEST_P(Furnace, GlowsAlikeThroughHemispheres)
+class FurnaceOnDiscs : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, FurnaceOnDiscs, kEveryShooter, kMethodName);
+
+TEST_P(FurnaceOnDiscs, GlowsAlikeThroughHemispheres)
 {
     const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05,
                                    {.method = GetParam(), .projection = Projection::hemisphere});
@@ -78,11 +103,13 @@ support::Quad dark_plate()
 double plate_error(const std::string& method, const support::Quad& emitter,
                    const std::function<double(double x, double y)>& form_factor)
 {
-    const support::HandMade plates = support::make_quads({dark_plate(), emitter});
+    const std::vector<support::Quad> quads = {dark_plate(), emitter};
+    support::HandMade plates = support::make_quads(quads);
+    const Atlas atlas = support::lay_out(plates, quads);
     const RayScene rays(plates.scene);
     const Solved solved =
         support::solve_scene(plates.scene, rays, plates.lumels,
-                             {.method = method, .max_shots = 4096, .target_error = 0.0});
+                             with_shots({.method = method}, 4096, plates.lumels), &atlas);
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -159,11 +186,13 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     lamp.edge_u = {0, 0, float(kLamp.high - kLamp.low)};
     lamp.edge_v = {kWidth, 0, 0};
     lamp.res_v = 6;
-    const support::HandMade place = support::make_quads({floor, below, lamp});
+    const std::vector<support::Quad> quads = {floor, below, lamp};
+    support::HandMade place = support::make_quads(quads);
+    const Atlas atlas = support::lay_out(place, quads);
     const RayScene rays(place.scene);
-    const Solved solved =
-        support::solve_scene(place.scene, rays, place.lumels,
-                             {.method = GetParam(), .max_shots = 4096, .target_error = 0.0});
+    const Solved solved = support::solve_scene(
+        place.scene, rays, place.lumels,
+        with_shots({.method = GetParam()}, 4096, place.lumels, {5, 128}), &atlas);
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -183,10 +212,12 @@ class SealedBox : public testing::TestWithParam<Seen> {};
 TEST_P(SealedBox, StaysExactlyDarkInside)
 {
     const auto& [method, projection] = GetParam();
-    const Prepared world(support::scene_path("sealed-box"), AtlasOptions{.size = 128});
-    const Solved solved = support::solve_scene(
-        world,
-        {.method = method, .projection = projection, .max_shots = 2048, .target_error = 0.0});
+    const bool gathers = std::string(method) == "gather";
+    const Prepared world(support::scene_path("sealed-box"),
+                         AtlasOptions{.size = gathers ? 64 : 128});
+    const Solved solved =
+        support::solve_scene(world, with_shots({.method = method, .projection = projection}, 2048,
+                                               world.lumels, {3, 64}));
     std::size_t inside = 0;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -210,9 +241,12 @@ std::string seen_name(const testing::TestParamInfo<Seen>& test)
 }
 
 INSTANTIATE_TEST_SUITE_P(By, SealedBox,
-                         testing::Combine(kEverySolver, testing::Values(Projection::hemicube,
-                                                                        Projection::hemisphere)),
+                         testing::Combine(kEveryShooter, testing::Values(Projection::hemicube,
+                                                                         Projection::hemisphere)),
                          seen_name);
+
+INSTANTIATE_TEST_SUITE_P(ByGathering, SealedBox,
+                         testing::Values(Seen{"gather", Projection::hemicube}), seen_name);
 
 class PatchworkSphere : public testing::TestWithParam<const char*> {};
 
@@ -249,11 +283,12 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
             albedo += size * double(quad.albedo.g);
             quads.push_back(quad);
         }
-    const support::HandMade sphere = support::make_quads(quads);
+    support::HandMade sphere = support::make_quads(quads);
+    const Atlas atlas = support::lay_out(sphere, quads);
     const RayScene rays(sphere.scene);
-    const Solved solved =
-        support::solve_scene(sphere.scene, rays, sphere.lumels,
-                             {.method = GetParam(), .max_shots = 4096, .target_error = 0.0});
+    const Solved solved = support::solve_scene(
+        sphere.scene, rays, sphere.lumels,
+        with_shots({.method = GetParam()}, 4096, sphere.lumels, {5, 32}), &atlas);
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;

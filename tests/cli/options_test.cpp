@@ -44,6 +44,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
          {"--lookups", "--layers stochastic"}},
         {{"bake", scene, "out", "--solver", "glossy", "--map-side", "64"},
          {"--map-side", "--solver directions"}},
+        {{"bake", scene, "out", "--solver", "gather", "--projection", "hemisphere"},
+         {"--projection", "--solver gather"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
         {{"bake", scene, "out", "--projection", "sphere"},

@@ -115,6 +115,39 @@ inline HandMade make_quads(const std::vector<Quad>& quads)
     return made;
 }
 
+/// Lays the quads out one below the other in an atlas, and their lumels with them.
+inline Atlas lay_out(HandMade& made, const std::vector<Quad>& quads)
+{
+    Atlas atlas;
+    for (const Quad& quad : quads) {
+        atlas.width = std::max(atlas.width, quad.res_u);
+        atlas.height += quad.res_v;
+    }
+    made.lumels.width = atlas.width;
+    made.lumels.height = atlas.height;
+    made.lumels.coverage.assign(std::size_t(atlas.width) * std::size_t(atlas.height), 0.0f);
+    int row = 0;
+    for (std::size_t q = 0; q < quads.size(); row += quads[q].res_v, ++q) {
+        const auto width = float(quads[q].res_u), top = float(row),
+                   bottom = float(row + quads[q].res_v);
+        atlas.surfaces.push_back(
+            {.instance = std::uint32_t(q),
+             .source_vertex = {0, 1, 2, 3},
+             .texcoord = {{0, top}, {width, top}, {width, bottom}, {0, bottom}},
+             .indices = {0, 1, 2, 0, 2, 3},
+             .chart = {std::uint32_t(q), std::uint32_t(q)}});
+        for (std::size_t i = made.first[q]; i < made.first[q + 1]; ++i) {
+            const std::size_t k = i - made.first[q], columns = std::size_t(quads[q].res_u);
+            const std::size_t texel =
+                (std::size_t(row) + k / columns) * std::size_t(atlas.width) + k % columns;
+            made.lumels.lumels[i].texel = std::uint32_t(texel);
+            made.lumels.coverage[texel] = 1.0f;
+        }
+    }
+    atlas.chart_count = std::uint32_t(quads.size());
+    return atlas;
+}
+
 /// The six walls of a box in the order -x, +x, -y, +y, -z, +z. `inward`: seen from inside.
 inline std::array<Quad, 6> box_walls(const glm::vec3& low, const glm::vec3& high, bool inward,
                                      const Quad& look = {})

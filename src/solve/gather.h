@@ -1,0 +1,65 @@
+#pragma once
+// Gather radiosity: a hemicube on every lumel, bounce after bounce [CG85], [Hoef13] 4.2. See
+// gather.cpp.
+
+#include <array>
+
+#include "gpu/pacer.h"
+#include "solve/figures.h"
+#include "solve/gather.shared.h"
+#include "solve/solver.h"
+#include "visibility/lit_views.h"
+
+namespace lumel {
+
+/// Every lumel in turn takes what it sees.
+class GatherRadiosity final : public Solver {
+public:
+    /// `world` must know the atlas. Hemicubes count as shots.
+    GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
+                    const SolverOptions& options);
+
+    void step() override;
+    SolverState state() const override { return state_; }
+    std::vector<glm::vec3> irradiance() override;
+    const gpu::StageTimes& times() const override { return pacer_.times(); }
+    double longest_submission() const override { return pacer_.longest_ms(); }
+
+private:
+    void place_eyes(std::uint32_t lumels);
+    void integrate(std::uint32_t eyes);
+    void bounce(std::uint32_t lumels);
+    void end_bounce();
+    double still_to_come(const Terms& terms) const;
+
+    SolverOptions options_;
+    std::uint32_t count_;  ///< N lumels
+    const World* world_;
+    std::uint32_t channels_;  ///< hemicubes of one lumel
+    float lift_;              ///< of eyes above their surface [m]
+    gpu::Kernel eyes_kernel_, integrate_, bounce_, figures_kernel_;
+    LitViews views_;
+    std::uint32_t batch_;                 ///< lumels of a batch
+    gpu::Array<std::uint32_t> order_;     ///< [M] lumels that are not buried
+    gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2]
+    std::uint32_t width_, height_;        ///< of the atlas [texels]
+    gpu::Array<float> delta_form_factors_;
+    gpu::Array<Eye> eyes_;
+    gpu::Array<GatheringPoint> points_;
+    gpu::Array<glm::vec3> gathered_;             ///< [K] H of each hemicube
+    gpu::Array<glm::vec4> surface_;              ///< (ρ, A) [N]
+    gpu::Array<glm::vec3> emission_;             ///< E [N]
+    gpu::Array<glm::vec3> radiosity_;            ///< B [N]
+    gpu::Array<glm::vec3> irradiance_, change_;  ///< H, and ΔH of the last bounce [N]
+    gpu::Array<glm::vec3> sums_;                 ///< [2][N] what arrived, by half-solution
+    Figures figures_;
+    std::uint32_t next_ = 0;                ///< of the order: where the bounce goes on
+    bool averages_ = false;                 ///< points move, and H is their mean
+    std::array<std::uint32_t, 2> taken_{};  ///< bounces in each half-solution
+    double apart_ = 0.0;                    ///< of the halves, relative, a bounce ago
+    double remaining_ = 0.0;                ///< relative, once light has settled
+    SolverState state_;
+    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+};
+
+}  // namespace lumel

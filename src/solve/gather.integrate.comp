@@ -1,0 +1,46 @@
+#version 460
+#include "solve/gather.shared.h"
+
+// What hemicubes show, multiplied by the delta form factors and summed [Hoef13] Algorithm 4.1:
+//
+//     H = Σ_q ΔF_q B_q                                                            [CG85]
+//
+// over the samples q of all pixels. A workgroup takes one hemicube and adds up
+// in an order that never changes.
+
+layout(local_size_x = kIntegrateGroup) in;
+layout(push_constant, scalar) uniform Params { IntegrateParams p; };
+layout(binding = 0) uniform sampler2DMS views;
+layout(binding = 1, scalar) readonly buffer Points { GatheringPoint points[]; };
+layout(binding = 2, scalar) readonly buffer DeltaFormFactors { float delta_form_factor[]; };
+layout(binding = 3, scalar) writeonly buffer Gathered { vec3 gathered[]; };
+
+#include "visibility/hemicube.glsl"
+
+shared vec3 sums[kIntegrateGroup];
+
+void main()
+{
+    const uint k = gl_WorkGroupID.x, me = gl_LocalInvocationID.x;
+    const GatheringPoint point = points[k];
+    const uvec2 size = uvec2(2u * p.views.side, 3u * p.views.side / 2u);
+    const ivec2 corner = ivec2(uvec2(k % p.views.columns, k / p.views.columns) * size);
+    vec3 sum = vec3(0.0);
+    for (uint q = me; q < size.x * size.y; q += kIntegrateGroup) {
+        const uvec2 pixel = uvec2(q % size.x, q / size.x);
+        if (point.tilted != 0u && dot(point.facing, ray_to(p.views.side, pixel)) <= 0.0)
+            continue;
+        for (uint s = 0u; s < p.samples; ++s)
+            sum += delta_form_factor[q * p.samples + s] *
+                   texelFetch(views, corner + ivec2(pixel), int(s)).rgb;
+    }
+    sums[me] = sum;
+    barrier();
+    for (uint width = kIntegrateGroup / 2u; width > 0u; width /= 2u) {
+        if (me < width)
+            sums[me] += sums[me + width];
+        barrier();
+    }
+    if (me == 0u)
+        gathered[k] = sums[0];
+}
