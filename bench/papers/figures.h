@@ -73,4 +73,26 @@ struct DirectionsSettings {
 /// [TN11] figure 9: its scenes, and the time per direction.
 void show_directions(const DirectionsSettings& settings);
 
+struct DynamicSettings {
+    Settings shared;                  ///< the map's side is that of all but the low quality scene
+    std::vector<std::string> scenes;  ///< keys of the table in moving.cpp; empty: all
+    int low_size = 64;                ///< side of the low quality scene's map [texels]
+    int degrees = 10;                 ///< that the box turns in a step
+    int steps = 3;                    ///< after the first, of which the fastest counts
+    std::vector<int> pieces{14, 41};  ///< that edges are cut into, for more vertices; 1 is the rest
+};
+
+/// [Hoef13] tables 5.1 to 5.3 and section 5.3.1: error, time and hemicubes of correcting a solution
+/// when something moves.
+void follow_moves(const DynamicSettings& settings);
+
+struct DriftSettings {
+    Settings shared;
+    int degrees = 10;  ///< that the box turns, there and back
+    int moves = 100;
+};
+
+/// What many moves, or one far away and back, leave of the first solution.
+void follow_drift(const DriftSettings& settings);
+
 }  // namespace lumel::bench

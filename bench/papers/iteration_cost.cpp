@@ -28,10 +28,9 @@ IterationCost measure(const gpu::Device& device, Solver& solver, int iterations)
     watch.stop();
     cost.cpu_ms = 1e3 * watch.cpu / iterations;
     cost.wall_ms = 1e3 * watch.wall / iterations;
-    for (const auto& [stage, ms] : solver.times()) {
-        const auto earlier = before.find(stage);
-        cost.stages[stage] = (ms - (earlier == before.end() ? 0.0 : earlier->second)) / iterations;
-    }
+    cost.stages = since(before, solver.times());
+    for (auto& [stage, ms] : cost.stages)
+        ms /= iterations;
     // Now and then the error is estimated too, which the median leaves out.
     const auto middle = steps.begin() + std::ptrdiff_t(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end(),
@@ -61,6 +60,13 @@ double sum_of(const gpu::StageTimes& stages, std::initializer_list<const char*> 
         if (const auto stage = stages.find(name); stage != stages.end())
             sum += stage->second;
     return sum;
+}
+
+gpu::StageTimes since(const gpu::StageTimes& earlier, gpu::StageTimes now)
+{
+    for (const auto& [stage, ms] : earlier)
+        now[stage] -= ms;
+    return now;
 }
 
 SolverOptions papers_iteration(SolverOptions options)

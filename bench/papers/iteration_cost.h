@@ -19,6 +19,9 @@ IterationCost cost_of_iteration(const gpu::Device& device, Solver& solver, int i
 /// Sum of the stages named [ms].
 double sum_of(const gpu::StageTimes& stages, std::initializer_list<const char*> names);
 
+/// What stages took between two looks at them [ms].
+gpu::StageTimes since(const gpu::StageTimes& earlier, gpu::StageTimes now);
+
 /// The papers' iteration: one shooter, drawn independently of all others.
 SolverOptions papers_iteration(SolverOptions options);
 

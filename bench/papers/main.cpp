@@ -3,6 +3,8 @@
 //   [BJ04]  A. Barsi, G. Jakab. Stream Processing in Global Illumination. CESCG 2004.
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on
 //           the GPU. 2005.
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//           Utrecht University, 2013.
 //   [TN11]  A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include <cstdio>
@@ -139,6 +141,41 @@ void add_directions(CLI::App& app, DirectionsSettings& settings)
     figure->callback([&settings] { show_directions(settings); });
 }
 
+void add_dynamic(CLI::App& app, DynamicSettings& settings)
+{
+    settings.shared.reference_spp = 1024;
+    CLI::App* figure = app.add_subcommand("dynamic", "A solution is corrected as a box turns");
+    figure->add_option("--device", settings.shared.device, "as lumel devices lists");
+    figure->add_option("--scenes", settings.scenes, "some of indirect, large, small, low")
+        ->delimiter(',')
+        ->check(CLI::IsMember({"indirect", "large", "small", "low"}));
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_number(figure, "--low-size", settings.low_size, "the same of the low quality scene");
+    add_number(figure, "--hemicube", settings.shared.solver.hemicube, "front face [pixels]");
+    add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
+    add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
+    add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
+    add_number(figure, "--reference-spp", settings.shared.reference_spp,
+               "paths per lumel for the truth; 0: none", 0);
+    figure->add_option("--pieces", settings.pieces, "that edges are cut into, for more vertices")
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    figure->callback([&settings] { follow_moves(settings); });
+}
+
+void add_drift(CLI::App& app, DriftSettings& settings)
+{
+    settings.shared.scene = "scenes/moving-large-lamp.gltf";
+    settings.shared.size = 64;
+    CLI::App* figure = add_figure(app, "drift", "What many moves leave", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
+    add_number(figure, "--degrees", settings.degrees, "that the box turns, there and back");
+    add_number(figure, "--moves", settings.moves, "there and back", 2);
+    figure->callback([&settings] { follow_drift(settings); });
+}
+
 int run(int argc, char** argv)
 {
     IterationSettings iterations;
@@ -147,6 +184,8 @@ int run(int argc, char** argv)
     AblationSettings ablation;
     LayersSettings layers;
     DirectionsSettings directions;
+    DynamicSettings dynamic;
+    DriftSettings drift;
     CLI::App app("The papers' figures, made again");
     app.require_subcommand(1);
     add_iterations(app, iterations);
@@ -155,6 +194,8 @@ int run(int argc, char** argv)
     add_ablation(app, ablation);
     add_layers(app, layers);
     add_directions(app, directions);
+    add_dynamic(app, dynamic);
+    add_drift(app, drift);
     CLI11_PARSE(app, argc, argv);
     return 0;
 }

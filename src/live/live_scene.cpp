@@ -201,13 +201,17 @@ void LiveScene::begin_move()
         move_.transforms.push_back(instance.transform);
         asked_[i].reset();
     }
-    if (cross_)
-        begin_crossing();
-    else if (!move_.boxes.empty())
-        incremental_->begin(move_);
+    if (!cross_) {
+        if (!move_.boxes.empty())
+            incremental_->begin(move_);
+        return;
+    }
+    if (!move_.boxes.empty() || !knows_crossing_pairs_)
+        find_crossing_pairs();
+    cross_->begin(move_.transforms);
 }
 
-void LiveScene::begin_crossing()
+void LiveScene::find_crossing_pairs()
 {
     // Pairs with a moving lumel: all close pairs around what may move, less those that stay.
     std::vector<std::uint32_t> all(movers_.begin(), movers_.end());
@@ -222,23 +226,23 @@ void LiveScene::begin_crossing()
         build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
                                rays_, lumels_, options);
     solver_.set_near_field(joined(near_, around, lumels_));
-    cross_->begin(move_.transforms, around);
+    cross_->set_near_field(around);
+    knows_crossing_pairs_ = true;
 }
 
 void LiveScene::end_move()
 {
-    state_.residual = 1.0;
     if (cross_) {
         crossed_ = true;
-        state_.residual = solver_.residual();
-        return;
+    } else {
+        rays_ = RayScene(scene_);
+        const std::vector<char> affected =
+            affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
+        near_ = update_near_field(near_, scene_, rays_, lumels_,
+                                  near_field_options(progressive(options_.solver)), affected);
+        solver_.set_near_field(near_);
     }
-    rays_ = RayScene(scene_);
-    const std::vector<char> affected =
-        affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
-    near_ = update_near_field(near_, scene_, rays_, lumels_,
-                              near_field_options(progressive(options_.solver)), affected);
-    solver_.set_near_field(near_);
+    state_.residual = solver_.residual();
 }
 
 void LiveScene::work()
@@ -257,10 +261,10 @@ void LiveScene::work()
 void LiveScene::shoot()
 {
     world_.show_movers(!cross_);
-    for (int batch = 0; batch < kBatchesALook; ++batch)
-        solver_.step();
-    state_.residual = solver_.residual();
+    solver_.step();
     crossed_ = false;
+    if (++batches_ % kBatchesALook == 0)
+        state_.residual = solver_.residual();
 }
 
 LiveState LiveScene::update(double budget_ms)
@@ -270,8 +274,10 @@ LiveState LiveScene::update(double budget_ms)
     const auto elapsed = [&] {
         return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     };
-    while (!is_at_rest() && elapsed() < budget_ms)
-        work();
+    if (!is_at_rest())
+        do
+            work();
+        while (!is_at_rest() && elapsed() < budget_ms);
     if (!is_under_way())
         show();
     state_.under_way = is_under_way();

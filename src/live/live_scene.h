@@ -54,11 +54,13 @@ public:
     void set_reflectance(std::uint32_t instance, const glm::vec3& factor);
 
     /// Goes on for about so many milliseconds: with moves first, then with light that is not shot
-    /// yet; overruns by one batch at most. Returns early when at rest.
+    /// yet; one batch at least, and overruns by one batch at most. Returns early when at rest.
     LiveState update(double budget_ms);
     /// Until at rest.
     LiveState settle();
 
+    /// As the last update() left it.
+    const LiveState& state() const { return state_; }
     /// H [N] [lx] after the last move that is wholly redistributed. Waits for the device.
     std::vector<glm::vec3> irradiance() const;
 
@@ -77,7 +79,7 @@ private:
     void work();
     void begin_move();
     void end_move();
-    void begin_crossing();
+    void find_crossing_pairs();
     void shoot();
     void show();
     bool is_under_way() const;
@@ -101,7 +103,9 @@ private:
     std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
     Move move_;                                                    ///< under way
     LiveState state_;
+    int batches_ = 0;       ///< shot since the last look at how much light is still to be shot
     bool crossed_ = false;  ///< what movers do is known for all that is shot
+    bool knows_crossing_pairs_ = false;
     gpu::Array<glm::vec3> shown_far_, shown_near_;  ///< [N] H after the last whole move
     gpu::Array<glm::vec4> texels_;                  ///< [height][width] of the image
     std::array<gpu::Target, 2> images_;

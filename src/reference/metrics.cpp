@@ -121,6 +121,9 @@ MapError compare_maps(const Image& map, const Image& reference, double most)
 
     MapError error;
     error.relative_rmse = relative(std::sqrt(squares / count), mean);
+    const auto [least, largest] =
+        std::minmax_element(pairs.reference.begin(), pairs.reference.end());
+    error.normalized_rmse = relative(std::sqrt(squares / count), *largest - *least);
     error.rel_mse = relative_squares / count;
     error.bias = relative(sum / count, mean);
     error.p95 = relative(*p95, mean);

@@ -162,15 +162,20 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
                         });
 }
 
-void CrossRedistribution::begin(std::span<const glm::mat4> transforms, const NearField& near)
+void CrossRedistribution::set_near_field(const NearField& near)
 {
-    gpu::Pacer& pacer = solver_->pacer();
-    pacer.finish();
-    world_->place(transforms);
+    solver_->pacer().finish();
     const NearField rows = rows_of_still(near, *lumels_);
     near_first_.upload(rows.first);
     near_column_ = gpu::Array<std::uint32_t>(*device_, view(rows.column));
     near_factor_ = gpu::Array<float>(*device_, view(rows.factor));
+}
+
+void CrossRedistribution::begin(std::span<const glm::mat4> transforms)
+{
+    gpu::Pacer& pacer = solver_->pacer();
+    pacer.finish();
+    world_->place(transforms);
     pacer.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.fill(fresh_.buffer());
     });

@@ -17,9 +17,11 @@ public:
                         ProgressiveRadiosity& solver, const SolverOptions& options,
                         const std::vector<char>& open);
 
-    /// Begins to find anew what moving patches do, with instances where `transforms` say.
-    /// near: pairs with a moving lumel. Nothing may be under way.
-    void begin(std::span<const glm::mat4> transforms, const NearField& near);
+    /// Pairs with a moving lumel, with instances where they are next. Nothing may be under way.
+    void set_near_field(const NearField& near);
+    /// Begins to find anew what moving patches do, with instances where `transforms` say. Nothing
+    /// may be under way.
+    void begin(std::span<const glm::mat4> transforms);
     /// One batch. Returns false once nothing is left to do.
     bool step();
     bool is_under_way() const { return under_way_; }

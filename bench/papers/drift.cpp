@@ -1,0 +1,85 @@
+// Errors of incremental and of cross-redistribution radiosity must not pile up [Hoef13] 4.5.2.
+
+#include <cstdio>
+
+#include <fmt/core.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "bench/papers/figures.h"
+#include "bench/papers/moving.h"
+#include "core/error.h"
+#include "reference/metrics.h"
+
+namespace lumel::bench {
+namespace {
+
+/// A place from where nothing can be told to be there [m].
+constexpr glm::vec3 kAway{0.0f, 1000.0f, 0.0f};
+
+double apart(const LiveScene& live, const Image& first)
+{
+    return 100.0 * compare_maps(in_a_row(live.lumels(), live.irradiance()), first).relative_rmse;
+}
+
+/// Is it one of 2, 10, 100, …?
+bool is_looked_at(int move, int moves)
+{
+    int power = 10;
+    while (power < move)
+        power *= 10;
+    return move == 2 || move == power || move == moves;
+}
+
+void follow(const gpu::Device& device, const Scene& scene, Redistribution redistribution,
+            const DriftSettings& settings)
+{
+    const std::uint32_t box = box_in(scene);
+    LiveScene live(device, scene,
+                   {.atlas = {.size = settings.shared.size},
+                    .redistribution = redistribution,
+                    .solver = settings.shared.solver,
+                    .movers = {box}});
+    live.settle();
+    const char* name = redistribution == Redistribution::cross ? "cross" : "incremental";
+    const auto print = [&](const std::string& after, double error) {
+        fmt::print("| {} | {} | {:.4f} | {:.4f} |\n", name, after, error, live.state().residual);
+        std::fflush(stdout);
+    };
+    const glm::mat4 home = scene.instances[box].transform;
+    const auto before = in_a_row(live.lumels(), live.irradiance());
+    const std::pair<const char*, glm::mat4> ways[] = {
+        {"away", glm::translate(glm::mat4(1.0f), kAway) * home}, {"put back", home}};
+    for (const auto& [after, place] : ways) {
+        live.move(box, place);
+        live.settle();
+        print(after, apart(live, before));
+    }
+    const Image first = in_a_row(live.lumels(), live.irradiance());
+    for (int move = 1; move <= settings.moves; ++move) {
+        live.move(box, move % 2 == 1 ? turned(scene, box, settings.degrees) : home);
+        live.settle();
+        if (is_looked_at(move, settings.moves))
+            print(fmt::format("{} moves", move), apart(live, first));
+    }
+}
+
+}  // namespace
+
+void follow_drift(const DriftSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    const Scene scene = read_gltf(settings.shared.scene);
+    if (settings.moves % 2 != 0)
+        throw Error(ErrorKind::input, "--moves " + std::to_string(settings.moves),
+                    "must be even, so that the box comes back");
+    fmt::print("{} at {}², {} ({})\n\n| redistribution | after | RMSE % | residual |\n"
+               "|---|---|---|---|\n",
+               settings.shared.scene, settings.shared.size, device.info().name,
+               device.info().driver);
+    follow(device, scene, Redistribution::incremental, settings);
+    follow(device, scene, Redistribution::cross, settings);
+    if (!device.validation_messages().empty())
+        throw Error(ErrorKind::device, "validation", device.validation_messages());
+}
+
+}  // namespace lumel::bench

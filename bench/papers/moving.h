@@ -1,0 +1,48 @@
+#pragma once
+// The scenes of [Hoef13] section 5.1, and what comes of a move in them.
+
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "live/live_scene.h"
+
+namespace lumel::bench {
+
+/// A scene of our own after one of the thesis's, with a box that turns.
+struct ThesisScene {
+    const char* key;    ///< on the command line
+    const char* title;  ///< in the thesis
+    const char* path;
+    bool low_quality = false;
+};
+
+inline constexpr ThesisScene kThesisScenes[] = {
+    {"indirect", "Indirect light", "scenes/moving-indirect.gltf"},
+    {"large", "Cornell, large", "scenes/moving-large-lamp.gltf"},
+    {"small", "Cornell, small", "scenes/moving-small-lamp.gltf"},
+    {"low", "Low quality", "scenes/moving-large-lamp.gltf", true},
+};
+
+/// The instance named "box". Throws Error{input} if there is none.
+std::uint32_t box_in(const Scene& scene);
+
+/// Its place once it has turned about its own upright axis.
+glm::mat4 turned(const Scene& scene, std::uint32_t box, double degrees);
+
+/// What the host and the device did for one move.
+struct Update {
+    double alone_ms = 0.0;              ///< redistribution alone, wall time
+    double whole_ms = 0.0;              ///< until at rest, wall time
+    std::uint64_t alone_hemicubes = 0;  ///< of redistribution alone
+    std::uint64_t whole_hemicubes = 0;
+    gpu::StageTimes stages;  ///< until at rest, device time
+};
+
+/// Moves an instance and goes on until at rest.
+Update update_after_move(LiveScene& live, std::uint32_t instance, const glm::mat4& place);
+
+/// H of lumels in a row, those that are not buried covered: for compare_maps().
+Image in_a_row(const Lumels& lumels, const std::vector<glm::vec3>& irradiance);
+
+}  // namespace lumel::bench
