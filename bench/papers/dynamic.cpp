@@ -144,10 +144,10 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
         results.by[kGather] = gathered(device, laid_out, stage);
     std::optional<Image> truth;
     if (settings.shared.reference_spp > 0)
-        truth = in_a_row(lumels, reference_irradiance(
-                                     scene, RayScene(scene), lumels,
-                                     {.samples_per_lumel = settings.shared.reference_spp,
-                                      .seed = kReferenceSeed}));
+        truth = in_a_row(lumels,
+                         reference_irradiance(scene, RayScene(scene), lumels,
+                                              {.samples_per_lumel = settings.shared.reference_spp,
+                                               .seed = kReferenceSeed}));
     const Image scratch = in_a_row(lumels, results.by[kProgressive]->irradiance);
     for (auto& outcome : results.by) {
         if (!outcome)
@@ -228,11 +228,10 @@ void print_times(const std::vector<Results>& all)
             sum += ms;
         return fmt::format("{:.0f}", sum);
     });
-    print_table("Hemicubes of an update: redistribution alone / until at rest", all,
-                [](const Outcome& o) {
-                    return fmt::format("{} / {}", o.update.alone_hemicubes,
-                                       o.update.whole_hemicubes);
-                });
+    print_table(
+        "Hemicubes of an update: redistribution alone / until at rest", all, [](const Outcome& o) {
+            return fmt::format("{} / {}", o.update.alone_hemicubes, o.update.whole_hemicubes);
+        });
 }
 
 void print_stages(const std::vector<Results>& all)
@@ -254,8 +253,8 @@ std::vector<ThesisScene> scenes_of(const DynamicSettings& settings)
 {
     std::vector<ThesisScene> scenes;
     for (const ThesisScene& scene : kThesisScenes)
-        if (settings.scenes.empty() || std::count(settings.scenes.begin(), settings.scenes.end(),
-                                                  std::string(scene.key)) > 0)
+        if (settings.scenes.empty() ||
+            std::count(settings.scenes.begin(), settings.scenes.end(), std::string(scene.key)) > 0)
             scenes.push_back(scene);
     return scenes;
 }

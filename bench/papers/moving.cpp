@@ -21,9 +21,8 @@ glm::mat4 turned(const Scene& scene, std::uint32_t box, double degrees)
     const glm::mat4& place = scene.instances[box].transform;
     const MovedBox bounds = box_of(scene, box, place);
     const glm::vec3 centre = 0.5f * (bounds.low + bounds.high);
-    const glm::mat4 turn =
-        glm::rotate(glm::translate(glm::mat4(1.0f), centre), float(glm::radians(degrees)),
-                    glm::vec3(0.0f, 1.0f, 0.0f));
+    const glm::mat4 turn = glm::rotate(glm::translate(glm::mat4(1.0f), centre),
+                                       float(glm::radians(degrees)), glm::vec3(0.0f, 1.0f, 0.0f));
     return glm::translate(turn, -centre) * place;
 }
 

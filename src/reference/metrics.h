@@ -9,7 +9,7 @@ namespace lumel {
 
 /// All over texels whose alpha is above 0 in both maps, R, G and B alike.
 struct MapError {
-    double relative_rmse = 0.0;  ///< √mean(d²) / mean(reference)
+    double relative_rmse = 0.0;    ///< √mean(d²) / mean(reference)
     double normalized_rmse = 0.0;  ///< √mean(d²) / (largest - smallest of the reference)
     double rel_mse = 0.0;    ///< mean(d² / (reference² + ε²)), ε = 1 % of the mean reference
     double bias = 0.0;       ///< mean(d) / mean(reference)
