@@ -268,7 +268,8 @@ void follow_moves(const DynamicSettings& settings)
                settings.shared.solver.hemicube, settings.shared.solver.batch,
                settings.shared.reference_spp, device.info().name, device.info().driver);
     std::vector<int> all_pieces{1};
-    all_pieces.insert(all_pieces.end(), settings.pieces.begin(), settings.pieces.end());
+    std::copy_if(settings.pieces.begin(), settings.pieces.end(), std::back_inserter(all_pieces),
+                 [](int pieces) { return pieces > 1; });
     for (const int pieces : all_pieces) {
         std::vector<Results> all;
         for (const ThesisScene& scene : scenes_of(settings)) {

@@ -29,11 +29,16 @@ layout(binding = 8, scalar) readonly buffer Boxes { MovedBox boxes[]; };  // [p.
 #include "visibility/sees.glsl"
 #include "solve/patch_light.glsl"
 
-// Does the segment meet the box, made larger by what a view's pixels may add to it?
-bool meets(MovedBox box, vec3 from, vec3 way)
+const uint kWordBits = 32u;
+// No point of a lumel is farther from its position than so many times its size (lumel.shared.h).
+const float kReach = 1.4143;
+
+// Does the segment, so wide where it ends, meet the box, made larger by what a view's pixels may
+// add to it?
+bool meets(MovedBox box, vec3 from, vec3 way, float width)
 {
     const vec3 reach = max(abs(box.low - from), abs(box.high - from));
-    const float margin = p.slack * length(reach);
+    const float margin = p.slack * length(reach) + width;
     const vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(way, vec3(0.0)));
     const vec3 inverse = side / max(abs(way), vec3(1e-30));
     const vec3 a = (box.low - margin - from) * inverse, b = (box.high + margin - from) * inverse;
@@ -42,12 +47,33 @@ bool meets(MovedBox box, vec3 from, vec3 way)
            min(min(leave.x, leave.y), min(leave.z, 1.0));
 }
 
-bool is_affected(vec3 from, vec3 to)
+// Can a line of sight from a point to anywhere on the lumel meet what moved?
+bool is_affected(vec3 from, Lumel to)
 {
     bool any = false;
     for (uint b = 0u; b < p.boxes; ++b)
-        any = any || meets(boxes[b], from, to - from);
+        any = any || meets(boxes[b], from, to.position - from, kReach * to.size);
     return any;
+}
+
+// Of the shots from `first` on, as many as a word has bits: those that matter.
+uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
+{
+    uint found = 0u;
+    for (uint k = first; k < min(first + kWordBits, p.shots); ++k)
+        if (shots[k].count > 0u && (lumel_moved || moved[lumels[shots[k].first].instance] != 0u ||
+                                    is_affected(eyes[k].position, lumel)))
+            found |= 1u << (k - first);
+    return found;
+}
+
+vec3 light_of(uint k, Lumel lumel, uint i)
+{
+    const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
+    const PatchReceiver r =
+        PatchReceiver(x.position, x.normal, x.facing, lumel.position, lumel.size, i);
+    const vec3 light = light_without_occluders(r, k, p.near_radius);
+    return light != vec3(0.0) && is_seen(r, k, p.views) ? light : vec3(0.0);
 }
 
 void main()
@@ -59,19 +85,10 @@ void main()
     const bool i_moved = moved[lumel.instance] != 0u;
     if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.sign_ < 0.0))
         return;
+    // First which, then their light: a group takes as many rounds as one lumel of it has shots.
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < p.shots; ++k) {
-        if (shots[k].count == 0u)
-            continue;
-        const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
-        if (!i_moved && moved[lumels[shots[k].first].instance] == 0u &&
-            !is_affected(eyes[k].position, x.position))
-            continue;
-        const PatchReceiver r = PatchReceiver(x.position, x.normal, x.facing, lumel.position,
-                                              lumel.size, i);
-        const vec3 light = light_without_occluders(r, k, p.near_radius);
-        if (light != vec3(0.0) && is_seen(r, k, p.views))
-            sum += light;
-    }
+    for (uint first = 0u; first < p.shots; first += kWordBits)
+        for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)
+            sum += light_of(first + uint(findLSB(left)), lumel, i);
     far[i] += p.sign_ * sum;
 }
