@@ -76,45 +76,57 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
 }
 
 // P(C, j, i) for the lumel m of the patch: more rays where it is close, each counted by how much
-// light would go that way.
-vec3 light_behind(uint k, vec3 x, vec3 normal, Lumel m)
+// light would go that way. 0 where no one asks.
+vec3 light_behind(uint k, CrossReceiver r, Lumel m, bool is_asked)
 {
     const Eye eye = eyes[k];
     const mat3 frame = mat3(eye.tangent, -eye.bitangent, -eye.normal);
-    const float wide = m.size / max(distance(x, m.position), 1e-6);  // [rad]
+    const float wide = m.size / max(distance(r.x, m.position), 1e-6);  // [rad]
     const uint side = uint(clamp(ceil(wide * kRaysPerRadian), 1.0, kMostRays));
-    if (side == 1u)
-        return light_along(k, frame, x, m.position, m.size);
+    const uint rays = is_asked ? side * side : 0u;
     vec3 sum = vec3(0.0);
     float weights = 0.0;
-    for (uint q = 0u; q < side * side; ++q) {
+    for (uint q = 0u; q < rays; ++q) {
         const vec2 at = (vec2(q % side, q / side) + 0.5) / float(side);
-        const vec3 y = point_on(m, at.x, at.y).position;
-        const vec3 d = y - x;
+        const vec3 y = rays == 1u ? m.position : point_on(m, at.x, at.y).position;
+        const vec3 d = y - r.x;
         const float r2 = dot(d, d) + 0.01 * m.area;  // finite where they touch
-        const float weight = max(dot(d, normal), 0.0) * abs(dot(d, eye.normal)) / (r2 * r2);
+        const float weight = max(dot(d, r.normal), 0.0) * abs(dot(d, eye.normal)) / (r2 * r2);
         if (weight > 0.0)
-            sum += weight * light_along(k, frame, x, y, m.size / float(side));
+            sum += weight * light_along(k, frame, r.x, y, m.size / float(side));
         weights += weight;
     }
     return weights > 0.0 ? sum / weights : vec3(0.0);
 }
 
-// F_ij of the near field, for i's row.
-float near_factor_of(uint i, uint j)
+// F_ij of the near field, for i's row; 0 where no one asks.
+float near_factor_of(uint i, uint j, bool is_asked)
 {
     float factor = 0.0;
-    for (uint n = near_first[i]; n < near_first[i + 1u]; ++n)
+    const uint end = is_asked ? near_first[i + 1u] : 0u;
+    for (uint n = near_first[i]; n < end; ++n)
         factor = near_column[n] == j ? near_factor[n] : factor;
     return factor;
 }
 
-vec3 close_light(CrossReceiver r, uint k, uint j)
+// F_ij for the lumel j of patch k, of which the receiver sees the patch's eye or not.
+float factor_of(CrossReceiver r, uint k, uint j, bool is_eye_seen)
 {
-    const float factor = near_factor_of(r.lumel, j);
-    if (factor <= 0.0)
-        return vec3(0.0);
-    return factor * (shot[j] - light_behind(k, r.x, r.normal, lumels[j]));
+    const Lumel from = lumels[j];
+    const bool is_back = shots[k].side_ < 0.0;
+    const vec3 between = r.centre - from.position;
+    const float reach = p.near_radius * max(r.size, from.size);
+    const bool is_close = !is_back && dot(between, between) < reach * reach;
+    const vec3 way = r.x - from.position;
+    const float r2 = dot(way, way);
+    const float cosines =
+        max(shots[k].side_ * dot(way, from.normal), 0.0) * max(-dot(way, r.normal), 0.0);
+    // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
+    const float disc = is_back ? from.area / kPi : 0.0;
+    const float far = is_eye_seen && cosines > 0.0
+                          ? from.area * cosines / (kPi * r2 * (r2 + disc))
+                          : 0.0;
+    return is_close ? near_factor_of(r.lumel, j, is_close) : far;
 }
 
 // Of all lumels of patch k.
@@ -123,28 +135,13 @@ vec3 crossing_light(CrossReceiver r, uint k)
     const PatchShot s = shots[k];
     const vec3 d = r.x - eyes[k].position;
     const mat3 frame = mat3(eyes[k].tangent, eyes[k].bitangent, eyes[k].normal);
-    const bool seen = dot(d, eyes[k].normal) > 0.0 && dot(d, r.normal) < 0.0 &&
-                      sees(p.views, k, d * frame, r.facing * frame);
+    const bool is_eye_seen = dot(d, eyes[k].normal) > 0.0 && dot(d, r.normal) < 0.0 &&
+                             sees(p.views, k, d * frame, r.facing * frame);
     vec3 sum = vec3(0.0);
     for (uint j = s.first; j < s.first + s.count; ++j) {
-        const Lumel from = lumels[j];
-        const vec3 between = r.centre - from.position;
-        const float reach = p.near_radius * max(r.size, from.size);
-        const bool is_back = s.side_ < 0.0;
-        if (!is_back && dot(between, between) < reach * reach) {
-            sum += close_light(r, k, j);
-            continue;
-        }
-        const vec3 way = r.x - from.position;
-        const float r2 = dot(way, way);
-        const float cosines =
-            max(s.side_ * dot(way, from.normal), 0.0) * max(-dot(way, r.normal), 0.0);
-        // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
-        const float disc = is_back ? from.area / kPi : 0.0;
-        const vec3 sent = is_back ? vec3(0.0) : shot[j];
-        if (seen && cosines > 0.0)
-            sum += (sent - light_behind(k, r.x, r.normal, from)) *
-                   (from.area * cosines / (kPi * r2 * (r2 + disc)));
+        const float factor = factor_of(r, k, j, is_eye_seen);
+        const vec3 sent = s.side_ < 0.0 ? vec3(0.0) : shot[j];
+        sum += factor * (sent - light_behind(k, r, lumels[j], factor > 0.0));
     }
     return sum;
 }
