@@ -38,7 +38,8 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
                    {.atlas = {.size = settings.shared.size},
                     .redistribution = redistribution,
                     .solver = settings.shared.solver,
-                    .movers = {box}});
+                    .movers = {box},
+                    .residual = settings.residual});
     live.settle();
     const char* name = redistribution == Redistribution::cross ? "cross" : "incremental";
     const auto print = [&](const std::string& after, double error) {

@@ -58,6 +58,7 @@ Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
     stage.options.atlas.size = which.low_quality ? settings.low_size : settings.shared.size;
     stage.options.solver = settings.shared.solver;
     stage.options.movers = {stage.box};
+    stage.options.residual = settings.residual;
     return stage;
 }
 
@@ -121,7 +122,7 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
     outcome.irradiance = solver->irradiance();
     watch.stop();
     outcome.update.alone_ms = outcome.update.whole_ms = 1e3 * watch.wall;
-    outcome.update.whole_hemicubes = solver->state().shots;
+    outcome.update.alone_hemicubes = outcome.update.whole_hemicubes = solver->state().shots;
     outcome.update.stages = solver->times();
     return outcome;
 }
@@ -140,14 +141,15 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
     Scene scene = stage.scene;
     scene.instances[stage.box].transform = stage.places.back();
     const Lumels& lumels = laid_out.lumels();
-    if (is_gather_there())
-        results.by[kGather] = gathered(device, laid_out, stage);
     std::optional<Image> truth;
-    if (settings.shared.reference_spp > 0)
+    if (settings.shared.reference_spp > 0) {
         truth = in_a_row(lumels,
                          reference_irradiance(scene, RayScene(scene), lumels,
                                               {.samples_per_lumel = settings.shared.reference_spp,
                                                .seed = kReferenceSeed}));
+        if (is_gather_there())
+            results.by[kGather] = gathered(device, laid_out, stage);
+    }
     const Image scratch = in_a_row(lumels, results.by[kProgressive]->irradiance);
     for (auto& outcome : results.by) {
         if (!outcome)

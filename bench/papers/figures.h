@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/settings.h"
+#include "live/live_scene.h"
 
 namespace lumel::bench {
 
@@ -78,7 +79,8 @@ struct DynamicSettings {
     std::vector<std::string> scenes;  ///< keys of the table in moving.cpp; empty: all
     int low_size = 64;                ///< side of the low quality scene's map [texels]
     int degrees = 10;                 ///< that the box turns in a step
-    int steps = 3;                    ///< after the first, of which the fastest counts
+    double residual = LiveOptions{}.residual;  ///< to rest at
+    int steps = 3;                             ///< after the first, of which the fastest counts
     std::vector<int> pieces{14, 41};  ///< that edges are cut into, for more vertices; 1 is the rest
 };
 
@@ -88,7 +90,8 @@ void follow_moves(const DynamicSettings& settings);
 
 struct DriftSettings {
     Settings shared;
-    int degrees = 10;  ///< that the box turns, there and back
+    int degrees = 10;                          ///< that the box turns, there and back
+    double residual = LiveOptions{}.residual;  ///< to rest at
     int moves = 100;
 };
 

@@ -141,6 +141,13 @@ void add_directions(CLI::App& app, DirectionsSettings& settings)
     figure->callback([&settings] { show_directions(settings); });
 }
 
+void add_residual(CLI::App* figure, double& residual)
+{
+    figure->add_option("--residual", residual, "light still to be shot, of all, to rest at")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->capture_default_str();
+}
+
 void add_dynamic(CLI::App& app, DynamicSettings& settings)
 {
     settings.shared.reference_spp = 1024;
@@ -154,9 +161,10 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings)
     add_number(figure, "--hemicube", settings.shared.solver.hemicube, "front face [pixels]");
     add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
     add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
+    add_residual(figure, settings.residual);
     add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
-               "paths per lumel for the truth; 0: none", 0);
+               "paths per lumel for the truth; 0: neither that nor gathering", 0);
     figure->add_option("--pieces", settings.pieces, "that edges are cut into, for more vertices")
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
@@ -172,6 +180,7 @@ void add_drift(CLI::App& app, DriftSettings& settings)
     add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
     add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
     add_number(figure, "--degrees", settings.degrees, "that the box turns, there and back");
+    add_residual(figure, settings.residual);
     add_number(figure, "--moves", settings.moves, "there and back", 2);
     figure->callback([&settings] { follow_drift(settings); });
 }

@@ -281,6 +281,7 @@ LiveState LiveScene::update(double budget_ms)
     if (!is_under_way())
         show();
     state_.under_way = is_under_way();
+    state_.at_rest = is_at_rest();
     state_.hemicubes =
         solver_.state().shots + (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
     state_.milliseconds = elapsed();

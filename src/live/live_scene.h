@@ -31,6 +31,7 @@ struct LiveOptions {
 struct LiveState {
     double residual = 1.0;        ///< light still to be shot, as a part of all
     bool under_way = false;       ///< a move is being redistributed
+    bool at_rest = false;         ///< update() has nothing left to do
     std::uint64_t hemicubes = 0;  ///< so far
     double milliseconds = 0.0;    ///< that the last update() took
 };

@@ -111,6 +111,58 @@ TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
         live.move(block, scene.instances[block].transform);
         live.settle();
     }
+    EXPECT_LE(apart(live, live.irradiance(), first), 0.005);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, GetParam());
+    options.residual = 0.0005;  // less than the two may be apart
+    const std::uint32_t block = options.movers[0];
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    const glm::mat4 home = scene.instances[block].transform;
+    live.move(block, glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 1000.0f, 0.0f)) * home);
+    live.settle();
+    EXPECT_GT(apart(live, live.irradiance(), before), 0.05);
+    live.move(block, home);
+    live.settle();
+    EXPECT_LE(apart(live, live.irradiance(), before), 0.001);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = kSide / 2;
+    const std::uint32_t block = options.movers[0];
+    const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
+    LiveScene at_once(device, scene, options), bit_by_bit(device, scene, options);
+    at_once.settle();
+    at_once.move(block, place);
+    at_once.settle();
+    bit_by_bit.settle();
+    bit_by_bit.move(block, place);
+    // Cross redistribution looks from fronts and from backs.
+    const std::uint64_t batch =
+        std::uint64_t(options.solver.batch) * (GetParam() == Redistribution::cross ? 2 : 1);
+    std::uint64_t hemicubes = bit_by_bit.state().hemicubes;
+    do {
+        const auto shown = bit_by_bit.irradiance();
+        bit_by_bit.update(0.0);
+        EXPECT_LE(bit_by_bit.state().hemicubes - hemicubes, batch);
+        hemicubes = bit_by_bit.state().hemicubes;
+        if (bit_by_bit.state().under_way) {
+            EXPECT_EQ(bit_by_bit.irradiance(), shown);  // nothing half-done
+        }
+    } while (!bit_by_bit.state().at_rest);
+    EXPECT_LE(apart(at_once, bit_by_bit.irradiance(), at_once.irradiance()), 0.001);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
