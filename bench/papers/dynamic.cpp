@@ -22,6 +22,7 @@ enum Technique { kGather, kProgressive, kIncremental, kCross, kTechniques };
 constexpr std::array<const char*, kTechniques> kNames{"gather", "progressive", "incremental",
                                                       "cross"};
 constexpr std::uint32_t kReferenceSeed = 99;
+constexpr double kLeastShown = 0.1;  ///< of a part's time [ms]
 
 /// What one technique did after the last move.
 struct Outcome {
@@ -123,7 +124,7 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
     watch.stop();
     outcome.update.alone_ms = outcome.update.whole_ms = 1e3 * watch.wall;
     outcome.update.alone_hemicubes = outcome.update.whole_hemicubes = solver->state().shots;
-    outcome.update.stages = solver->times();
+    outcome.update.alone_stages = outcome.update.stages = solver->times();
     return outcome;
 }
 
@@ -170,6 +171,14 @@ Results measure(const gpu::Device& device, const ThesisScene& which,
     results.by[kCross] = corrected(device, stage, Redistribution::cross);
     results.by[kProgressive] = from_scratch(device, stage, results);
     return results;
+}
+
+double sum_of(const gpu::StageTimes& stages)
+{
+    double sum = 0.0;
+    for (const auto& [stage, ms] : stages)
+        sum += ms;
+    return sum;
 }
 
 template <class Cell>
@@ -224,11 +233,9 @@ void print_times(const std::vector<Results>& all)
                 [](const Outcome& o) {
                     return fmt::format("{:.0f} / {:.0f}", o.update.alone_ms, o.update.whole_ms);
                 });
-    print_table("Device time of an update until at rest, ms", all, [](const Outcome& o) {
-        double sum = 0.0;
-        for (const auto& [stage, ms] : o.update.stages)
-            sum += ms;
-        return fmt::format("{:.0f}", sum);
+    print_table("The same of the device", all, [](const Outcome& o) {
+        return fmt::format("{:.0f} / {:.0f}", sum_of(o.update.alone_stages),
+                           sum_of(o.update.stages));
     });
     print_table(
         "Hemicubes of an update: redistribution alone / until at rest", all, [](const Outcome& o) {
@@ -236,18 +243,18 @@ void print_times(const std::vector<Results>& all)
         });
 }
 
-void print_stages(const std::vector<Results>& all)
+/// What one scene's techniques spend on each part.
+void print_parts(const Results& results, const char* title, const gpu::StageTimes Update::*stages)
 {
-    for (const Results& results : all) {
-        fmt::print("\n{}, device time by part until at rest, ms\n\n", results.title);
-        for (int technique = 0; technique < kTechniques; ++technique) {
-            if (!results.by[technique])
-                continue;
-            fmt::print("- {}:", kNames[technique]);
-            for (const auto& [stage, ms] : results.by[technique]->update.stages)
+    fmt::print("\n{}: device time by part, {}, ms\n\n", results.title, title);
+    for (int technique = 0; technique < kTechniques; ++technique) {
+        if (!results.by[technique])
+            continue;
+        fmt::print("- {}:", kNames[technique]);
+        for (const auto& [stage, ms] : results.by[technique]->update.*stages)
+            if (ms >= kLeastShown)
                 fmt::print(" {} {:.1f};", stage, ms);
-            fmt::print("\n");
-        }
+        fmt::print("\n");
     }
 }
 
@@ -283,8 +290,10 @@ void follow_moves(const DynamicSettings& settings)
         if (pieces == 1)
             print_errors(all);
         print_times(all);
-        if (pieces == 1)
-            print_stages(all);
+        for (const Results& results : all) {
+            print_parts(results, "redistribution alone", &Update::alone_stages);
+            print_parts(results, "until at rest", &Update::stages);
+        }
     }
     if (!device.validation_messages().empty())
         throw Error(ErrorKind::device, "validation", device.validation_messages());

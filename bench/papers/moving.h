@@ -36,7 +36,8 @@ struct Update {
     double whole_ms = 0.0;              ///< until at rest, wall time
     std::uint64_t alone_hemicubes = 0;  ///< of redistribution alone
     std::uint64_t whole_hemicubes = 0;
-    gpu::StageTimes stages;  ///< until at rest, device time
+    gpu::StageTimes alone_stages;  ///< device time of redistribution alone
+    gpu::StageTimes stages;        ///< until at rest
 };
 
 /// Moves an instance and goes on until at rest.

@@ -65,7 +65,7 @@ constexpr Slot kReceiveSlots[] = {Slot::array,   Slot::array, Slot::array, Slot:
 
 /// Of a back hemicube's front face [pixels]: the thesis goes as low as 16. Divisible by
 /// 2^kBackLevels, so that faces stay apart in all levels.
-constexpr std::uint32_t kBackSide = 64;
+constexpr std::uint32_t kBackSide = 32;
 
 std::uint32_t pixels_of_levels(std::uint32_t side)
 {

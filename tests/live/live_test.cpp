@@ -14,6 +14,8 @@ namespace lumel {
 namespace {
 
 constexpr int kSide = 64;  // of the atlas [texels]
+constexpr int kSmallSide = 32;
+constexpr int kSmallHemicube = 64;
 
 Scene room_with_a_box()
 {
@@ -120,6 +122,8 @@ TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
     const gpu::Device device;
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = kSmallSide;
+    options.solver.hemicube = kSmallHemicube;
     options.residual = 0.0005;  // less than the two may be apart
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
@@ -140,7 +144,8 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     const gpu::Device device;
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
-    options.atlas.size = kSide / 2;
+    options.atlas.size = kSmallSide;
+    options.solver.hemicube = kSmallHemicube;
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
     LiveScene at_once(device, scene, options), bit_by_bit(device, scene, options);
