@@ -143,14 +143,13 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
     scene.instances[stage.box].transform = stage.places.back();
     const Lumels& lumels = laid_out.lumels();
     std::optional<Image> truth;
-    if (settings.shared.reference_spp > 0) {
+    if (settings.shared.reference_spp > 0)
         truth = in_a_row(lumels,
                          reference_irradiance(scene, RayScene(scene), lumels,
                                               {.samples_per_lumel = settings.shared.reference_spp,
                                                .seed = kReferenceSeed}));
-        if (is_gather_there())
-            results.by[kGather] = gathered(device, laid_out, stage);
-    }
+    if (settings.gathers && is_gather_there())
+        results.by[kGather] = gathered(device, laid_out, stage);
     const Image scratch = in_a_row(lumels, results.by[kProgressive]->irradiance);
     for (auto& outcome : results.by) {
         if (!outcome)

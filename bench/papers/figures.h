@@ -81,6 +81,7 @@ struct DynamicSettings {
     int degrees = 10;                 ///< that the box turns in a step
     double residual = LiveOptions{}.residual;  ///< to rest at
     int steps = 3;                             ///< after the first, of which the fastest counts
+    bool gathers = true;
     std::vector<int> pieces{14, 41};  ///< that edges are cut into, for more vertices; 1 is the rest
 };
 

@@ -164,7 +164,8 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings)
     add_residual(figure, settings.residual);
     add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
-               "paths per lumel for the truth; 0: neither that nor gathering", 0);
+               "paths per lumel for the truth; 0: none", 0);
+    figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");
     figure->add_option("--pieces", settings.pieces, "that edges are cut into, for more vertices")
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
