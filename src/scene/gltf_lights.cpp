@@ -209,6 +209,7 @@ void read_lights_and_cameras(const GltfDocument& document, const std::vector<Pla
         if (const auto reference = node.find("camera")) {
             const std::size_t index = reference->index(root.count("cameras"), "cameras");
             Camera camera = read_camera(root.get("cameras").at(index));
+            camera.node = int(placed.node);
             camera.transform = placed.world;
             if (camera.name.empty())
                 camera.name = node.string_or("name", "camera " + std::to_string(index));

@@ -3,9 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
-
 namespace lumel {
 
 namespace {
@@ -66,18 +63,6 @@ glm::dmat4 matrix_of(const JsonView& node)
     return matrix;
 }
 
-glm::dmat4 local_transform(const JsonView& node)
-{
-    if (node.find("matrix"))
-        return matrix_of(node);
-    glm::vec3 translation(0.0f);
-    glm::vec3 scale(1.0f);
-    node.numbers("translation", &translation.x, 3);
-    node.numbers("scale", &scale.x, 3);
-    return glm::translate(glm::dmat4(1.0), glm::dvec3(translation)) *
-           glm::mat4_cast(rotation_of(node)) * glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
-}
-
 std::vector<std::size_t> scene_roots(const JsonView& root, const Hierarchy& tree)
 {
     std::vector<std::size_t> roots;
@@ -132,6 +117,31 @@ glm::dquat rotation_of(const JsonView& object)
     return {unit.w, unit.x, unit.y, unit.z};
 }
 
+NodePlace read_place(const JsonView& node)
+{
+    NodePlace place;
+    if (node.find("matrix")) {
+        place.matrix = matrix_of(node);
+        return place;
+    }
+    glm::vec3 translation(0.0f);
+    glm::vec3 scale(1.0f);
+    node.numbers("translation", &translation.x, 3);
+    node.numbers("scale", &scale.x, 3);
+    place.translation = translation;
+    place.rotation = rotation_of(node);
+    place.scale = scale;
+    return place;
+}
+
+std::vector<int> parents_of(const JsonView& root)
+{
+    std::vector<int> parents;
+    for (const std::size_t parent : read_hierarchy(root).parent)
+        parents.push_back(parent == kNone ? -1 : int(parent));
+    return parents;
+}
+
 std::vector<PlacedNode> place_nodes(const GltfDocument& document)
 {
     const JsonView root = document.root();
@@ -146,7 +156,8 @@ std::vector<PlacedNode> place_nodes(const GltfDocument& document)
         pending.pop_back();
         const JsonView view = root.get("nodes").at(node);
         const std::size_t parent = tree.parent[node];
-        world[node] = (parent == kNone ? glm::dmat4(1.0) : world[parent]) * local_transform(view);
+        world[node] =
+            (parent == kNone ? glm::dmat4(1.0) : world[parent]) * to_matrix(read_place(view));
         if (!is_finite(world[node]))
             view.fail("its transform to the world is not finite");
         reached[node] = true;

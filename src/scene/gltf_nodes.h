@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "scene/gltf_document.h"
+#include "scene/node_place.h"
 
 namespace lumel {
 
@@ -23,6 +24,13 @@ std::optional<JsonView> default_scene(const JsonView& root);
 /// The turn that "rotation" of an object says, none if absent. Throws Error{input} unless it is a
 /// unit quaternion.
 glm::dquat rotation_of(const JsonView& object);
+
+/// Where a node stands relative to its parent. Throws Error{input} for what is no transform.
+NodePlace read_place(const JsonView& node);
+
+/// Parents [nodes] of the file's nodes, -1: none. Throws Error{input} for cycles and nodes with two
+/// parents.
+std::vector<int> parents_of(const JsonView& root);
 
 /// Nodes reached from the default scene (else scene 0, else from every root), in file order.
 /// Throws Error{input} for cycles, nodes with two parents and transforms that are not finite.

@@ -104,6 +104,7 @@ struct Photometry {
 
 struct Camera {
     std::string name;
+    int node = 0;                      ///< index in the file's nodes
     glm::mat4 transform{1.0f};         ///< looks along -z, +y up
     float vertical_fov = 0.8f;         ///< [rad]; ignored when orthographic
     float aspect = 0.0f;               ///< width / height, 0: free
