@@ -65,6 +65,9 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu
 constexpr float kPatchShare = 1.0f / 512.0f;
 /// Light that is missing is missing everywhere, which counts so many times as much as noise.
 constexpr double kMissing = 4.0;
+/// Where lamps go out, what is missing is a part of no less than this much of the most light that
+/// there was: of nothing at all it would stay a large part for ever.
+constexpr double kDark = 0.01;
 /// A scene in which nothing arrives after so many batches catches no light.
 constexpr std::uint64_t kSilent = 16;
 /// Batches between two sums of the near field, which costs about as much as one batch's receiving.
@@ -88,14 +91,14 @@ float area_of(const Lumels& lumels)
 }
 
 /// Light not shot yet, with all that is sent on of it, as a part of all that arrives in the end.
-double missing_part(const Terms& terms)
+double missing_part(const Terms& terms, double least = 0.0)
 {
     const double unshot = terms.column[0].x, arrived = terms.column[0].y,
                  reflected = terms.column[0].z;
     constexpr double kLeastLost = 1e-3;  // of what arrives: 1 / it stays finite
     const double onward = arrived > 0.0 ? reflected / arrived : 0.0;
     const double remaining = unshot / std::max(1.0 - onward, kLeastLost);
-    return remaining > 0.0 ? remaining / (std::max(arrived, 0.0) + remaining) : 0.0;
+    return remaining > 0.0 ? remaining / (std::max(arrived, least) + remaining) : 0.0;
 }
 
 }  // namespace
@@ -247,7 +250,9 @@ double ProgressiveRadiosity::residual()
         sum_figures(commands);
     });
     pacer_.finish();
-    return missing_part(figures_.now());
+    const Terms terms = figures_.now();
+    most_arrived_ = std::max(most_arrived_, double(terms.column[0].y));
+    return missing_part(terms, kDark * most_arrived_);
 }
 
 std::vector<glm::vec3> ProgressiveRadiosity::irradiance()

@@ -18,8 +18,8 @@ public:
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
 
-    /// Light still to be shot and what will come of it, as a part of all that arrives. Waits for
-    /// the device.
+    /// Light still to be shot and what will come of it, as a part of all that arrives (of a
+    /// scene that has gone dark: of a hundredth of what once arrived). Waits for the device.
     double residual();
 
     // What redistribution works on.
@@ -42,8 +42,9 @@ private:
     const World* world_;
     std::uint32_t count_;  ///< N lumels
     float near_radius_;
-    double emitted_power_;  ///< Σ A 𝓛(E) [lm]
-    float area_;            ///< Σ A [m²]
+    double emitted_power_;       ///< Σ A 𝓛(E) [lm]
+    float area_;                 ///< Σ A [m²]
+    double most_arrived_ = 0.0;  ///< so far, as residual() saw it [lm]
 
     gpu::Kernel power_, select_, receive_, settle_, residual_;
     ShotLight light_;
