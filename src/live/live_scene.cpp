@@ -23,10 +23,12 @@ gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
 /// Batches between two looks at how much light is still to be shot: looking costs a wait.
 constexpr int kBatchesALook = 8;
 
-std::vector<char> flags_of(const Scene& scene, const std::vector<std::uint32_t>& movers)
+std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
 {
-    std::vector<char> flags(scene.instances.size(), char(movers.empty()));
-    for (const std::uint32_t instance : movers) {
+    if (options.still)
+        return std::vector<char>(scene.instances.size(), 0);
+    std::vector<char> flags(scene.instances.size(), char(options.movers.empty()));
+    for (const std::uint32_t instance : options.movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, "instance " + std::to_string(instance),
                         "is to move, but the scene has only " + std::to_string(flags.size()));
@@ -101,7 +103,7 @@ NearField joined(const NearField& still, const NearField& moving, const Lumels& 
 LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& options)
     : options_(options),
       scene_(std::move(scene)),
-      movers_(flags_of(scene_, options.movers)),
+      movers_(flags_of(scene_, options)),
       rays_(scene_),
       atlas_(make_atlas(scene_, options.atlas)),
       lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),

@@ -24,6 +24,7 @@ struct LiveOptions {
     Redistribution redistribution = Redistribution::incremental;
     SolverOptions solver;               ///< method, max_shots, … are not used; target_error is
     std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
+    bool still = false;                 ///< none may, whatever `movers` says
     double residual = 0.002;            ///< light still to be shot, as a part of all, to rest at
 };
 
