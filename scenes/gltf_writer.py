@@ -236,6 +236,21 @@ class Gltf:
         matrix = [x + 0.0 for x in matrix]
         self._add({"name": name, "camera": len(self.root["cameras"]) - 1, "matrix": matrix})
 
+    def turn(self, name, seconds, steps=8):
+        """Animates the node of that name: a whole turn about its own vertical axis."""
+        index = next(k for k, node in enumerate(self.root["nodes"]) if node["name"] == name)
+        times = [seconds * k / steps for k in range(steps + 1)]
+        halves = [math.pi * k / steps for k in range(steps + 1)]
+        turns = [[0.0, math.sin(h), 0.0, math.cos(h)] for h in halves]
+        sampler = {
+            "input": self._floats([[t] for t in times], "SCALAR", bounds=True, target=None),
+            "output": self._floats(turns, "VEC4", target=None),
+            "interpolation": "LINEAR",
+        }
+        channel = {"sampler": 0, "target": {"node": index, "path": "rotation"}}
+        animation = {"name": f"{name} turns", "samplers": [sampler], "channels": [channel]}
+        self.root.setdefault("animations", []).append(animation)
+
     def write(self, path):
         uri = "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
         self.root["buffers"] = [{"byteLength": len(self.data), "uri": uri}]
@@ -255,9 +270,9 @@ class Gltf:
         textures.append({"source": len(self.root["images"]) - 1, "sampler": 0})
         return len(textures) - 1
 
-    def _floats(self, rows, kind, bounds=False):
+    def _floats(self, rows, kind, bounds=False, target=34962):
         flat = [x for row in rows for x in row]
-        index = self._accessor(struct.pack(f"<{len(flat)}f", *flat), 34962, 5126, kind, len(rows))
+        index = self._accessor(struct.pack(f"<{len(flat)}f", *flat), target, 5126, kind, len(rows))
         if bounds:
             columns = list(zip(*rows))
             self.root["accessors"][index]["min"] = [float32(min(c)) for c in columns]
@@ -270,8 +285,9 @@ class Gltf:
             "buffer": 0,
             "byteOffset": len(self.data),
             "byteLength": len(data),
-            "target": target,
         }
+        if target is not None:
+            view["target"] = target
         self.data += data
         self.root["bufferViews"].append(view)
         self.root["accessors"].append(

@@ -263,9 +263,10 @@ def sealed_box():
     return gltf
 
 
-def moving_box(lamp_side):
+def moving_box(lamp_side, turning=False):
     """A Cornell box of the dynamic radiosity thesis, section 5.1: a large box in the middle that
-    may turn, and a lamp in the ceiling that sends the same light whatever its size."""
+    may turn, and a lamp in the ceiling that sends the same light whatever its size. Turning: it
+    does, once in two seconds."""
     gltf = Gltf()
     white = gltf.material("white", 0.7)
     red = gltf.material("red", (0.63, 0.06, 0.05))
@@ -276,10 +277,16 @@ def moving_box(lamp_side):
     light, box = Shape(), Shape()
     low, high = 1 - lamp_side / 2, 1 + lamp_side / 2
     light.quad(lamp, [(low, 1.995, low), (high, 1.995, low), (high, 1.995, high), (low, 1.995, high)])
-    box.box(white, (0.65, 0.3, 0.65), (1.35, 1.0, 1.35))
+    axis = 1.0 if turning else 0.0  # where the box has its own origin
+    near, far = 0.65 - axis, 1.35 - axis
+    box.box(white, (near, 0.3, near), (far, 1.0, far))
     gltf.object("lamp", light)
-    gltf.object("box", box)
-    gltf.camera("camera", [1.0, 1.0, 1.95], [1.0, 0.9, 0.0], 1.3, 1.0)
+    gltf.node("box", gltf.mesh("box", box), (axis, 0.0, axis) if turning else None)
+    if turning:
+        gltf.turn("box", seconds=2.0)
+        gltf.camera("camera", [0.2, 1.35, 1.9], [1.1, 0.35, 0.75], 1.25, 1.0)  # sees the shadow
+    else:
+        gltf.camera("camera", [1.0, 1.0, 1.95], [1.0, 0.9, 0.0], 1.3, 1.0)
     return gltf
 
 
@@ -381,6 +388,7 @@ def main():
         "sealed-box": sealed_box(),
         "moving-large-lamp": moving_box(0.8),
         "moving-small-lamp": moving_box(0.2),
+        "turning-box": moving_box(0.8, turning=True),
         "moving-indirect": moving_indirect(),
         "city": city(),
         "room": room(),
