@@ -25,6 +25,9 @@ constexpr int kLargestBatch = 256;
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
 constexpr int kMostPaths = 100'000'000;
+constexpr int kMostFrames = 100'000;
+constexpr int kMostAnimations = 1'000'000;
+constexpr double kMostFps = 1000.0;  // pictures a second
 constexpr int kMostCameras = 1'000'000;
 constexpr int kMostPlaces = 256;
 constexpr int kMostRays = 4096;
@@ -80,6 +83,8 @@ const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::in
 const Choices<Layers> kLayers = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
 const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
+const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
+                                                  {"cross", Redistribution::cross}};
 const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
@@ -271,6 +276,12 @@ void add_directional_option(CLI::App& app, Directional& directional)
                "Also write where the light comes from, as spherical harmonics of order 1 or 2");
 }
 
+void add_device_option(CLI::App& app, std::string& device)
+{
+    app.add_option("--device", device, "Index or part of a name from lumel devices")
+        ->type_name("NAME");
+}
+
 CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
@@ -285,9 +296,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_solver_options(command, bake.options.solver);
     add_map_options(command, bake.options.solver);
     add_stop_options(command, bake.options.solver);
-    command
-        .add_option("--device", bake.options.device, "Index or part of a name from lumel devices")
-        ->type_name("NAME");
+    add_device_option(command, bake.options.device);
     command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
     add_choice(command, "--only", bake.options.parts, kParts,
                "Of the arriving light only what comes straight from its source, or only the rest");
@@ -298,6 +307,19 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
         ->check(whole(0, kLargestAtlas));
     add_talk_options(command, bake.talk);
     return command;
+}
+
+/// Who looks, and how finely.
+void add_picture_options(CLI::App& app, int& camera, int& width)
+{
+    app.add_option("--camera", camera,
+                   "Number of the file's camera, from 0 (default: the first, or one chosen)")
+        ->type_name("N")
+        ->check(whole(0, kMostCameras));
+    app.add_option("--width", width, "Of a picture in pixels")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kLargestAtlas));
 }
 
 CLI::App& add_render(CLI::App& app, RenderArguments& render)
@@ -311,15 +333,7 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
     command.add_option("picture", render.picture, "PNG, or EXR of radiance in cd/m2")
         ->required()
         ->type_name("FILE");
-    command
-        .add_option("--camera", options.camera,
-                    "Number of the file's camera, from 0 (default: the first, or one chosen)")
-        ->type_name("N")
-        ->check(whole(0, kMostCameras));
-    command.add_option("--width", options.width, "Of the picture in pixels")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(1, kLargestAtlas));
+    add_picture_options(command, options.camera, options.width);
     command.add_option("--height", options.height, "Of the picture (default: as the camera says)")
         ->type_name("N")
         ->check(whole(1, kLargestAtlas));
@@ -345,10 +359,59 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
     add_atlas_options(command, options.bake.atlas);
     add_solver_options(command, options.bake.solver);
     add_stop_options(command, options.bake.solver);
-    command
-        .add_option("--device", options.bake.device, "Index or part of a name from lumel devices")
-        ->type_name("NAME");
+    add_device_option(command, options.bake.device);
     add_talk_options(command, render.talk);
+    return command;
+}
+
+/// What is played, and how closely the light follows.
+void add_play_options(CLI::App& app, PlayOptions& options)
+{
+    app.add_option("--frames", options.frames, "Pictures to make (default: the animation's length)")
+        ->type_name("N")
+        ->check(whole(1, kMostFrames));
+    app.add_option("--fps", options.fps, "Pictures for each second of the animation")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(between(1.0 / kMostFps, kMostFps));
+    app.add_option("--animation", options.animation, "Number of the file's animation, from 0")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostAnimations));
+    add_choice(app, "--redistribution", options.redistribution, kRedistributions,
+               "How light follows what moves: everything looks anew where it must (incremental, "
+               "the default), or only what moves looks (cross)");
+    app.add_option("--budget", options.budget_ms,
+                   "Milliseconds that the light of each picture may take (default: as it needs)")
+        ->type_name("MS")
+        ->check(positive());
+    app.add_option_function<double>(
+           "--residual", [&options](double percent) { options.residual = percent / 100.0; },
+           fmt::format("Light left to be shot at which it is at rest (default: {:g})",
+                       100.0 * options.residual))
+        ->type_name("PERCENT")
+        ->check(positive());
+    app.add_option("--exposure", options.exposure,
+                   "Factor from cd/m2 to the pictures' brightness (default: as suits the first)")
+        ->type_name("F")
+        ->check(positive());
+}
+
+CLI::App& add_play(CLI::App& app, PlayArguments& play)
+{
+    CLI::App& command = *app.add_subcommand(
+        "play", "Show a scene's animation, its light corrected from picture to picture");
+    PlayOptions& options = play.options;
+    command.add_option("scene", play.scene, "A .gltf or .glb file")->required()->type_name("FILE");
+    command.add_option("folder", play.folder, "Where the results go")
+        ->required()
+        ->type_name("FOLDER");
+    add_play_options(command, options);
+    add_picture_options(command, options.camera, options.width);
+    add_atlas_options(command, options.atlas);
+    add_view_options(command, options.solver);
+    add_device_option(command, options.device);
+    add_talk_options(command, play.talk);
     return command;
 }
 
@@ -460,12 +523,14 @@ Arguments parse_arguments(int count, char** values)
 
     BakeArguments bake;
     RenderArguments render;
+    PlayArguments play;
     ReferenceArguments reference;
     InfoArguments info;
     CompareArguments compare;
     DevicesArguments devices;
     const CLI::App& bake_command = add_bake(app, bake);
     const CLI::App& render_command = add_render(app, render);
+    const CLI::App& play_command = add_play(app, play);
     const CLI::App& reference_command = add_reference(app, reference);
     const CLI::App& info_command = add_info(app, info);
     const CLI::App& compare_command = add_compare(app, compare);
@@ -489,6 +554,8 @@ Arguments parse_arguments(int count, char** values)
     }
     if (render_command.parsed())
         return render;
+    if (play_command.parsed())
+        return play;
     if (reference_command.parsed())
         return reference;
     if (info_command.parsed())

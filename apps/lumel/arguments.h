@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "bake/bake.h"
+#include "bake/play.h"
 #include "bake/render.h"
 
 namespace lumel {
@@ -40,6 +41,13 @@ struct RenderArguments {
     Talk talk;
 };
 
+struct PlayArguments {
+    std::string scene;
+    std::string folder;  ///< where pictures and report go
+    PlayOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -65,8 +73,9 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, RenderArguments, ReferenceArguments, InfoArguments,
-                               CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments =
+    std::variant<BakeArguments, RenderArguments, PlayArguments, ReferenceArguments, InfoArguments,
+                 CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

@@ -12,6 +12,15 @@ Scene read_scene(const std::string& path, MaterialModel model, const LightOption
     return scene;
 }
 
+void check_camera(const Scene& scene, int camera)
+{
+    const int cameras = int(scene.cameras.size());
+    if (camera >= cameras)
+        throw Error(ErrorKind::input, "--camera " + std::to_string(camera),
+                    cameras == 0 ? "the scene has no cameras; leave it out and one is chosen"
+                                 : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
+}
+
 Prepared::Prepared(Scene given, const AtlasOptions& options)
     : scene(std::move(given)),
       rays(scene),

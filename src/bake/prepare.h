@@ -12,6 +12,9 @@ namespace lumel {
 /// Reads a scene and adds the lights asked for. Throws Error.
 Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
 
+/// Throws Error{input} if the scene has no camera of that number; -1 stands for any.
+void check_camera(const Scene& scene, int camera);
+
 /// A scene with its lumels; buried ones are marked. Stays where it was made, since the rays look
 /// into the scene.
 struct Prepared {

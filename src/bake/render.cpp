@@ -56,11 +56,7 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
 /// The view asked for, as wide as the picture.
 View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
 {
-    const int cameras = int(scene.cameras.size());
-    if (options.camera >= cameras)
-        throw Error(ErrorKind::input, "--camera " + std::to_string(options.camera),
-                    cameras == 0 ? "the scene has no cameras; leave it out and one is chosen"
-                                 : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
+    check_camera(scene, options.camera);
     View view = options.camera >= 0 ? view_of(scene.cameras[std::size_t(options.camera)])
                                     : choose_view(scene, rays);
     if (options.height == 0)

@@ -21,6 +21,11 @@ const char* text_of(Layers layers)
     return layers == Layers::peel ? "peel" : "stochastic";
 }
 
+const char* text_of(Projection projection)
+{
+    return projection == Projection::hemisphere ? "hemisphere" : "hemicube";
+}
+
 const char* text_of(Directional directional)
 {
     return directional == Directional::none ? "none"
@@ -48,22 +53,35 @@ Report common(const Scene& scene, const Stages& stages)
     return report;
 }
 
+Report common(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Stages& stages)
+{
+    Report report = common(scene, stages);
+    report.atlas_width = atlas.width;
+    report.atlas_height = atlas.height;
+    report.texels_per_metre = double(atlas.texels_per_metre);
+    report.charts = atlas.chart_count;
+    report.instances = scene.instances.size();
+    report.lumels = lumels.lumels.size();
+    report.pieces = lumels.pieces.size();
+    for (const Surface& surface : atlas.surfaces)
+        report.triangles += surface.indices.size() / 3;
+    for (const Lumel& lumel : lumels.lumels)
+        report.buried_lumels += (lumel.flags & kLumelBuried) != 0;
+    report.notes = atlas.notes;
+    return report;
+}
+
 Report common(const Prepared& world, const Stages& stages)
 {
-    Report report = common(world.scene, stages);
-    report.atlas_width = world.atlas.width;
-    report.atlas_height = world.atlas.height;
-    report.texels_per_metre = double(world.atlas.texels_per_metre);
-    report.charts = world.atlas.chart_count;
-    report.instances = world.scene.instances.size();
-    report.lumels = world.lumels.lumels.size();
-    report.pieces = world.lumels.pieces.size();
-    for (const Surface& surface : world.atlas.surfaces)
-        report.triangles += surface.indices.size() / 3;
-    for (const Lumel& lumel : world.lumels.lumels)
-        report.buried_lumels += (lumel.flags & kLumelBuried) != 0;
-    report.notes = world.atlas.notes;
-    return report;
+    return common(world.scene, world.atlas, world.lumels, stages);
+}
+
+void add_device(Report& report, const gpu::Device& device)
+{
+    report.device = device.info().name;
+    report.driver = device.info().driver;
+    report.vulkan = device.info().api_version;
+    report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
 }
 
 Settings settings_of(const BakeOptions& options)
@@ -76,7 +94,7 @@ Settings settings_of(const BakeOptions& options)
             {"lookups", std::to_string(solver.lookups)},
             {"map-side", std::to_string(solver.map_side)},
             {"sky-directions", std::to_string(options.sky_directions)},
-            {"projection", solver.projection == Projection::hemisphere ? "hemisphere" : "hemicube"},
+            {"projection", text_of(solver.projection)},
             {"hemicube", std::to_string(solver.hemicube)},
             {"shots", std::to_string(solver.max_shots)},
             {"time", fmt::format("{}", solver.max_seconds)},
@@ -106,9 +124,7 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     append(report.settings, settings_of(options.lights));
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
     report.seed = options.solver.seed;
-    report.device = device.info().name;
-    report.driver = device.info().driver;
-    report.vulkan = device.info().api_version;
+    add_device(report, device);
     report.method = options.solver.method;
     report.shots = results.shots;
     report.iterations = results.iterations;
@@ -122,7 +138,6 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     add_times(report, "", solver.times());
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
-    report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
     return report;
 }
 
@@ -178,6 +193,35 @@ Report picture_report(const RenderOptions& options, const Prepared& world,
                 {{"places", std::to_string(options.sets)},
                  {"eye-shots", std::to_string(options.shots)},
                  {"lobe-rays", std::to_string(options.rays)}});
+    return report;
+}
+
+Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,
+                   int height, std::vector<FrameRow> frames, const Stages& stages)
+{
+    Report report = common(live.scene(), live.atlas(), live.lumels(), stages);
+    add_device(report, device);
+    const bool crosses = options.redistribution == Redistribution::cross;
+    report.settings = {{"redistribution", crosses ? "cross" : "incremental"},
+                       {"animation", std::to_string(options.animation)},
+                       {"frames", std::to_string(options.frames)},
+                       {"fps", fmt::format("{}", options.fps)},
+                       {"budget", fmt::format("{}", options.budget_ms)},
+                       {"residual", fmt::format("{}", 100.0 * options.residual)},
+                       {"exposure", fmt::format("{}", options.exposure)},
+                       {"batch", std::to_string(options.solver.batch)},
+                       {"projection", text_of(options.solver.projection)},
+                       {"hemicube", std::to_string(options.solver.hemicube)},
+                       {"gutter", std::to_string(options.atlas.gutter)},
+                       {"max-size", std::to_string(options.atlas.max_size)}};
+    report.method = "progressive";
+    for (const FrameRow& frame : frames)
+        report.shots += frame.hemicubes;
+    report.frames = std::move(frames);
+    report.interrupted = stages.stopped();
+    report.picture_width = options.width;
+    report.picture_height = height;
+    add_times(report, "", live.times());
     return report;
 }
 

@@ -2,6 +2,7 @@
 // What a bake has to say of itself.
 
 #include "bake/outputs.h"
+#include "bake/play.h"
 #include "bake/render.h"
 #include "output/report.h"
 
@@ -19,6 +20,10 @@ Report reference_report(const LightOptions& lights, const ReferenceOptions& refe
 Report picture_report(const RenderOptions& options, const Prepared& world,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
+
+/// The facts of a film. height: of the pictures [pixels].
+Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,
+                   int height, std::vector<FrameRow> frames, const Stages& stages);
 
 /// The facts of a path-traced picture. options.height: as the picture is.
 Report path_traced_report(const RenderOptions& options, const Scene& scene, const Stages& stages);

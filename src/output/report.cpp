@@ -96,6 +96,19 @@ Json solution(const Report& report)
     return result;
 }
 
+Json frames(const Report& report)
+{
+    Json rows = Json::array();
+    for (const FrameRow& frame : report.frames)
+        rows.push_back({{"file", frame.file},
+                        {"time_s", number(frame.seconds)},
+                        {"update_ms", number(frame.update_ms)},
+                        {"hemicubes", frame.hemicubes},
+                        {"residual", number(frame.residual)},
+                        {"at_rest", frame.at_rest}});
+    return rows;
+}
+
 Json sizes(const Report& report)
 {
     Json json = Json::object();
@@ -148,6 +161,8 @@ std::string to_json(const Report& report)
         Texts{{"name", report.device}, {"driver", report.driver}, {"vulkan", report.vulkan}});
     json["sizes"] = sizes(report);
     json["solution"] = solution(report);
+    if (!report.frames.empty())
+        json["frames"] = frames(report);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
     json["units"] =

@@ -23,6 +23,16 @@ struct ConvergencePoint {
     double error = 0.0;    ///< estimated relative error
 };
 
+/// A picture of a moving scene.
+struct FrameRow {
+    std::string file;
+    double seconds = 0.0;         ///< of the scene's own time
+    double update_ms = 0.0;       ///< that the light took to follow
+    std::uint64_t hemicubes = 0;  ///< for it
+    double residual = 0.0;        ///< light still to be shot, as a part of all
+    bool at_rest = false;         ///< nothing was left to do
+};
+
 /// Everything report.json says. Empty strings, empty lists and negative numbers: not known; left
 /// out of the file.
 struct Report {
@@ -53,6 +63,7 @@ struct Report {
     double estimated_error = -1.0;        ///< relative, < 0: not known
     bool interrupted = false;
     std::vector<ConvergencePoint> convergence;
+    std::vector<FrameRow> frames;
 
     double wall_seconds = 0.0;
     double cpu_seconds = 0.0;

@@ -1,0 +1,319 @@
+#include "bake/play.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "bake/report.h"
+#include "bake/setting.h"
+#include "bake/stages.h"
+#include "core/log.h"
+#include "finish/finish.h"
+#include "images/image_files.h"
+#include "images/write_bytes.h"
+#include "lights/direct_light.h"
+#include "live/still_part.h"
+#include "output/folder.h"
+#include "output/movie.h"
+#include "preview/preview.h"
+#include "scene/animation.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kMostFrames = 100'000;
+constexpr const char* kFilm = "play.mp4";
+constexpr const char* kFramePattern = "frame-%04d.png";
+/// The user is heard at least this often [ms].
+constexpr double kSlice = 200.0;
+/// Places beyond this [m] overflow what is computed with them.
+constexpr double kFarthest = 1e9;
+
+double time_of(const PlayOptions& options, int frame)
+{
+    return double(frame) / options.fps;
+}
+
+std::string frame_name(int frame)
+{
+    return fmt::format("frame-{:04d}.png", frame + 1);
+}
+
+int frames_of(const PlayOptions& options, const Animation& animation)
+{
+    if (options.frames > 0)
+        return options.frames;
+    const double frames = std::max(1.0, std::round(animation.duration * options.fps));
+    if (frames > double(kMostFrames))
+        throw Error(ErrorKind::input, fmt::format("--fps {}", options.fps),
+                    fmt::format("makes {:.0f} frames of the animation, more than the {} that are "
+                                "made at once; --frames takes fewer",
+                                frames, kMostFrames));
+    return int(frames);
+}
+
+/// Lumels keep their areas, so what moves must keep its shape in all frames.
+void check_shapes(const Scene& start, const Animation& animation,
+                  const std::vector<std::uint32_t>& movers, const PlayOptions& options)
+{
+    for (int frame = 0; frame < options.frames; ++frame)
+        for (const std::uint32_t i : movers) {
+            const Instance& instance = start.instances[i];
+            const double time = time_of(options, frame);
+            const glm::mat4 place = transform_at(animation, instance.node, time);
+            const std::string at =
+                fmt::format("{}: \"{}\" at {:.3g} s", start.path, instance.name, time);
+            if (!is_rigid(instance.transform, place))
+                throw Error(ErrorKind::input, at,
+                            "is stretched by the animation; what is played may be turned and "
+                            "moved, but not stretched");
+            if (!(glm::length(glm::dvec3(place[3])) <= kFarthest))
+                throw Error(ErrorKind::input, at, "is too far out to be computed");
+        }
+}
+
+bool has_material(const Scene& scene, const Instance& instance, int material)
+{
+    const auto& primitives = scene.meshes[std::size_t(instance.mesh)].primitives;
+    return std::any_of(primitives.begin(), primitives.end(),
+                       [&](const Primitive& p) { return p.material == material; });
+}
+
+/// Lamps of the scene whose light changes.
+struct ChangingLamp {
+    std::uint32_t instance = 0;
+    const AnimatedMaterial* material = nullptr;
+    glm::vec3 factor{1.0f};  ///< last told to the live scene
+};
+
+/// An instance's light changes as a whole: its other materials must be dark.
+std::vector<ChangingLamp> changing_lamps(const Scene& scene, const Animation& animation)
+{
+    std::vector<ChangingLamp> lamps;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        for (const AnimatedMaterial& material : animation.materials) {
+            const Instance& instance = scene.instances[i];
+            if (!has_material(scene, instance, material.material))
+                continue;
+            for (int other = 0; other < int(scene.materials.size()); ++other)
+                if (other != material.material && has_material(scene, instance, other) &&
+                    scene.materials[std::size_t(other)].emitted != glm::vec3(0.0f))
+                    throw Error(ErrorKind::input,
+                                fmt::format("{}: \"{}\"", scene.path, instance.name),
+                                "shines by several materials, and the light of one changes; give "
+                                "each a mesh of its own");
+            lamps.push_back({i, &material});
+        }
+    return lamps;
+}
+
+/// What is emitted as a part of the most there will be, which the live scene is made with.
+glm::vec3 emission_factor(const AnimatedMaterial& material, double time)
+{
+    const glm::vec3 now = emitted_at(material, time), most = most_emitted(material);
+    glm::vec3 factor(0.0f);
+    for (int c = 0; c < 3; ++c)
+        if (most[c] > 0.0f)
+            factor[c] = now[c] / most[c];
+    return factor;
+}
+
+Scene at_its_brightest(Scene scene, const Animation& animation)
+{
+    for (const AnimatedMaterial& material : animation.materials)
+        scene.materials[std::size_t(material.material)].emitted = most_emitted(material);
+    return scene;
+}
+
+LiveOptions live_options(const PlayOptions& options, const std::vector<std::uint32_t>& movers)
+{
+    LiveOptions live;
+    live.atlas = options.atlas;
+    live.solver = options.solver;
+    live.movers = movers;
+    live.still = movers.empty();
+    // Where only lamps change there is nothing to cross.
+    live.redistribution = live.still ? Redistribution::incremental : options.redistribution;
+    live.residual = options.residual;
+    return live;
+}
+
+/// A scene, how it changes, and the light that follows.
+class Player {
+public:
+    /// `scene`: posed as the first frame.
+    Player(const gpu::Device& device, Scene scene, const Animation& animation,
+           const std::vector<std::uint32_t>& movers, const PlayOptions& options)
+        : device_(&device),
+          animation_(&animation),
+          options_(options),
+          movers_(movers),
+          lamps_(changing_lamps(scene, animation)),
+          shown_(std::move(scene)),
+          live_(device, at_its_brightest(shown_, animation), live_options(options, movers)),
+          exposure_(options.exposure)
+    {
+        if (options.camera < 0 && shown_.cameras.empty())
+            chosen_ = choose_view(shown_, RayScene(shown_));
+    }
+
+    /// Lets the scene, and its light, reach the time of a frame. Nothing if stopped on the way.
+    std::optional<FrameRow> follow(int frame, Stages& stages)
+    {
+        const double time = time_of(options_, frame);
+        pose(shown_, *animation_, time);
+        for (const std::uint32_t i : movers_)
+            live_.move(i, shown_.instances[i].transform);
+        for (ChangingLamp& lamp : lamps_) {
+            const glm::vec3 factor = emission_factor(*lamp.material, time);
+            if (factor != lamp.factor)
+                live_.set_emission(lamp.instance, factor);
+            lamp.factor = factor;
+        }
+        FrameRow row{.file = frame_name(frame), .seconds = time};
+        const std::uint64_t before = hemicubes_;
+        while (!row.at_rest) {
+            if (!stages.tell(double(frame) / double(options_.frames), hemicubes_))
+                return std::nullopt;
+            const double left = options_.budget_ms > 0.0 ? options_.budget_ms - row.update_ms
+                                                         : std::numeric_limits<double>::max();
+            if (left <= 0.0)
+                break;
+            const double slice = std::min(left, kSlice);
+            const LiveState state = live_.update(slice);
+            row.update_ms += state.milliseconds;
+            row.residual = state.residual;
+            row.at_rest = state.milliseconds < slice;  // it returned early
+            hemicubes_ = state.hemicubes;
+        }
+        row.hemicubes = hemicubes_ - before;
+        return row;
+    }
+
+    /// The picture of the scene as it stands, tone-mapped.
+    Image picture()
+    {
+        const Image map = finish_map(shown_, live_.atlas(), live_.lumels(), live_.irradiance());
+        Image image = render_preview(*device_, shown_, live_.atlas(), map, view(), options_.width);
+        // One exposure for all, or the pictures would flicker.
+        if (exposure_ <= 0.0f && bright_end(image) > 0.0f)
+            exposure_ = choose_exposure(image);
+        return tone_map(image, exposure_);
+    }
+
+    const LiveScene& live() const { return live_; }
+    float exposure() const { return exposure_; }
+
+private:
+    View view() const
+    {
+        return chosen_ ? *chosen_
+                       : view_of(shown_.cameras[std::size_t(std::max(options_.camera, 0))]);
+    }
+
+    const gpu::Device* device_;
+    const Animation* animation_;
+    PlayOptions options_;
+    std::vector<std::uint32_t> movers_;
+    std::vector<ChangingLamp> lamps_;
+    Scene shown_;  ///< as the current frame has it
+    LiveScene live_;
+    std::optional<View> chosen_;  ///< where the file has no camera
+    float exposure_;
+    std::uint64_t hemicubes_ = 0;
+};
+
+/// The scene at the first frame, with all that is to be said to the user.
+Scene read_start(const std::string& path, const Animation& animation, const PlayOptions& options)
+{
+    Scene scene = read_gltf(path);
+    check_camera(scene, options.camera);
+    scene.warnings.insert(scene.warnings.end(), animation.warnings.begin(),
+                          animation.warnings.end());
+    if (has_lights(scene))
+        scene.warnings.emplace_back(
+            "point, spot and directional lights and the sky are left out: what is played is lit "
+            "by its emissive surfaces alone");
+    pose(scene, animation, 0.0);
+    return scene;
+}
+
+/// Makes the film if it can; else says what there is to do.
+bool film(const OutputFolder& output, double fps)
+{
+    const std::string ffmpeg = find_ffmpeg();
+    if (ffmpeg.empty()) {
+        log_info(fmt::format("ffmpeg is not installed, so there is no {}; with it: ffmpeg "
+                             "-framerate {} -i {} -pix_fmt yuv420p {}",
+                             kFilm, fps, kFramePattern, kFilm));
+        return false;
+    }
+    const bool made = make_film(ffmpeg, output.path(""), kFramePattern, fps, kFilm);
+    if (!made)
+        log_warning(fmt::format("{} could not make {} of the frames", ffmpeg, kFilm));
+    return made;
+}
+
+}  // namespace
+
+PlaySummary play(const std::string& scene_path, const std::string& folder, const PlayOptions& given,
+                 const ProgressFunction& progress)
+{
+    PlayOptions options = given;
+    checked_batch(method_of("progressive"), options.solver.batch);
+    Stages stages(progress);
+    stages.begin("reading");
+    const Animation animation = read_animation(scene_path, options.animation);
+    Scene start = read_start(scene_path, animation, options);
+    options.frames = frames_of(options, animation);
+    const std::vector<std::uint32_t> movers = movers_of(animation, start);
+    if (movers.empty() && changing_lamps(start, animation).empty())
+        throw Error(ErrorKind::input, scene_path,
+                    "its animation moves nothing that is shown, and changes no light");
+    check_shapes(start, animation, movers, options);
+    // What can fail before the long work should.
+    OutputFolder output(folder);
+    const gpu::Device device(options.device);
+    tell_warnings(start);
+
+    stages.begin("charts");
+    Player player(device, std::move(start), animation, movers, options);
+    for (const std::string& note : player.live().atlas().notes)
+        log_info(note);
+    stages.begin("playing");
+    std::vector<FrameRow> rows;
+    int height = 0;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        const std::optional<FrameRow> row = player.follow(frame, stages);
+        if (!row)
+            break;
+        const Image image = player.picture();
+        height = image.height;
+        options.width = image.width;
+        write_png(output.path(row->file), image);
+        rows.push_back(*row);
+    }
+    options.exposure = player.exposure();
+
+    stages.begin("finishing");
+    const bool filmed = !rows.empty() && !stages.stopped() && film(output, options.fps);
+    stages.end();
+    if (const std::string messages = device.validation_messages(); !messages.empty())
+        throw Error(ErrorKind::device, "Vulkan validation", messages);
+    const int written = int(rows.size());
+    Report report = play_report(options, player.live(), device, height, std::move(rows), stages);
+    for (const FrameRow& row : report.frames)
+        report.files.push_back(row.file);
+    if (filmed)
+        report.files.emplace_back(kFilm);
+    report.files.emplace_back("report.json");
+    const std::string text = to_json(report);
+    write_text(output.path("report.json"), text);
+    output.commit();
+    return {written, stages.seconds(), stages.stopped(), text};
+}
+
+}  // namespace lumel

@@ -1,0 +1,39 @@
+#pragma once
+// lumel play: the animation of a scene as pictures, its light corrected from one to the next.
+
+#include <cstddef>
+#include <string>
+
+#include "bake/bake.h"
+#include "live/live_scene.h"
+
+namespace lumel {
+
+struct PlayOptions {
+    AtlasOptions atlas;
+    SolverOptions solver;
+    std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
+    Redistribution redistribution = Redistribution::incremental;
+    double residual = LiveOptions{}.residual;  ///< light still to be shot, as a part of all
+    std::size_t animation = 0;                 ///< index into the file's animations
+    int frames = 0;                            ///< 0: the animation's length
+    double fps = 24.0;                         ///< [1/s]
+    double budget_ms = 0.0;                    ///< of an update, 0: until at rest
+    int camera = -1;        ///< index into the file's cameras; -1: the first, or one chosen
+    int width = 1280;       ///< [pixels]
+    float exposure = 0.0f;  ///< of the pictures, 0: as suits the first one that is not black
+};
+
+struct PlaySummary {
+    int frames = 0;        ///< written
+    double seconds = 0.0;  ///< in all
+    bool interrupted = false;
+    std::string report;  ///< the JSON of report.json
+};
+
+/// Writes frame-0001.png …, report.json and, if ffmpeg is installed, play.mp4 into `folder`. If
+/// `progress` says stop, the frames done so far. Throws Error.
+PlaySummary play(const std::string& scene_path, const std::string& folder,
+                 const PlayOptions& options, const ProgressFunction& progress = {});
+
+}  // namespace lumel
