@@ -18,7 +18,7 @@ const auto kMethodName = [](const auto& test) { return std::string(test.param); 
 /// What is enough of a solver that gathers where it is to meet closed forms.
 struct Gathering {
     std::uint64_t bounces = 5;  ///< the first, and two pairs of opposite points
-    int hemicube = 64;          ///< [pixels], multisampled
+    int hemicube = 32;          ///< [pixels], multisampled
 };
 
 /// As many hemicubes as the bounces take, if the method gathers; else `shooters`.
@@ -46,7 +46,7 @@ Glow furnace_glow(const std::string& name, double truth, double tolerance, Solve
     const bool gathers = options.method == "gather";
     const Prepared furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
     const Solved solved =
-        support::solve_scene(furnace, with_shots(options, 16384, furnace.lumels, {40, 32}));
+        support::solve_scene(furnace, with_shots(options, 16384, furnace.lumels, {40}));
     Glow glow;
     double area = 0.0, within = 0.0, count = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -192,7 +192,7 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     const RayScene rays(place.scene);
     const Solved solved = support::solve_scene(
         place.scene, rays, place.lumels,
-        with_shots({.method = GetParam()}, 4096, place.lumels, {5, 128}), &atlas);
+        with_shots({.method = GetParam()}, 4096, place.lumels, {3, 96}), &atlas);
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -215,9 +215,8 @@ TEST_P(SealedBox, StaysExactlyDarkInside)
     const bool gathers = std::string(method) == "gather";
     const Prepared world(support::scene_path("sealed-box"),
                          AtlasOptions{.size = gathers ? 64 : 128});
-    const Solved solved =
-        support::solve_scene(world, with_shots({.method = method, .projection = projection}, 2048,
-                                               world.lumels, {3, 64}));
+    const Solved solved = support::solve_scene(
+        world, with_shots({.method = method, .projection = projection}, 2048, world.lumels, {9}));
     std::size_t inside = 0;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -286,9 +285,9 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
     support::HandMade sphere = support::make_quads(quads);
     const Atlas atlas = support::lay_out(sphere, quads);
     const RayScene rays(sphere.scene);
-    const Solved solved = support::solve_scene(
-        sphere.scene, rays, sphere.lumels,
-        with_shots({.method = GetParam()}, 4096, sphere.lumels, {5, 32}), &atlas);
+    const Solved solved =
+        support::solve_scene(sphere.scene, rays, sphere.lumels,
+                             with_shots({.method = GetParam()}, 4096, sphere.lumels), &atlas);
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;
