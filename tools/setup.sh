@@ -5,8 +5,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-volk-dev
     mesa-vulkan-drivers libglm-dev libtinygltf-dev libopenexr-dev libpng-dev libstb-dev
-    libmeshoptimizer-dev libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev
-    nlohmann-json3-dev libbenchmark-dev"
+    libmeshoptimizer-dev libopenblas-pthread-dev libtbb-dev libembree-dev libcli11-dev libfmt-dev
+    libspdlog-dev nlohmann-json3-dev libbenchmark-dev"
 test_packages="$build_packages vulkan-validationlayers libgtest-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
@@ -16,7 +16,8 @@ package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config gl
 package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
     libtinygltf-dev:tiny_gltf.h libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h
     libstb-dev:stb/stb_image.h libmeshoptimizer-dev:meshoptimizer.h libtbb-dev:tbb/tbb.h
-    libembree-dev:embree3/rtcore.h libcli11-dev:CLI/CLI.hpp libfmt-dev:fmt/core.h
+    libopenblas-pthread-dev:cblas.h libembree-dev:embree3/rtcore.h libcli11-dev:CLI/CLI.hpp
+    libfmt-dev:fmt/core.h
     libspdlog-dev:spdlog/spdlog.h nlohmann-json3-dev:nlohmann/json.hpp
     libgtest-dev:gtest/gtest.h libbenchmark-dev:benchmark/benchmark.h"
 

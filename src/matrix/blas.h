@@ -1,0 +1,29 @@
+#pragma once
+// Dense linear algebra by the system's tuned BLAS. All matrices are row-major, without gaps.
+
+#include <cstdint>
+#include <span>
+
+namespace lumel::blas {
+
+/// values [rows][columns], or what they are when rows and columns change places.
+struct Operand {
+    std::span<const float> values;
+    std::uint32_t rows = 0, columns = 0;  ///< as stored
+    bool transposed = false;
+};
+
+/// `values` [rows][columns], transposed in what is made of it.
+inline Operand transposed(std::span<const float> values, std::uint32_t rows, std::uint32_t columns)
+{
+    return {values, rows, columns, true};
+}
+
+/// c ← scale a b + keep c
+void product(const Operand& a, const Operand& b, std::span<float> c, float scale = 1.0f,
+             float keep = 0.0f);
+
+/// Solves X A = B in place: b becomes X. a [n][n] is lost, b [rows][n]. False: A is singular.
+bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n);
+
+}  // namespace lumel::blas
