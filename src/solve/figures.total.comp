@@ -12,12 +12,9 @@ layout(binding = 1, scalar) writeonly buffer Totals { Terms totals[]; };
 
 void main()
 {
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     for (uint part = gl_LocalInvocationID.x; part < p.parts; part += kSumGroup)
-        for (uint c = 0u; c < kTermColumns; ++c)
-            terms.column[c] += parts[part].column[c];
+        terms = plus(terms, parts[part]);
     terms = add_over_group(terms);
     if (gl_LocalInvocationID.x == 0u)
         totals[0] = terms;

@@ -21,9 +21,7 @@ layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     if (i < p.count && surface[i].a > 0.0) {
         const vec3 moved = abs(change[i]), h = irradiance[i];
         terms.column[0] = surface[i].a * vec4(luminance(moved), luminance(surface[i].rgb * moved),

@@ -17,7 +17,13 @@ layout(binding = 3, scalar) writeonly buffer Gathered { vec3 gathered[]; };
 
 #include "visibility/hemicube.glsl"
 
-shared vec3 sums[kIntegrateGroup];
+vec3 plus(vec3 a, vec3 b)
+{
+    return a + b;
+}
+
+#define SUMMAND vec3
+#include "solve/group_sum.glsl"
 
 void main()
 {
@@ -34,13 +40,7 @@ void main()
             sum += delta_form_factor[q * p.samples + s] *
                    texelFetch(views, corner + ivec2(pixel), int(s)).rgb;
     }
-    sums[me] = sum;
-    barrier();
-    for (uint width = kIntegrateGroup / 2u; width > 0u; width /= 2u) {
-        if (me < width)
-            sums[me] += sums[me + width];
-        barrier();
-    }
+    sum = add_over_group(sum);
     if (me == 0u)
-        gathered[k] = sums[0];
+        gathered[k] = sum;
 }

@@ -18,9 +18,7 @@ layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     if (i < p.count) {
         const float n = p.batches[0] + p.batches[1];
         const vec3 h = n > 0.0 ? (sums[i] + sums[p.count + i]) / n : vec3(0.0);

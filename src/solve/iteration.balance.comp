@@ -20,9 +20,7 @@ layout(binding = 7, scalar) writeonly buffer Parts { Terms parts[]; };
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     if (i < p.count) {
         const vec3 reflecting = surface[i].rgb * surface[i].w;
         for (uint h = 0u; h < 2u; ++h) {

@@ -30,9 +30,7 @@ layout(binding = 10, scalar) writeonly buffer Parts { Terms parts[]; };
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     if (i < p.count && surface[i].w > 0.0) {
         vec3 half_[2], near = vec3(0.0);
         for (uint h = 0u; h < 2u; ++h) {

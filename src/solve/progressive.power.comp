@@ -28,8 +28,8 @@ void main()
         const uint j = chart.first_lumel + i;
         const vec4 s = surface[j];
         const vec3 arrived = far[j] + near[j], unshot = unshot_of(j);
-        mine = sum_of(mine, ChartLight(s.a * abs(luminance(foreseen(j))), s.a * unshot,
-                                       s.a * shot[j], s.a * arrived, s.a * s.rgb * arrived));
+        mine = plus(mine, ChartLight(s.a * abs(luminance(foreseen(j))), s.a * unshot,
+                                     s.a * shot[j], s.a * arrived, s.a * s.rgb * arrived));
     }
     const ChartLight sum = add_over_group(mine);
     if (me == 0u)

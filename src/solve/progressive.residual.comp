@@ -22,9 +22,7 @@ layout(binding = 6, scalar) writeonly buffer Parts { Terms parts[]; };
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    Terms terms;
-    for (uint c = 0u; c < kTermColumns; ++c)
-        terms.column[c] = vec4(0.0);
+    Terms terms = no_terms();
     if (i < p.count && (lumels[i].flags & kLumelMoving) == 0u) {
         const float area = surface[i].a;
         const vec3 arrived = far[i] + near[i];

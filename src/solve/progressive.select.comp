@@ -116,7 +116,7 @@ void main()
     const uint me = gl_LocalInvocationID.x;
     ChartLight mine = no_light();
     for (uint c = me; c < p.charts; c += kProgressiveGroup)
-        mine = sum_of(mine, lights[c]);
+        mine = plus(mine, lights[c]);
     const ChartLight sum = add_over_group(mine);
     if (me == 0u) {
         cursor = cursor_;

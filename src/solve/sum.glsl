@@ -1,17 +1,19 @@
-// Adds up one Terms per invocation over the workgroup, in an order that never changes.
+// Adds up one Terms per invocation over the workgroup.
 
-shared Terms shared_terms[kSumGroup];
-
-Terms add_over_group(Terms mine)
+Terms no_terms()
 {
-    const uint me = gl_LocalInvocationID.x;
-    shared_terms[me] = mine;
-    barrier();
-    for (uint width = kSumGroup / 2u; width > 0u; width /= 2u) {
-        if (me < width)
-            for (uint c = 0u; c < kTermColumns; ++c)
-                shared_terms[me].column[c] += shared_terms[me + width].column[c];
-        barrier();
-    }
-    return shared_terms[0];
+    Terms terms;
+    for (uint c = 0u; c < kTermColumns; ++c)
+        terms.column[c] = vec4(0.0);
+    return terms;
 }
+
+Terms plus(Terms a, Terms b)
+{
+    for (uint c = 0u; c < kTermColumns; ++c)
+        a.column[c] += b.column[c];
+    return a;
+}
+
+#define SUMMAND Terms
+#include "solve/group_sum.glsl"

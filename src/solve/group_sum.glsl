@@ -1,0 +1,20 @@
+// Adds up over a workgroup, in an order that never changes. The includer defines SUMMAND, the type
+// that is added up, and `SUMMAND plus(SUMMAND a, SUMMAND b)`. The group's size is a power of two.
+
+shared SUMMAND summands[gl_WorkGroupSize.x];
+
+// The sum of what each invocation brings. All of the group must come here.
+SUMMAND add_over_group(SUMMAND mine)
+{
+    const uint me = gl_LocalInvocationID.x;
+    summands[me] = mine;
+    barrier();
+    for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
+        if (me < width)
+            summands[me] = plus(summands[me], summands[me + width]);
+        barrier();
+    }
+    const SUMMAND sum = summands[0];
+    barrier();  // the next sum may begin
+    return sum;
+}
