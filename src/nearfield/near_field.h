@@ -29,8 +29,9 @@ struct NearField {
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
 };
 
-/// Builds the table. Buried lumels have empty rows and appear in no column. No row adds up to more
-/// than 1; with the area rule A_i F_ij = A_j F_ji holds between flat lumels.
+/// Builds the table. Columns ascend in each row. Buried lumels have empty rows and appear in no
+/// column. No row adds up to more than 1; with the area rule A_i F_ij = A_j F_ji holds between flat
+/// lumels.
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options);
 
@@ -41,7 +42,7 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
 
 /// The table after some of the scene has moved: pairs of which both lumels are affected (moved, or
 /// closer to where something moved than the table reaches) are built anew, the others kept.
-/// affected: [N].
+/// affected: [N]. Columns do not ascend: those built anew stand behind those kept.
 NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
                             const Lumels& lumels, NearFieldOptions options,
                             const std::vector<char>& affected);

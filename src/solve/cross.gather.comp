@@ -20,15 +20,15 @@ layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
 layout(binding = 5, scalar) buffer Far { vec3 far[]; };
 
 #include "visibility/sees.glsl"
+#include "solve/near.glsl"
 
-shared vec3 sums[kProgressiveGroup];
-
-bool is_near(Lumel a, Lumel b)
+vec3 plus(vec3 a, vec3 b)
 {
-    const vec3 between = a.position - b.position;
-    const float reach = p.near_radius * max(a.size, b.size);
-    return dot(between, between) < reach * reach;
+    return a + b;
 }
+
+#define SUMMAND vec3
+#include "solve/group_sum.glsl"
 
 void main()
 {
@@ -52,23 +52,14 @@ void main()
         const vec3 power = shot[i] * (from.area / kPi);
         for (uint m = 0u; m < s.count; ++m) {
             const Lumel to = lumels[s.first + m];
-            const vec3 way = to.position - from.position;
-            const float r2 = dot(way, way);
-            const float cosines = max(dot(way, from.normal), 0.0) * max(-dot(way, to.normal), 0.0);
-            if (cosines > 0.0 && !is_near(from, to))
-                mine[m] += power * (cosines / (r2 * r2));
+            if (!is_near(from.position, from.size, to.position, to.size, p.near_radius))
+                mine[m] += power * point_factor(to.position - from.position, from.normal,
+                                                to.normal, 0.0);
         }
     }
     for (uint m = 0u; m < s.count; ++m) {
-        sums[me] = mine[m];
-        barrier();
-        for (uint width = kProgressiveGroup / 2u; width > 0u; width /= 2u) {
-            if (me < width)
-                sums[me] += sums[me + width];
-            barrier();
-        }
+        const vec3 sum = add_over_group(mine[m]);
         if (me == 0u)
-            far[s.first + m] = sums[0];
-        barrier();
+            far[s.first + m] = sum;
     }
 }

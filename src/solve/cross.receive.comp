@@ -23,36 +23,33 @@ layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
 layout(binding = 6, scalar) readonly buffer Back { BackPixel back[]; };
 layout(binding = 7, scalar) readonly buffer NearFirst { uint near_first[]; };  // [N + 1]
 layout(binding = 8, scalar) readonly buffer NearColumn { uint near_column[]; };
-layout(binding = 9, scalar) readonly buffer NearFactor { float near_factor[]; };
+layout(binding = 9, scalar) readonly buffer NearFactor { float near_factors[]; };
 layout(binding = 10, scalar) buffer Fresh { vec3 fresh[]; };
 
 #include "world/lumel.glsl"
 #include "visibility/sees.glsl"
 #include "visibility/hemicube.glsl"
 #include "solve/cross.back.glsl"
+#include "solve/near.glsl"
+#include "solve/near_factor.glsl"
+#include "solve/receiver.glsl"
 
 // Rays through a lumel, along each of its sides, for each radian that it measures from the
 // receiver; and at most.
 const float kRaysPerRadian = 16.0;
 const float kMostRays = 6.0;
 
-struct CrossReceiver {
-    vec3 x, normal, facing;  // of the receiving point
-    vec3 centre;             // of its lumel
-    float size;              // of its lumel
-    uint lumel;
-};
+// r² in the weight of a ray is larger by this part of the lumel's area: finite where they touch.
+const float kTouching = 0.01;
+// Distances at which angles are taken are no less [m].
+const float kLeastDistance = 1e-6;
 
 // The pixel of a back hemicube's level in direction `way` (t, b, n of the back eye; n ≥ 0).
 BackPixel behind(uint k, uint level, vec3 way)
 {
     const uint side = back_side(p.back, level);
     const ViewPoint f = project_to_hemicube(EyeViewLayout(side, 1u, 1.0), way);
-    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
-    const vec2 second = f.front || !f.negative
-                            ? vec2(0.0)
-                            : (f.along_t ? vec2(0.0, 0.5 * float(side)) : vec2(side, 0.0));
-    return back[back_pixel(p.back, k, level, uvec2(corner + second + f.pixel))];
+    return back[back_pixel(p.back, k, level, uvec2(face_corner(side, f) + f.pixel))];
 }
 
 // Light that a ray from x through the point y of a patch meets behind it, if it stands for a bundle
@@ -77,11 +74,11 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
 
 // P(C, j, i) for the lumel m of the patch: more rays where it is close, each counted by how much
 // light would go that way. 0 where no one asks.
-vec3 light_behind(uint k, CrossReceiver r, Lumel m, bool is_asked)
+vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
 {
     const Eye eye = eyes[k];
     const mat3 frame = mat3(eye.tangent, -eye.bitangent, -eye.normal);
-    const float wide = m.size / max(distance(r.x, m.position), 1e-6);  // [rad]
+    const float wide = m.size / max(distance(r.x, m.position), kLeastDistance);  // [rad]
     const uint side = uint(clamp(ceil(wide * kRaysPerRadian), 1.0, kMostRays));
     const uint rays = is_asked ? side * side : 0u;
     vec3 sum = vec3(0.0);
@@ -90,7 +87,7 @@ vec3 light_behind(uint k, CrossReceiver r, Lumel m, bool is_asked)
         const vec2 at = (vec2(q % side, q / side) + 0.5) / float(side);
         const vec3 y = rays == 1u ? m.position : point_on(m, at.x, at.y).position;
         const vec3 d = y - r.x;
-        const float r2 = dot(d, d) + 0.01 * m.area;  // finite where they touch
+        const float r2 = dot(d, d) + kTouching * m.area;
         const float weight = max(dot(d, r.normal), 0.0) * abs(dot(d, eye.normal)) / (r2 * r2);
         if (weight > 0.0)
             sum += weight * light_along(k, frame, r.x, y, m.size / float(side));
@@ -99,44 +96,26 @@ vec3 light_behind(uint k, CrossReceiver r, Lumel m, bool is_asked)
     return weights > 0.0 ? sum / weights : vec3(0.0);
 }
 
-// F_ij of the near field, for i's row; 0 where no one asks.
-float near_factor_of(uint i, uint j, bool is_asked)
-{
-    float factor = 0.0;
-    const uint end = is_asked ? near_first[i + 1u] : 0u;
-    for (uint n = near_first[i]; n < end; ++n)
-        factor = near_column[n] == j ? near_factor[n] : factor;
-    return factor;
-}
-
 // F_ij for the lumel j of patch k, of which the receiver sees the patch's eye or not.
-float factor_of(CrossReceiver r, uint k, uint j, bool is_eye_seen)
+float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
 {
     const Lumel from = lumels[j];
     const bool is_back = shots[k].side_ < 0.0;
-    const vec3 between = r.centre - from.position;
-    const float reach = p.near_radius * max(r.size, from.size);
-    const bool is_close = !is_back && dot(between, between) < reach * reach;
-    const vec3 way = r.x - from.position;
-    const float r2 = dot(way, way);
-    const float cosines =
-        max(shots[k].side_ * dot(way, from.normal), 0.0) * max(-dot(way, r.normal), 0.0);
+    if (!is_back && is_near(r.centre, r.size, from.position, from.size, p.near_radius))
+        return near_factor(r.lumel, j);
+    if (!is_eye_seen)
+        return 0.0;
     // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
     const float disc = is_back ? from.area / kPi : 0.0;
-    const float far = is_eye_seen && cosines > 0.0
-                          ? from.area * cosines / (kPi * r2 * (r2 + disc))
-                          : 0.0;
-    return is_close ? near_factor_of(r.lumel, j, is_close) : far;
+    return from.area / kPi *
+           point_factor(r.x - from.position, shots[k].side_ * from.normal, r.normal, disc);
 }
 
 // Of all lumels of patch k.
-vec3 crossing_light(CrossReceiver r, uint k)
+vec3 crossing_light(Receiver r, uint k)
 {
     const PatchShot s = shots[k];
-    const vec3 d = r.x - eyes[k].position;
-    const mat3 frame = mat3(eyes[k].tangent, eyes[k].bitangent, eyes[k].normal);
-    const bool is_eye_seen = dot(d, eyes[k].normal) > 0.0 && dot(d, r.normal) < 0.0 &&
-                             sees(p.views, k, d * frame, r.facing * frame);
+    const bool is_eye_seen = is_seen(r, k, p.views);
     vec3 sum = vec3(0.0);
     for (uint j = s.first; j < s.first + s.count; ++j) {
         const float factor = factor_of(r, k, j, is_eye_seen);
@@ -155,8 +134,8 @@ void main()
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
     // From one point, so that what the patches hide fits together.
-    const CrossReceiver r = CrossReceiver(lumel.position, lumel.normal, lumel.normal,
-                                          lumel.position, lumel.size, i);
+    const Receiver r =
+        receiver_at(LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u), lumel, i);
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < p.shots; ++k)
         if (shots[k].count > 0u)

@@ -35,8 +35,7 @@ void main()
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
     const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
-    const Receiver r = Receiver(point.position, point.normal, point.facing, lumel.position,
-                                lumel.size, i);
+    const Receiver r = receiver_at(point, lumel, i);
     load_sums(i, p.count, p.order);
     for (uint k = 0u; k < p.shots; ++k) {
         vec3 d;

@@ -43,20 +43,8 @@ layout(binding = 19, scalar) readonly buffer Passed { vec3 passed_on[]; };  // [
 #include "solve/glossy.lobes.glsl"
 #include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
-
-// F_ij of a near pair, 0 if the table has none: the columns of a row ascend.
-float near_factor(uint i, uint j)
-{
-    uint low = near_first[i], high = near_first[i + 1u];
-    while (low < high) {
-        const uint middle = (low + high) / 2u;
-        if (near_column[middle] < j)
-            low = middle + 1u;
-        else
-            high = middle;
-    }
-    return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
-}
+#include "solve/near.glsl"
+#include "solve/near_factor.glsl"
 
 // Between near lumels a narrower lobe would be hit or missed by chance.
 const float kMostNearShininess = 100.0;
@@ -90,15 +78,14 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     if (toward_j <= 0.0 || toward_i <= 0.0 || dot(d, x.facing) >= 0.0)
         return vec3(0.0);
     const GlossyShot shot = shots[k];
-    const vec3 between = lumel.position - shot.centre;
-    const float reach = p.near_radius * max(lumel.size, shot.size);
-    const bool is_near = dot(between, between) < reach * reach;
-    if (shot.lumel == i || (is_near && shot.lobes == 0u))
+    const bool is_close =
+        is_near(lumel.position, lumel.size, shot.centre, shot.size, p.near_radius);
+    if (shot.lumel == i || (is_close && shot.lobes == 0u))
         return vec3(0.0);
     const float r2 = dot(d, d);
     const vec3 way = d * inversesqrt(r2);
     cos_in = -dot(way, x.normal);
-    if (is_near)  // π F_ij stands for the geometry and the visibility of all points
+    if (is_close)  // π F_ij stands for the geometry and the visibility of all points
         return lobes_toward(k, shot, eye, way, min(shot.shininess, kMostNearShininess)) *
                near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);

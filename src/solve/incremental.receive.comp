@@ -67,15 +67,6 @@ uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
     return found;
 }
 
-vec3 light_of(uint k, Lumel lumel, uint i)
-{
-    const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
-    const PatchReceiver r =
-        PatchReceiver(x.position, x.normal, x.facing, lumel.position, lumel.size, i);
-    const vec3 light = light_without_occluders(r, k, p.near_radius);
-    return light != vec3(0.0) && is_seen(r, k, p.views) ? light : vec3(0.0);
-}
-
 void main()
 {
     const uint i = p.first + gl_GlobalInvocationID.x;
@@ -89,6 +80,6 @@ void main()
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < p.shots; first += kWordBits)
         for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)
-            sum += light_of(first + uint(findLSB(left)), lumel, i);
+            sum += light_of(first + uint(findLSB(left)), lumel, i, p.near_radius, p.views);
     far[i] += p.sign_ * sum;
 }

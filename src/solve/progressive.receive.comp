@@ -36,15 +36,8 @@ void main()
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < p.shots; ++k) {
-        if (shots[k].count == 0u)
-            continue;
-        const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
-        const PatchReceiver r = PatchReceiver(x.position, x.normal, x.facing, lumel.position,
-                                              lumel.size, i);
-        const vec3 light = light_without_occluders(r, k, p.near_radius);
-        if (light != vec3(0.0) && is_seen(r, k, p.views))
-            sum += light;
-    }
+    for (uint k = 0u; k < p.shots; ++k)
+        if (shots[k].count > 0u)
+            sum += light_of(k, lumel, i, p.near_radius, p.views);
     far[i] += sum;
 }

@@ -7,3 +7,12 @@ float luminance(vec3 c)
 {
     return dot(c, vec3(0.2126, 0.7152, 0.0722));
 }
+
+// cosθ_i cosθ_j / (r² + disc), for normals of length 1; `d` leads from j to i. 0 if one of them
+// looks away. `disc` [m²]: A_j / π of a shooter that counts as a disc, 0 of a point.
+float point_factor(vec3 d, vec3 normal_j, vec3 normal_i, float disc)
+{
+    const float r2 = dot(d, d);
+    const float cosines = max(dot(d, normal_j), 0.0) * max(-dot(d, normal_i), 0.0);
+    return cosines > 0.0 ? cosines / (r2 * (r2 + disc)) : 0.0;
+}

@@ -2,6 +2,7 @@
 #include "solve/stochastic.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
+#include "solve/radiosity.glsl"
 
 // Every lumel i takes its share of all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with
 // the disc of Eq. (8)):
@@ -31,9 +32,7 @@ vec3 receive(Receiver r, uint k)
     vec3 d;
     if (!arrives(r, k, p.views, p.near_radius, d))
         return vec3(0.0);
-    const float toward_j = dot(d, eyes[k].normal), toward_i = -dot(d, r.normal);
-    const float r2 = dot(d, d);
-    return shots[k].power * (toward_i * toward_j / (r2 * (r2 + shots[k].disc)));
+    return shots[k].power * point_factor(d, eyes[k].normal, r.normal, shots[k].disc);
 }
 
 void main()
@@ -45,8 +44,7 @@ void main()
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
     const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
-    const Receiver r = Receiver(point.position, point.normal, point.facing, lumel.position,
-                                lumel.size, i);
+    const Receiver r = receiver_at(point, lumel, i);
     const uint at = p.half_ * p.count + i;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < p.emission_shots; ++k)

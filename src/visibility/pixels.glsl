@@ -66,17 +66,23 @@ bool is_in_view(EyeViewLayout layout_, ViewPoint f, vec2 pixel)
     return all(greaterThanEqual(pixel, vec2(0.0))) && pixel.x < side && pixel.y < rows;
 }
 
+// Where the point's face begins in a hemicube's tile [pixels], see eye_views.shared.h.
+vec2 face_corner(uint side, ViewPoint f)
+{
+    if (f.front)
+        return vec2(0.0);
+    const vec2 first = f.along_t ? vec2(side, 0.0) : vec2(0.0, side);
+    const vec2 second = f.along_t ? vec2(0.0, 0.5 * float(side)) : vec2(side, 0.0);
+    return f.negative ? first + second : first;
+}
+
 float stored_depth(EyeViewLayout layout_, uint tile, ViewPoint f, vec2 pixel)
 {
     const uint side = layout_.side;
     const uvec2 size = kProjection == kHemisphere ? uvec2(side)
                                                          : uvec2(2u * side, 3u * side / 2u);
-    const vec2 corner = f.front ? vec2(0.0) : (f.along_t ? vec2(side, 0.0) : vec2(0.0, side));
-    const vec2 second = f.front || !f.negative
-                            ? vec2(0.0)
-                            : (f.along_t ? vec2(0.0, 0.5 * float(side)) : vec2(side, 0.0));
     const uvec2 origin = uvec2(tile % layout_.columns, tile / layout_.columns) * size;
-    return texelFetch(views, ivec2(origin) + ivec2(corner + second + pixel), 0).r;
+    return texelFetch(views, ivec2(origin) + ivec2(face_corner(side, f) + pixel), 0).r;
 }
 
 // The ray through a pixel's centre, to where the stored z is 1.

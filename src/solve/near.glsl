@@ -1,0 +1,8 @@
+// Which pairs of lumels belong to the near field. Twin of is_near() in nearfield/near_pairs.h.
+
+bool is_near(vec3 centre_i, float size_i, vec3 centre_j, float size_j, float radius)
+{
+    const vec3 way = centre_j - centre_i;
+    const float reach = radius * max(size_i, size_j);
+    return dot(way, way) < reach * reach;
+}

@@ -1,0 +1,16 @@
+// Form factors of the near field. The includer declares its rows: `uint near_first[]`,
+// `uint near_column[]`, `float near_factors[]`.
+
+// F_ij of a near pair, 0 if the table has none: the columns of a row ascend.
+float near_factor(uint i, uint j)
+{
+    uint low = near_first[i], high = near_first[i + 1u];
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (near_column[middle] < j)
+            low = middle + 1u;
+        else
+            high = middle;
+    }
+    return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
+}
