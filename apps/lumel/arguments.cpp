@@ -139,6 +139,18 @@ void add_map_options(CLI::App& app, SolverOptions& solver)
         ->check(whole(kSmallestMap, kLargestMap));
 }
 
+void add_matrix_options(CLI::App& app, SolverOptions& solver)
+{
+    app.add_option("--patches", solver.patches, "Patches of --solver matrix, at most")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(kFewestPatches, kMostPatches));
+    app.add_option("--bounces", solver.bounces,
+                   "Reflections that --solver matrix counts (default: all)")
+        ->type_name("K")
+        ->check(whole(1, kMostBounces));
+}
+
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
 {
     app.add_option("--texels-per-metre", atlas.texels_per_metre, "Density of the lightmap")
@@ -295,6 +307,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_method_options(command, bake.options.solver);
     add_solver_options(command, bake.options.solver);
     add_map_options(command, bake.options.solver);
+    add_matrix_options(command, bake.options.solver);
     add_stop_options(command, bake.options.solver);
     add_device_option(command, bake.options.device);
     command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");

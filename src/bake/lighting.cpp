@@ -1,17 +1,9 @@
 #include "bake/lighting.h"
 
+#include "solve/lumel_arrays.h"
+
 namespace lumel {
 namespace {
-
-/// Surfaces that shine but reflect nothing.
-Lumels black(Lumels lumels)
-{
-    for (Lumel& lumel : lumels.lumels)
-        lumel.albedo = glm::vec3(0.0f);
-    for (Gloss& gloss : lumels.gloss)
-        gloss.diffuse = gloss.specular = glm::vec3(0.0f);
-    return lumels;
-}
 
 /// Surfaces that do not shine.
 Lumels dark(Lumels lumels)

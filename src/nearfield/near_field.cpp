@@ -18,7 +18,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "nearfield/near_pairs.h"
+#include "nearfield/open_lumels.h"
 #include "nearfield/sequence.h"
 #include "nearfield/world_lumels.h"
 
@@ -328,6 +328,8 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
 
     // Keep what counts.
     NearField table;
+    if (options.open)
+        table.open = open_lumels(scene, rays, lumels);
     table.radius = radius;
     table.first.reserve(world.size() + 1);
     table.first.push_back(0);

@@ -18,6 +18,7 @@ struct NearFieldOptions {
     int samples = 16;     ///< points per close pair; four times as many where it is half hidden
     bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
+    bool open = false;  ///< finds NearField::open too
 };
 
 /// Sparse form factors, one row per receiver i (compressed rows):
@@ -27,6 +28,7 @@ struct NearField {
     std::vector<std::uint32_t> first;   ///< [N + 1]
     std::vector<std::uint32_t> column;  ///< [nnz] shooter j
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
+    std::vector<char> open;             ///< [N] of open_lumels(), or empty
 };
 
 /// Builds the table. Columns ascend in each row. Buried lumels have empty rows and appear in no

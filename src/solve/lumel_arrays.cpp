@@ -20,6 +20,15 @@ std::vector<glm::vec3> emission_of(const Lumels& lumels)
     return emission;
 }
 
+Lumels black(Lumels lumels)
+{
+    for (Lumel& lumel : lumels.lumels)
+        lumel.albedo = glm::vec3(0.0f);
+    for (Gloss& gloss : lumels.gloss)
+        gloss.diffuse = gloss.specular = glm::vec3(0.0f);
+    return lumels;
+}
+
 float reflecting_area(const Lumels& lumels)
 {
     float sum = 0.0f;

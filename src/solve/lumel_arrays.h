@@ -17,6 +17,9 @@ std::vector<glm::vec4> surfaces_of(const Lumels& lumels);
 /// E [N] [lm/m²]
 std::vector<glm::vec3> emission_of(const Lumels& lumels);
 
+/// Lumels that shine but reflect nothing.
+Lumels black(Lumels lumels);
+
 /// Σ A of lumels that reflect [m²]
 float reflecting_area(const Lumels& lumels);
 

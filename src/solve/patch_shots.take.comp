@@ -26,6 +26,7 @@ layout(binding = 13, scalar) readonly buffer Ambient { vec3 ambient; };
 
 #include "world/lumel.glsl"
 #include "solve/patches.glsl"
+#include "solve/block_point.glsl"
 #include "solve/shooter.glsl"
 #include "solve/foreseen.glsl"
 #include "visibility/channel.glsl"
@@ -43,20 +44,11 @@ Patch patch_of(ChosenPatch c)
 // shot.
 LumelPoint eye_point(ChosenPatch c, Patch block)
 {
-    if (block.eye == kFromMean) {
-        vec3 position = vec3(0.0), normal = vec3(0.0);
-        for (uint j = block.first; j < block.first + block.count; ++j) {
-            position += lumels[j].position;
-            normal += lumels[j].normal;
-        }
-        return LumelPoint(position / float(block.count), normalize(normal), normal, 0u);
-    }
-    const Lumel lumel = lumels[block.eye];
     const uint points = points_per_lumel(c.level);
     if (points == 1u)
-        return LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u);
+        return block_point(block);
     const uint part = c.index % points;
-    return point_on(lumel, (float(part) + 0.5) / float(points),
+    return point_on(lumels[block.eye], (float(part) + 0.5) / float(points),
                     fract((float(part) + 0.5) * 0.6180339887));
 }
 

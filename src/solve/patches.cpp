@@ -85,7 +85,17 @@ std::uint32_t eye_of(const Lumels& lumels, const Range& range, const Shape& shap
     return nearest;
 }
 
-void append_patches(const Lumels& lumels, const Range& range, std::uint32_t exponent,
+using Groups = std::span<const std::uint32_t>;
+
+bool is_mixed(Groups group, const Range& range)
+{
+    return !group.empty() &&
+           std::any_of(group.begin() + range.first, group.begin() + range.last,
+                       [&](std::uint32_t other) { return other != group[range.first]; });
+}
+
+/// group: [N], or empty: all are of one.
+void append_patches(const Lumels& lumels, Groups group, const Range& range, std::uint32_t exponent,
                     std::vector<Patch>& patches)
 {
     for (std::uint32_t first = range.first; first < range.last;) {
@@ -94,8 +104,8 @@ void append_patches(const Lumels& lumels, const Range& range, std::uint32_t expo
         const bool buried = std::any_of(lumels.lumels.begin() + block.first,
                                         lumels.lumels.begin() + block.last, is_buried);
         const Shape shape = shape_of(lumels, block);
-        if (exponent > 0 && (buried || shape.bent))
-            append_patches(lumels, block, exponent - 1, patches);
+        if (exponent > 0 && (buried || shape.bent || is_mixed(group, block)))
+            append_patches(lumels, group, block, exponent - 1, patches);
         else if (!buried)
             patches.push_back({block.first, block.last - block.first,
                                eye_of(lumels, block, shape, exponent), shape.size});
@@ -107,21 +117,38 @@ bool same_side(const Lumel& a, const Lumel& b)
     return a.chart == b.chart && (a.flags & kLumelBack) == (b.flags & kLumelBack);
 }
 
+/// The lumels from `first` on that are of one side of a chart.
+Range next_chart(const Lumels& lumels, std::uint32_t first)
+{
+    std::uint32_t last = first + 1;
+    while (last < lumels.lumels.size() && same_side(lumels.lumels[first], lumels.lumels[last]))
+        ++last;
+    return {first, last};
+}
+
 }  // namespace
+
+std::vector<Patch> make_blocks(const Lumels& lumels, std::span<const std::uint32_t> group)
+{
+    std::vector<Patch> blocks;
+    for (std::uint32_t first = 0; first < lumels.lumels.size();) {
+        const Range chart = next_chart(lumels, first);
+        append_patches(lumels, group, chart, kBlockLevels, blocks);
+        first = chart.last;
+    }
+    return blocks;
+}
 
 Patches make_patches(const Lumels& lumels)
 {
     Patches result;
-    const auto count = std::uint32_t(lumels.lumels.size());
-    for (std::uint32_t first = 0; first < count;) {
-        std::uint32_t last = first + 1;
-        while (last < count && same_side(lumels.lumels[first], lumels.lumels[last]))
-            ++last;
+    for (std::uint32_t first = 0; first < lumels.lumels.size();) {
+        const std::uint32_t last = next_chart(lumels, first).last;
         PatchChart chart{.first_lumel = first, .lumel_count = last - first};
         chart.moving = (lumels.lumels[first].flags & kLumelMoving) ? 1 : 0;
         for (std::uint32_t level = 0; level < kBlockLevels; ++level) {
             chart.first_patch[level] = std::uint32_t(result.patches.size());
-            append_patches(lumels, {first, last}, kBlockLevels - level, result.patches);
+            append_patches(lumels, {}, {first, last}, kBlockLevels - level, result.patches);
             chart.patch_count[level] =
                 std::uint32_t(result.patches.size()) - chart.first_patch[level];
         }

@@ -4,6 +4,7 @@
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Section 4.3.
 
+#include <span>
 #include <vector>
 
 #include "atlas/atlas.h"
@@ -20,6 +21,10 @@ struct Patches {
 /// Groups the lumels of each chart into blocks of texels. A block that is bent, or holds buried
 /// lumels and so may reach through a wall, falls apart into smaller ones.
 Patches make_patches(const Lumels& lumels);
+
+/// The same for any grouping: blocks of 4 × 4 texels, or smaller, none of which has lumels of two
+/// groups. group: [N].
+std::vector<Patch> make_blocks(const Lumels& lumels, std::span<const std::uint32_t> group);
 
 /// Patches of a chart at a level, and points that each of its lumels shoots from. Twins of
 /// solve/patches.glsl.

@@ -6,6 +6,7 @@
 #include "solve/directions.h"
 #include "solve/gather.h"
 #include "solve/glossy.h"
+#include "solve/matrix.h"
 #include "solve/progressive.h"
 #include "solve/stochastic.h"
 
@@ -32,6 +33,7 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     near.centre = options.rule == SampleRule::centre;
     near.seed = options.seed;
     near.radius = method_of(options.method).near_radius;
+    near.open = options.method == "matrix";
     return near;
 }
 
@@ -79,6 +81,8 @@ std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& worl
         return std::make_unique<GatherRadiosity>(device, world, lumels, options);
     if (options.method == "progressive")
         return std::make_unique<ProgressiveRadiosity>(device, world, lumels, near, options);
+    if (options.method == "matrix")
+        return std::make_unique<MatrixRadiosity>(device, world, lumels, near, options, known);
     if (method_of(options.method).materials == MaterialModel::glossy)
         return std::make_unique<GlossyIllumination>(device, world, lumels, near, options, known,
                                                     particles);

@@ -25,6 +25,11 @@ namespace lumel {
 
 class LobeParticles;
 
+/// Of "matrix": its three matrices of n × n numbers and their inverse have to fit into memory, and
+/// take n³ operations.
+inline constexpr std::uint32_t kFewestPatches = 8, kMostPatches = 16384;
+inline constexpr std::uint32_t kMostBounces = 1'000'000;
+
 enum class Scheme {
     phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
     paper,   ///< the papers' iteration: random shooters, running average, no near field
@@ -46,6 +51,8 @@ struct SolverOptions {
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
     int map_side = 0;              ///< of an illumination map [pixels], 0: as suits the lumels
     bool sky = true;               ///< of "directions" with Scheme::paper: gathers the world's sky
+    std::uint32_t patches = 2048;  ///< of "matrix": n at most
+    std::uint32_t bounces = 0;     ///< of "matrix": k, reflections that count, 0: all
     std::uint64_t max_shots = 0;   ///< 0: no limit
     double max_seconds = 0.0;      ///< of solving, 0: no limit
     double target_error = 0.02;    ///< estimated relative error to stop at, 0: never
@@ -101,6 +108,9 @@ inline constexpr MethodInfo kMethods[] = {
     {"gather", "Gather radiosity by hemicubes on every lumel", "[CG85], [Hoef13]",
      "a reference for the others, which shares nothing with them: slow; --hemicube 64 is enough",
      MaterialModel::diffuse, NearFieldOptions{}.radius, kMostHemicubes},
+    {"matrix", "Form-factor matrices of all reflections", "[SF17]",
+     "one scene under many lights: lumel relight answers at once; small indirect detail is lost",
+     MaterialModel::diffuse, 6.0f, kMostPatchBatch},
 };
 
 /// The method of that name. Throws Error{input} if there is none.

@@ -1,0 +1,16 @@
+// Where a block of lumels is seen from. The includer declares `Lumel lumels[]` and includes
+// world/lumel.glsl.
+
+LumelPoint block_point(Patch block)
+{
+    if (block.eye != kFromMean) {
+        const Lumel lumel = lumels[block.eye];
+        return LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u);
+    }
+    vec3 position = vec3(0.0), normal = vec3(0.0);
+    for (uint j = block.first; j < block.first + block.count; ++j) {
+        position += lumels[j].position;
+        normal += lumels[j].normal;
+    }
+    return LumelPoint(position / float(block.count), normalize(normal), normal, 0u);
+}

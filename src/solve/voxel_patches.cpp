@@ -1,0 +1,159 @@
+#include "solve/voxel_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/error.h"
+
+namespace lumel {
+namespace {
+
+/// What the lumels of a patch have in common: cell, side of a cube that they face, chart.
+using Key = std::array<std::int32_t, 5>;
+inline constexpr std::int32_t kAnyChart = -1;
+
+/// The grid's corner lies so many voxels before the scene's: surfaces rarely lie on its planes.
+constexpr glm::vec3 kGridShift{0.381966f, 0.414214f, 0.267949f};
+/// Halvings in the search for the finest grid: a voxel's side is then known to about 1 %.
+constexpr int kHalvings = 12;
+/// The finest grid has so many voxels along the scene's diagonal, the coarsest one.
+constexpr float kMostVoxels = 4096.0f;
+
+struct Place {
+    glm::vec3 position;  ///< in the world
+    std::int32_t facing;
+    std::int32_t chart;  ///< with its side
+    float area;
+    glm::vec3 normal;
+};
+
+/// The side of a cube that a normal leads out of, 0 to 5.
+std::int32_t facing_of(const glm::vec3& normal)
+{
+    const glm::vec3 size = glm::abs(normal);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
+}
+
+std::vector<Place> places_of(const World& world, const Lumels& lumels)
+{
+    std::vector<Place> places;
+    places.reserve(lumels.lumels.size());
+    for (const Lumel& lumel : lumels.lumels) {
+        const glm::mat4& transform = world.placements()[lumel.instance].now;
+        const glm::mat3 normals = glm::transpose(glm::inverse(glm::mat3(transform)));
+        const glm::vec3 normal = glm::normalize(normals * lumel.normal);
+        const bool back = (lumel.flags & kLumelBack) != 0;
+        places.push_back({glm::vec3(transform * glm::vec4(lumel.position, 1.0f)), facing_of(normal),
+                          std::int32_t(2 * lumel.chart + (back ? 1 : 0)),
+                          (lumel.flags & kLumelBuried) ? 0.0f : lumel.area, normal});
+    }
+    return places;
+}
+
+struct Grid {
+    glm::vec3 low{0.0f}, high{0.0f};
+    std::vector<float> chart_area;  ///< [2 × charts]
+};
+
+Grid grid_of(const std::vector<Place>& places)
+{
+    Grid grid{places.front().position, places.front().position, {}};
+    for (const Place& place : places) {
+        grid.low = glm::min(grid.low, place.position);
+        grid.high = glm::max(grid.high, place.position);
+        grid.chart_area.resize(std::max(grid.chart_area.size(), std::size_t(place.chart) + 1));
+        grid.chart_area[std::size_t(place.chart)] += place.area;
+    }
+    return grid;
+}
+
+Key key_of(const Place& place, const Grid& grid, float side)
+{
+    const glm::ivec3 cell((place.position - grid.low) / side + kGridShift);
+    const bool large = grid.chart_area[std::size_t(place.chart)] >= side * side;
+    return {cell.x, cell.y, cell.z, place.facing, large ? place.chart : kAnyChart};
+}
+
+std::size_t count_patches(const std::vector<Place>& places, const Grid& grid, float side)
+{
+    std::vector<Key> keys;
+    keys.reserve(places.size());
+    for (const Place& place : places)
+        if (place.area > 0.0f)
+            keys.push_back(key_of(place, grid, side));
+    std::sort(keys.begin(), keys.end());
+    return std::size_t(std::unique(keys.begin(), keys.end()) - keys.begin());
+}
+
+/// The smallest side [m] found that makes at most `most` patches.
+float voxel_side(const std::vector<Place>& places, const Grid& grid, std::uint32_t most)
+{
+    float coarse = glm::distance(grid.low, grid.high), fine = coarse / kMostVoxels;
+    if (count_patches(places, grid, fine) <= most)
+        return fine;
+    for (int i = 0; i < kHalvings; ++i) {
+        const float side = std::sqrt(coarse * fine);
+        (count_patches(places, grid, side) <= most ? coarse : fine) = side;
+    }
+    return coarse;
+}
+
+void add_to(VoxelPatch& patch, const Place& place, const Lumel& lumel)
+{
+    patch.area += place.area;
+    patch.centre += place.area * place.position;
+    patch.normal += place.area * place.normal;
+    patch.color += place.area * lumel.albedo;
+}
+
+void finish(VoxelPatch& patch)
+{
+    patch.centre /= patch.area;
+    patch.color /= patch.area;
+    patch.normal = glm::normalize(patch.normal);
+}
+
+}  // namespace
+
+VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels, std::uint32_t most)
+{
+    const std::vector<Place> places = places_of(world, lumels);
+    const Grid grid = grid_of(places);
+    VoxelPatches result;
+    result.side = voxel_side(places, grid, most);
+    std::map<Key, std::uint32_t> numbers;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        result.patch_of.push_back(kPatchless);
+        if (places[i].area <= 0.0f)
+            continue;
+        const Key key = key_of(places[i], grid, result.side);
+        const auto number = std::uint32_t(numbers.size());
+        result.patch_of[i] = numbers.try_emplace(key, number).first->second;
+        result.patches.resize(numbers.size());
+        add_to(result.patches[result.patch_of[i]], places[i], lumels.lumels[i]);
+    }
+    for (VoxelPatch& patch : result.patches)
+        finish(patch);
+    if (result.size() < 2 || result.size() > most)
+        throw Error(ErrorKind::input, "--patches " + std::to_string(most),
+                    "this scene cannot be cut into from 2 to so many patches");
+    return result;
+}
+
+std::vector<glm::vec3> VoxelPatches::means(const Lumels& lumels,
+                                           std::span<const glm::vec3> values) const
+{
+    std::vector<glm::vec3> sums(size(), glm::vec3(0.0f));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (patch_of[i] != kPatchless)
+            sums[patch_of[i]] += lumels.lumels[i].area * values[i];
+    for (std::size_t patch = 0; patch < size(); ++patch)
+        sums[patch] /= patches[patch].area;
+    return sums;
+}
+
+}  // namespace lumel

@@ -1,0 +1,40 @@
+#pragma once
+// A scene simplified to a few thousand patches, whatever its triangles.
+//
+//   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017. Section 3.2.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "world/world.h"
+
+namespace lumel {
+
+/// Lumels that share a voxel and face alike.
+struct VoxelPatch {
+    float area = 0.0f;       ///< Σ A [m²]
+    glm::vec3 centre{0.0f};  ///< mean place, in the world [m]
+    glm::vec3 normal{0.0f};  ///< unit, mean, in the world
+    glm::vec3 color{0.0f};   ///< mean albedo
+};
+
+inline constexpr std::uint32_t kPatchless = 0xffffffffu;  ///< of lumels that are buried
+
+struct VoxelPatches {
+    float side = 0.0f;                    ///< of a voxel [m]
+    std::vector<std::uint32_t> patch_of;  ///< [N] or kPatchless
+    std::vector<VoxelPatch> patches;      ///< [n]
+
+    std::size_t size() const { return patches.size(); }
+    /// Means over patches, by area, of what lumels have: [N] to [n].
+    std::vector<glm::vec3> means(const Lumels& lumels, std::span<const glm::vec3> values) const;
+};
+
+/// Cuts charts by a grid of voxels, as fine as makes at most `most` patches. What is smaller than a
+/// voxel's face shares its patch with what lies in the same voxel and faces the same way. The
+/// same scene and number give the same patches.
+/// Throws Error{input} if there are fewer than two to be had.
+VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels, std::uint32_t most);
+
+}  // namespace lumel
