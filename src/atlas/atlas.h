@@ -59,4 +59,7 @@ struct Lumels {
 /// layout meet in one texel, it belongs to the one that covers most of it.
 Lumels lift(const Scene& scene, const Atlas& atlas);
 
+/// [texels][2]: front and back lumel of each texel, or kNoLumel.
+std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels);
+
 }  // namespace lumel

@@ -353,4 +353,16 @@ Lumels lift(const Scene& scene, const Atlas& atlas)
     return lumels;
 }
 
+std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels)
+{
+    std::vector<std::uint32_t> lumel_of(2 * std::size_t(lumels.width) * std::size_t(lumels.height),
+                                        kNoLumel);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        lumel_of[2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0)] =
+            std::uint32_t(i);
+    }
+    return lumel_of;
+}
+
 }  // namespace lumel

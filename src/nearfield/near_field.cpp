@@ -18,7 +18,6 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "nearfield/open_lumels.h"
 #include "nearfield/sequence.h"
 #include "nearfield/world_lumels.h"
 
@@ -328,8 +327,8 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
 
     // Keep what counts.
     NearField table;
-    if (options.open)
-        table.open = open_lumels(scene, rays, lumels);
+    if (options.surroundings)
+        table.around = find_surroundings(scene, rays, lumels);
     table.radius = radius;
     table.first.reserve(world.size() + 1);
     table.first.push_back(0);

@@ -7,6 +7,7 @@
 
 #include "atlas/atlas.h"
 #include "nearfield/near_pairs.h"
+#include "nearfield/surroundings.h"
 #include "rays/ray_scene.h"
 #include "scene/scene.h"
 
@@ -18,7 +19,7 @@ struct NearFieldOptions {
     int samples = 16;     ///< points per close pair; four times as many where it is half hidden
     bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
-    bool open = false;  ///< finds NearField::open too
+    bool surroundings = false;  ///< finds NearField::around too
 };
 
 /// Sparse form factors, one row per receiver i (compressed rows):
@@ -28,7 +29,7 @@ struct NearField {
     std::vector<std::uint32_t> first;   ///< [N + 1]
     std::vector<std::uint32_t> column;  ///< [nnz] shooter j
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
-    std::vector<char> open;             ///< [N] of open_lumels(), or empty
+    Surroundings around;                ///< of the lumels, if asked for
 };
 
 /// Builds the table. Columns ascend in each row. Buried lumels have empty rows and appear in no

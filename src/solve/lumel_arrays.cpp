@@ -39,18 +39,6 @@ float reflecting_area(const Lumels& lumels)
     return sum;
 }
 
-std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels)
-{
-    std::vector<std::uint32_t> lumel_of(2 * std::size_t(lumels.width) * std::size_t(lumels.height),
-                                        kNoLumel);
-    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
-        const Lumel& lumel = lumels.lumels[i];
-        lumel_of[2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0)] =
-            std::uint32_t(i);
-    }
-    return lumel_of;
-}
-
 double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission)
 {
     double sum = 0.0;

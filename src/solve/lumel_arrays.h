@@ -26,9 +26,6 @@ float reflecting_area(const Lumels& lumels);
 /// Σ A 𝓛(E) [lm]; emission [N] as of emission_of.
 double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission);
 
-/// [texels][2]: front and back lumel of each texel, or kNoLumel.
-std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels);
-
 template <class T>
 std::span<const T> view(const std::vector<T>& values)
 {

@@ -8,9 +8,9 @@
 //
 //     Σ_p (F_ip - Σ_q w_q F_qp)²  +  λ Σ_q (w_q - w⁰_q)²  →  min,
 //
-// w⁰ by distance. So patches behind a wall get no weight though they may be closest, and where a
-// lumel lies in a corner it is told from the middle of its patch. The sums on the way are taken
-// while the columns p are found: no row of a lumel is ever kept.
+// w⁰ by distance and likeness. So patches behind a wall get no weight though they may be closest,
+// and where a lumel lies in a corner it is told from the middle of its patch. The sums on the way
+// are taken while the columns p are found: no row of a lumel is ever kept.
 
 #include "solve/lumel_transfer.h"
 
@@ -33,8 +33,8 @@ constexpr float kTurn = 2.0f;
 /// Those that face away more than this cosine tells are no neighbours.
 constexpr float kLeastAgreement = 0.5f;
 /// λ, as a part of the mean of Σ_p F_qp².
-constexpr float kFaith = 0.03f;
-/// Keeps the weights of places without a patch of their own at 0, in the same measure.
+constexpr float kFaith = 0.003f;
+/// What keeps weights of patches that are out of question at 0, in the same measure.
 constexpr float kIdle = 1e6f;
 
 using Row = std::array<float, kTransferPatches>;
@@ -204,6 +204,7 @@ void LumelTransferFit::fit_lumel(std::size_t i, const Overlaps& overlaps,
 {
     const std::uint32_t* patch = &patch_[i * kTransferPatches];
     const float* start = &start_[i * kTransferPatches];
+    const float* product = &products_[i * kTransferPatches];
     std::array<Row, kTransferPatches> system;
     float mean = 0.0f;
     for (std::size_t a = 0; a < kTransferPatches; ++a) {
@@ -214,12 +215,19 @@ void LumelTransferFit::fit_lumel(std::size_t i, const Overlaps& overlaps,
     const float faith = kFaith * mean;
     if (faith <= 0.0f)
         return;
+    Row wish;
+    float wishes = 0.0f;
+    for (std::size_t a = 0; a < kTransferPatches; ++a) {
+        // What this patch alone would tell of the lumel: nothing if they see nothing in common.
+        const float likeness = std::min(product[a] / std::max(system[a][a], 1e-30f), 1.0f);
+        wish[a] = likeness * start[a];
+        wishes += wish[a];
+    }
     Row right;
     for (std::size_t a = 0; a < kTransferPatches; ++a) {
-        // Places that hold the same patch twice are told apart by this alone.
-        const bool idle = start[a] == 0.0f;
+        const bool idle = wish[a] == 0.0f;
         system[a][a] += idle ? kIdle * mean : faith;
-        right[a] = idle ? 0.0f : products_[i * kTransferPatches + a] + faith * start[a];
+        right[a] = idle ? 0.0f : product[a] + faith * wish[a] / wishes;
     }
     const Row found = solved(system, right);
     float sum = 0.0f;

@@ -79,9 +79,9 @@ TransportBuilder::TransportBuilder(const gpu::Device& device, const World& world
                                    const Lumels& lumels, const NearField& near,
                                    const SolverOptions& options)
     : lumels_(&lumels),
-      open_(near.open),
+      around_(near.around),
       bounces_(options.bounces > 0 ? options.bounces : kAllBounces),
-      patches_(make_voxel_patches(world, lumels, options.patches)),
+      patches_(make_voxel_patches(world, lumels, around_, options.patches)),
       factors_(device, world, lumels, near, patches_, options),
       fit_(world, lumels, patches_)
 {
@@ -104,9 +104,9 @@ Transport TransportBuilder::finish()
     const SquareMatrix found = factors_.matrix();
     result.form_factors = factors_.take_matrix();
     result.check = balance(result.form_factors, each_patch(patches_, &VoxelPatch::area),
-                           closed_patches(patches_, open_));
+                           closed_patches(patches_, around_.open));
     result.transfer = fit_.fit(found, sums_of_rows(result.form_factors),
-                               closed_lumels(lumels_->lumels.size(), open_));
+                               closed_lumels(lumels_->lumels.size(), around_.open));
     result.bounces = lumel::bounces(
         color_matrix(result.form_factors, each_patch(patches_, &VoxelPatch::color)), bounces_);
     result.patches = std::move(patches_);

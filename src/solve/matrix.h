@@ -24,7 +24,8 @@ struct Transport {
 /// Builds a Transport, a batch of shooters at a time.
 class TransportBuilder {
 public:
-    /// All must outlive this. Form factors are made to add up where near.open says so.
+    /// All must outlive this. Form factors are made to add up, and
+    /// patches to end at walls, as far as near.around knows.
     TransportBuilder(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const NearField& near, const SolverOptions& options);
 
@@ -37,7 +38,7 @@ public:
 
 private:
     const Lumels* lumels_;
-    std::vector<char> open_;  ///< [N], or empty
+    Surroundings around_;
     std::uint32_t bounces_;
     VoxelPatches patches_;
     FormFactors factors_;

@@ -33,7 +33,7 @@ NearFieldOptions near_field_options(const SolverOptions& options)
     near.centre = options.rule == SampleRule::centre;
     near.seed = options.seed;
     near.radius = method_of(options.method).near_radius;
-    near.open = options.method == "matrix";
+    near.surroundings = options.method == "matrix";
     return near;
 }
 

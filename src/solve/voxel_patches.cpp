@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <string>
 
 #include "core/error.h"
@@ -78,26 +79,95 @@ Key key_of(const Place& place, const Grid& grid, float side)
     return {cell.x, cell.y, cell.z, place.facing, large ? place.chart : kAnyChart};
 }
 
-std::size_t count_patches(const std::vector<Place>& places, const Grid& grid, float side)
+/// Lumels of one chart that can be reached from each other without passing a wall.
+class Components {
+public:
+    explicit Components(std::size_t count) : parent_(count)
+    {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+    std::uint32_t root(std::uint32_t i)
+    {
+        while (parent_[i] != i)
+            i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void join(std::uint32_t i, std::uint32_t j)
+    {
+        const std::uint32_t a = root(i), b = root(j);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// All that the search for a grid looks at.
+struct Layout {
+    std::vector<Place> places;  ///< [N]
+    Grid grid;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;  ///< lumels with nothing between
+    bool walls = false;                                          ///< is it known where walls are?
+};
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> joins_of(const Lumels& lumels,
+                                                              const Surroundings& around)
 {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
+    const std::vector<std::uint32_t> at = lumels_by_side(lumels);
+    for (std::uint32_t i = 0; i < around.joined_right.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        const std::size_t here =
+            2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0);
+        if (around.joined_right[i])
+            joins.emplace_back(i, at[here + 2]);
+        if (around.joined_below[i])
+            joins.emplace_back(i, at[here + 2 * std::size_t(lumels.width)]);
+    }
+    return joins;
+}
+
+/// The patch of each lumel, numbered as they are met.
+std::vector<std::uint32_t> numbers_of(const Layout& layout, float side, std::size_t& count)
+{
+    const std::size_t lumels = layout.places.size();
     std::vector<Key> keys;
-    keys.reserve(places.size());
-    for (const Place& place : places)
-        if (place.area > 0.0f)
-            keys.push_back(key_of(place, grid, side));
-    std::sort(keys.begin(), keys.end());
-    return std::size_t(std::unique(keys.begin(), keys.end()) - keys.begin());
+    keys.reserve(lumels);
+    for (const Place& place : layout.places)
+        keys.push_back(key_of(place, layout.grid, side));
+    Components components(lumels);
+    for (const auto& [i, j] : layout.joins)
+        if (keys[i] == keys[j])
+            components.join(i, j);
+    std::map<std::pair<Key, std::uint32_t>, std::uint32_t> numbers;
+    std::vector<std::uint32_t> result(lumels, kPatchless);
+    for (std::uint32_t i = 0; i < lumels; ++i) {
+        if (layout.places[i].area <= 0.0f)
+            continue;
+        const bool whole = !layout.walls || keys[i].back() == kAnyChart;
+        const auto number = std::uint32_t(numbers.size());
+        result[i] =
+            numbers.try_emplace({keys[i], whole ? 0 : components.root(i)}, number).first->second;
+    }
+    count = numbers.size();
+    return result;
 }
 
 /// The smallest side [m] found that makes at most `most` patches.
-float voxel_side(const std::vector<Place>& places, const Grid& grid, std::uint32_t most)
+float voxel_side(const Layout& layout, std::uint32_t most)
 {
-    float coarse = glm::distance(grid.low, grid.high), fine = coarse / kMostVoxels;
-    if (count_patches(places, grid, fine) <= most)
+    const auto count = [&](float side) {
+        std::size_t patches = 0;
+        numbers_of(layout, side, patches);
+        return patches;
+    };
+    float coarse = glm::distance(layout.grid.low, layout.grid.high);
+    float fine = coarse / kMostVoxels;
+    if (count(fine) <= most)
         return fine;
     for (int i = 0; i < kHalvings; ++i) {
         const float side = std::sqrt(coarse * fine);
-        (count_patches(places, grid, side) <= most ? coarse : fine) = side;
+        (count(side) <= most ? coarse : fine) = side;
     }
     return coarse;
 }
@@ -119,28 +189,25 @@ void finish(VoxelPatch& patch)
 
 }  // namespace
 
-VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels, std::uint32_t most)
+VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
+                                const Surroundings& around, std::uint32_t most)
 {
-    const std::vector<Place> places = places_of(world, lumels);
-    const Grid grid = grid_of(places);
+    Layout layout{
+        places_of(world, lumels), {}, joins_of(lumels, around), !around.joined_right.empty()};
+    layout.grid = grid_of(layout.places);
     VoxelPatches result;
-    result.side = voxel_side(places, grid, most);
-    std::map<Key, std::uint32_t> numbers;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        result.patch_of.push_back(kPatchless);
-        if (places[i].area <= 0.0f)
-            continue;
-        const Key key = key_of(places[i], grid, result.side);
-        const auto number = std::uint32_t(numbers.size());
-        result.patch_of[i] = numbers.try_emplace(key, number).first->second;
-        result.patches.resize(numbers.size());
-        add_to(result.patches[result.patch_of[i]], places[i], lumels.lumels[i]);
-    }
-    for (VoxelPatch& patch : result.patches)
-        finish(patch);
-    if (result.size() < 2 || result.size() > most)
+    result.side = voxel_side(layout, most);
+    std::size_t count = 0;
+    result.patch_of = numbers_of(layout, result.side, count);
+    if (count < 2 || count > most)
         throw Error(ErrorKind::input, "--patches " + std::to_string(most),
                     "this scene cannot be cut into from 2 to so many patches");
+    result.patches.resize(count);
+    for (std::size_t i = 0; i < layout.places.size(); ++i)
+        if (result.patch_of[i] != kPatchless)
+            add_to(result.patches[result.patch_of[i]], layout.places[i], lumels.lumels[i]);
+    for (VoxelPatch& patch : result.patches)
+        finish(patch);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "nearfield/surroundings.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -31,10 +32,12 @@ struct VoxelPatches {
     std::vector<glm::vec3> means(const Lumels& lumels, std::span<const glm::vec3> values) const;
 };
 
-/// Cuts charts by a grid of voxels, as fine as makes at most `most` patches. What is smaller than a
-/// voxel's face shares its patch with what lies in the same voxel and faces the same way. The
-/// same scene and number give the same patches.
-/// Throws Error{input} if there are fewer than two to be had.
-VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels, std::uint32_t most);
+/// Cuts charts by a grid of voxels, as fine as makes at most `most` patches, and where something
+/// stands between lumels: light on one side of a wall is none on the other. What is smaller than a
+/// voxel's face shares its patch with what lies in the same voxel and faces the same way. The same
+/// scene and number give the same patches. around: as far as it is known.
+/// Throws Error{input} if there are fewer than two to be had, or none so few.
+VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
+                                const Surroundings& around, std::uint32_t most);
 
 }  // namespace lumel

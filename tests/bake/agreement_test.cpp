@@ -70,7 +70,8 @@ bool everywhere(const Lumel&)
 
 class EverySolver : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(By, EverySolver, testing::Values("stochastic", "progressive", "gather"),
+INSTANTIATE_TEST_SUITE_P(By, EverySolver,
+                         testing::Values("stochastic", "progressive", "gather", "matrix"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)

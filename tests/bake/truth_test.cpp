@@ -11,7 +11,7 @@ using support::LumelError;
 using support::Solved;
 
 /// Solvers that are held to the same truths.
-const auto kEverySolver = testing::Values("stochastic", "progressive", "gather");
+const auto kEverySolver = testing::Values("stochastic", "progressive", "gather", "matrix");
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 
@@ -244,8 +244,10 @@ INSTANTIATE_TEST_SUITE_P(By, SealedBox,
                                                                          Projection::hemisphere)),
                          seen_name);
 
-INSTANTIATE_TEST_SUITE_P(ByGathering, SealedBox,
-                         testing::Values(Seen{"gather", Projection::hemicube}), seen_name);
+INSTANTIATE_TEST_SUITE_P(ByHemicubes, SealedBox,
+                         testing::Values(Seen{"gather", Projection::hemicube},
+                                         Seen{"matrix", Projection::hemicube}),
+                         seen_name);
 
 class PatchworkSphere : public testing::TestWithParam<const char*> {};
 
