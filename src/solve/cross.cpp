@@ -111,13 +111,6 @@ std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lum
     return list;
 }
 
-std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch)
-{
-    while (list.empty() || list.size() % batch != 0)
-        list.push_back({kNoPatch, 0, 0, kSendCrossing});
-    return list;
-}
-
 }  // namespace
 
 CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
@@ -143,9 +136,8 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
                   solver.shots().batch()),
       batch_(solver.shots().batch()),
       back_layout_{kBackSide, pixels_of_levels(kBackSide)},
-      patch_count_(moving_patches(solver.shots().layout(), lumels, open).size()),
-      list_(device,
-            view(in_whole_batches(moving_patches(solver.shots().layout(), lumels, open), batch_))),
+      patches_(moving_patches(solver.shots().layout(), lumels, open)),
+      list_(device, view(in_whole_batches(patches_, batch_))),
       back_eyes_(device, batch_),
       back_(device, std::size_t(batch_) * back_layout_.per_hemicube),
       lumel_of_(device, view(lumels_by_side(lumels))),
@@ -153,8 +145,7 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       near_column_(device, 1),
       near_factor_(device, 1),
       fresh_(device, lumels.lumels.size()),
-      crossing_(device, lumels.lumels.size()),
-      no_ambient_(device, 1)
+      crossing_(device, lumels.lumels.size())
 {
     solver.pacer().work("prepare", 1, 1,
                         [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -192,10 +183,8 @@ bool CrossRedistribution::step()
     look_from_backs();
     resolve_backs();
     receive();
+    hemicubes_ += 2 * std::min<std::uint64_t>(batch_, patches_.size() - next_);
     next_ += batch_;
-    hemicubes_ +=
-        2 * std::min<std::uint64_t>(
-                batch_, patch_count_ - std::min<std::size_t>(patch_count_, next_ - batch_));
     under_way_ = next_ < list_.size();
     if (!under_way_) {
         const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
@@ -213,9 +202,7 @@ void CrossRedistribution::look_from_fronts()
     PatchShots& shots = solver_->shots();
     gpu::Pacer& pacer = solver_->pacer();
     pacer.work("take", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.copy_part(list_.buffer(), next_ * sizeof(ChosenPatch), shots.chosen().buffer(), 0,
-                           batch_ * sizeof(ChosenPatch));
-        shots.take(commands, solver_->light(), no_ambient_);
+        shots.take(commands, solver_->light(), list_, next_);
         commands.dispatch(back_eyes_kernel_, {shots.eyes(), back_eyes_}, BackEyesParams{batch_},
                           batch_);
     });

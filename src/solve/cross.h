@@ -26,7 +26,6 @@ public:
     bool step();
     bool is_under_way() const { return under_way_; }
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far, fronts and backs
-    std::size_t patches() const { return patch_count_; }    ///< |M|
 
 private:
     void look_from_fronts();
@@ -43,15 +42,14 @@ private:
     LitViews back_views_;
     std::uint32_t batch_;  ///< K
     BackLayout back_layout_;
-    std::size_t patch_count_ = 0;
-    gpu::Array<ChosenPatch> list_;        ///< of all moving patches, in whole batches
-    gpu::Array<Eye> back_eyes_;           ///< [K]
-    gpu::Array<BackPixel> back_;          ///< [K][pixels of all levels]
-    gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2]
+    std::vector<ChosenPatch> patches_;                    ///< M: all that move
+    gpu::Array<ChosenPatch> list_;                        ///< of them, in whole batches
+    gpu::Array<Eye> back_eyes_;                           ///< [K]
+    gpu::Array<BackPixel> back_;                          ///< [K][pixels of all levels]
+    gpu::Array<std::uint32_t> lumel_of_;                  ///< [texels][2]
     gpu::Array<std::uint32_t> near_first_, near_column_;  ///< rows of still lumels, moving columns
     gpu::Array<float> near_factor_;
     gpu::Array<glm::vec3> fresh_, crossing_;  ///< [N] what moving patches do: being found, in force
-    gpu::Array<glm::vec3> no_ambient_;        ///< [1], not read
     std::uint32_t next_ = 0;                  ///< of the list
     bool under_way_ = false;
     std::uint64_t hemicubes_ = 0;

@@ -61,7 +61,7 @@ bool is_behind(const MovedBox& box, const glm::vec3& x, const glm::vec3& normal,
     return glm::dot(highest - x, normal) < -slack * glm::length(reach);
 }
 
-/// The lumels of a patch, as progressive.take.comp has them.
+/// The lumels of a patch, as patch_shots.take.comp has them.
 Patch patch_of(const Patches& layout, const ChosenPatch& chosen)
 {
     const PatchChart& chart = layout.charts[chosen.chart];
@@ -86,8 +86,7 @@ IncrementalRedistribution::IncrementalRedistribution(const gpu::Device& device, 
       reset_(device, "incremental.reset", kResetSpirv, 3, sizeof(ResetParams), kProgressiveGroup),
       moved_(device, world.placements().size()),
       boxes_(device, 1),
-      list_(device, 1),
-      no_ambient_(device, 1)
+      list_(device, 1)
 {
 }
 
@@ -139,9 +138,7 @@ std::vector<ChosenPatch> IncrementalRedistribution::patches_to_shoot() const
                 list.push_back(chosen);
         }
     }
-    while (list.empty() || list.size() % solver_->shots().batch() != 0)
-        list.push_back({kNoPatch, 0, 0, kSendShot});
-    return list;
+    return in_whole_batches(std::move(list), solver_->shots().batch());
 }
 
 bool IncrementalRedistribution::step()
@@ -155,9 +152,7 @@ bool IncrementalRedistribution::step()
             commands.dispatch(reset_, {world_->lumels(), moved_, solver_->light().far},
                               ResetParams{std::uint32_t(world_->lumels().size())},
                               world_->lumels().size());
-        commands.copy_part(list_.buffer(), next_ * sizeof(ChosenPatch), shots.chosen().buffer(), 0,
-                           shots.batch() * sizeof(ChosenPatch));
-        shots.take(commands, solver_->light(), no_ambient_);
+        shots.take(commands, solver_->light(), list_, next_);
     });
     shots.look(pacer);
     receive();

@@ -43,7 +43,6 @@ private:
     gpu::Array<std::uint32_t> moved_;
     gpu::Array<MovedBox> boxes_;
     gpu::Array<ChosenPatch> list_;
-    gpu::Array<glm::vec3> no_ambient_;  ///< [1], not read where shot light is sent
     Move move_;
     std::vector<glm::mat4> before_;  ///< [instances] where all were
     std::uint32_t next_ = 0;         ///< of the list

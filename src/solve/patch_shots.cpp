@@ -34,7 +34,8 @@ PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lume
       chosen_(device, batch_),
       eyes_(device, batch_),
       shots_(device, batch_),
-      sending_(device, lumels.lumels.size())
+      sending_(device, lumels.lumels.size()),
+      no_ambient_(device, 1)
 {
 }
 
@@ -46,6 +47,21 @@ void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
                        light.surface, light.emission, light.far, light.near, light.shot, sending_,
                        eyes_, shots_, ambient},
                       TakeParams{batch_}, batch_);
+}
+
+void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
+                      const gpu::Array<ChosenPatch>& list, std::uint32_t first)
+{
+    commands.copy_part(list.buffer(), first * sizeof(ChosenPatch), chosen_.buffer(), 0,
+                       batch_ * sizeof(ChosenPatch));
+    take(commands, light, no_ambient_);
+}
+
+std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch)
+{
+    while (list.empty() || list.size() % batch != 0)
+        list.push_back({kNoPatch, 0, 0, kSendShot});
+    return list;
 }
 
 }  // namespace lumel

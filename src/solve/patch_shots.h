@@ -27,9 +27,14 @@ public:
     PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
                const SolverOptions& options);
 
-    /// Eyes, shots and sending radiosities of the patches in chosen().
+    /// Eyes, shots and sending radiosities of the patches in chosen(). `ambient` [1]: light still
+    /// to arrive [lx], for those that send what is unshot.
     void take(gpu::Commands& commands, const ShotLight& light,
               const gpu::Array<glm::vec3>& ambient);
+    /// The same of the batch that begins at `first` in a list in whole batches, none of which sends
+    /// what is unshot.
+    void take(gpu::Commands& commands, const ShotLight& light, const gpu::Array<ChosenPatch>& list,
+              std::uint32_t first);
     /// Draws what they see.
     void look(gpu::Pacer& pacer) { views_.look_from(pacer, eyes_, batch_); }
 
@@ -55,7 +60,12 @@ private:
     gpu::Array<ChosenPatch> chosen_;
     gpu::Array<Eye> eyes_;
     gpu::Array<PatchShot> shots_;
-    gpu::Array<glm::vec3> sending_;  ///< part of its light that a point of this batch sends
+    gpu::Array<glm::vec3> sending_;     ///< part of its light that a point of this batch sends
+    gpu::Array<glm::vec3> no_ambient_;  ///< [1], not read
 };
+
+/// With places that stay empty behind it, so that its length divides by `batch`: one batch at
+/// least.
+std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch);
 
 }  // namespace lumel

@@ -63,7 +63,7 @@ struct ChooseParams {
     float area;         ///< Σ A [m²]
 };
 
-/// Push constants of progressive.take.comp and progressive.settle.comp.
+/// Push constants of patch_shots.take.comp and progressive.settle.comp.
 struct TakeParams {
     uint batch;  ///< K
 };
