@@ -246,11 +246,8 @@ void ProgressiveRadiosity::take_figures()
 
 double ProgressiveRadiosity::residual()
 {
-    pacer_.work("figures", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        sum_figures(commands);
-    });
-    pacer_.finish();
-    const Terms terms = figures_.now();
+    const Terms terms =
+        figures_.hear(pacer_, [&](gpu::Commands& commands) { sum_figures(commands); });
     most_arrived_ = std::max(most_arrived_, double(terms.column[0].y));
     return missing_part(terms, kDark * most_arrived_);
 }
