@@ -210,12 +210,11 @@ void GatherRadiosity::step()
 
 void GatherRadiosity::place_eyes(std::uint32_t lumels)
 {
-    const std::uint32_t half = taken_[0] > taken_[1] ? 1 : 0;
     const GatherEyesParams params{.first = next_,
                                   .eyes = lumels * channels_,
                                   .channels = channels_,
-                                  .point = taken_[half],
-                                  .seed = 2 * options_.seed + half,
+                                  .point = taken_[half()],
+                                  .seed = 2 * options_.seed + half(),
                                   .centre = averages_ ? 0u : 1u,
                                   .lift = lift_};
     pacer_.work("eyes", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -238,15 +237,14 @@ void GatherRadiosity::integrate(std::uint32_t eyes)
 
 void GatherRadiosity::bounce(std::uint32_t lumels)
 {
-    const std::uint32_t half = taken_[0] > taken_[1] ? 1 : 0;
     std::array<std::uint32_t, 2> taken = taken_;
-    ++taken[half];
+    ++taken[half()];
     const BounceParams params{.first = next_,
                               .lumels = lumels,
                               .channels = channels_,
                               .count = count_,
                               .averaged = averages_ ? 1u : 0u,
-                              .half_ = half,
+                              .half_ = half(),
                               .taken = {taken[0], taken[1]}};
     pacer_.work("bounce", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         commands.dispatch(
@@ -261,7 +259,7 @@ void GatherRadiosity::end_bounce()
 {
     next_ = 0;
     if (averages_)
-        ++taken_[taken_[0] > taken_[1] ? 1 : 0];
+        ++taken_[half()];
     const Terms terms = figures_.hear(pacer_, [&](gpu::Commands& commands) {
         commands.dispatch(figures_kernel_,
                           {surface_, sums_, change_, irradiance_, figures_.parts()},

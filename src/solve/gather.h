@@ -31,6 +31,8 @@ private:
     void bounce(std::uint32_t lumels);
     void end_bounce();
     double still_to_come(const Terms& terms) const;
+    /// The half-solution that this bounce belongs to: they take turns.
+    std::uint32_t half() const { return taken_[0] > taken_[1] ? 1 : 0; }
 
     SolverOptions options_;
     std::uint32_t count_;  ///< N lumels
