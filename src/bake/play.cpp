@@ -186,7 +186,7 @@ public:
             const LiveState state = live_.update(slice);
             row.update_ms += state.milliseconds;
             row.residual = state.residual;
-            row.at_rest = state.milliseconds < slice;  // it returned early
+            row.at_rest = state.at_rest;
             hemicubes_ = state.hemicubes;
         }
         row.hemicubes = hemicubes_ - before;
