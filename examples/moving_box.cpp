@@ -10,19 +10,10 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "core/error.h"
 #include "live/live_scene.h"
 #include "scene/scene.h"
 
 namespace {
-
-std::uint32_t find_instance(const lumel::Scene& scene, const std::string& name)
-{
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-        if (scene.instances[i].name == name)
-            return i;
-    throw lumel::Error(lumel::ErrorKind::input, scene.path, "has no instance named " + name);
-}
 
 /// Turned about the vertical through a point [rad].
 glm::mat4 turned(const glm::mat4& transform, const glm::vec3& about, float angle)
@@ -40,7 +31,7 @@ void play(const std::string& path)
     const lumel::Scene scene = lumel::read_gltf(path);
     lumel::LiveOptions options;
     options.atlas.size = 64;
-    options.movers = {find_instance(scene, "box")};
+    options.movers = {lumel::find_instance(scene, "box")};
     options.redistribution = lumel::Redistribution::cross;
 
     lumel::LiveScene live(device, scene, options);

@@ -33,7 +33,7 @@ bool is_looked_at(int move, int moves)
 void follow(const gpu::Device& device, const Scene& scene, Redistribution redistribution,
             const DriftSettings& settings)
 {
-    const std::uint32_t box = box_in(scene);
+    const std::uint32_t box = find_instance(scene, kBox);
     LiveScene live(device, scene,
                    {.atlas = {.size = settings.shared.size},
                     .redistribution = redistribution,

@@ -53,7 +53,7 @@ Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
     Stage stage{.scene = read_gltf(which.path)};
     if (pieces > 1)
         stage.scene = cut(stage.scene, pieces);
-    stage.box = box_in(stage.scene);
+    stage.box = find_instance(stage.scene, kBox);
     for (int step = 1; step <= settings.steps + 1; ++step)
         stage.places.push_back(turned(stage.scene, stage.box, double(step * settings.degrees)));
     stage.options.atlas.size = which.low_quality ? settings.low_size : settings.shared.size;

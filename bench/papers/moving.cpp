@@ -3,18 +3,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/papers/iteration_cost.h"
-#include "core/error.h"
 #include "live/still_part.h"
 
 namespace lumel::bench {
-
-std::uint32_t box_in(const Scene& scene)
-{
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-        if (scene.instances[i].name == "box")
-            return i;
-    throw Error(ErrorKind::input, scene.path, "has no node \"box\" that could move");
-}
 
 glm::mat4 turned(const Scene& scene, std::uint32_t box, double degrees)
 {

@@ -24,10 +24,10 @@ inline constexpr ThesisScene kThesisScenes[] = {
     {"low", "Low quality", "scenes/moving-large-lamp.gltf", true},
 };
 
-/// The instance named "box". Throws Error{input} if there is none.
-std::uint32_t box_in(const Scene& scene);
+/// Name of what turns.
+inline constexpr const char* kBox = "box";
 
-/// Its place once it has turned about its own upright axis.
+/// The box's place once it has turned about its own upright axis.
 glm::mat4 turned(const Scene& scene, std::uint32_t box, double degrees);
 
 /// What the host and the device did for one move.

@@ -135,6 +135,9 @@ struct Scene {
 /// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
 Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
 
+/// Index of the first instance of that name. Throws Error{input} if there is none.
+std::uint32_t find_instance(const Scene& scene, const std::string& name);
+
 /// True if any light comes from it.
 bool shines(const PunctualLight& light);
 

@@ -22,20 +22,12 @@ Scene room_with_a_box()
     return read_gltf(LUMEL_SOURCE_DIR "/scenes/moving-large-lamp.gltf");
 }
 
-std::uint32_t index_of(const Scene& scene, const std::string& name)
-{
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-        if (scene.instances[i].name == name)
-            return i;
-    throw std::runtime_error("no instance " + name);
-}
-
 LiveOptions options_for(const Scene& scene, Redistribution redistribution)
 {
     LiveOptions options;
     options.redistribution = redistribution;
     options.atlas.size = kSide;
-    options.movers = {index_of(scene, "box")};
+    options.movers = {find_instance(scene, "box")};
     return options;
 }
 
@@ -45,7 +37,7 @@ glm::mat4 shifted(const Scene& scene, float way, float angle)
     const glm::vec3 axis(1.0f, 0.0f, 1.0f);
     const glm::mat4 shift = glm::translate(glm::mat4(1.0f), axis + glm::vec3(-way, 0.0f, 0.0f));
     return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
-           scene.instances[index_of(scene, "box")].transform;
+           scene.instances[find_instance(scene, "box")].transform;
 }
 
 /// Relative RMSE over lumels that are not buried.
@@ -206,7 +198,7 @@ TEST_P(LiveScenes, BrighterAndDarkerSurfacesAreLitAsIfTheyAlwaysWereSo)
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = 32;
-    const std::uint32_t lamp = index_of(scene, "lamp"), wall = index_of(scene, "wall -y");
+    const std::uint32_t lamp = find_instance(scene, "lamp"), wall = find_instance(scene, "wall -y");
     const glm::vec3 dimmed(0.25f, 0.5f, 1.0f), stained(0.1f, 0.9f, 0.5f);
     LiveScene changed(device, scene, options);
     changed.settle();
@@ -229,7 +221,7 @@ TEST(LiveScene, RefusesWhatItCannotDo)
     options.atlas.size = 32;
     LiveScene live(device, scene, options);
     const glm::mat4 here(1.0f);
-    EXPECT_THROW(live.move(index_of(scene, "lamp"), here), Error);  // not a mover
+    EXPECT_THROW(live.move(find_instance(scene, "lamp"), here), Error);  // not a mover
     EXPECT_THROW(live.move(options.movers[0], glm::scale(here, glm::vec3(2.0f))), Error);
     EXPECT_THROW(live.set_emission(99, glm::vec3(1.0f)), Error);
     EXPECT_THROW(live.set_reflectance(0, glm::vec3(-1.0f)), Error);
