@@ -128,13 +128,6 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
     return outcome;
 }
 
-bool is_gather_there()
-{
-    return std::any_of(std::begin(kMethods), std::end(kMethods), [](const MethodInfo& info) {
-        return std::string(info.id) == kNames[kGather];
-    });
-}
-
 void compare(const gpu::Device& device, const Stage& stage, const DynamicSettings& settings,
              Results& results)
 {
@@ -148,7 +141,7 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
                          reference_irradiance(scene, RayScene(scene), lumels,
                                               {.samples_per_lumel = settings.shared.reference_spp,
                                                .seed = kReferenceSeed}));
-    if (settings.gathers && is_gather_there())
+    if (settings.gathers)
         results.by[kGather] = gathered(device, laid_out, stage);
     const Image scratch = in_a_row(lumels, results.by[kProgressive]->irradiance);
     for (auto& outcome : results.by) {
