@@ -52,6 +52,11 @@ void Pacer::work(const char* kind, std::uint32_t count, std::uint32_t probe, con
     }
 }
 
+void Pacer::work(const char* kind, const std::function<void(Commands&)>& record)
+{
+    work(kind, 1, 1, [&](Commands& commands, std::uint32_t, std::uint32_t) { record(commands); });
+}
+
 std::uint64_t Pacer::flush()
 {
     if (!recording_)

@@ -26,6 +26,8 @@ public:
     /// Records units [0, count) of a kind of work, in one piece if it fits. `probe`: units to
     /// try first when the cost is not known yet.
     void work(const char* kind, std::uint32_t count, std::uint32_t probe, const Record& record);
+    /// The same of work that is never cut: one unit.
+    void work(const char* kind, const std::function<void(Commands&)>& record);
 
     /// Submits what is recorded. Returns a ticket for wait().
     std::uint64_t flush();

@@ -23,7 +23,7 @@ SummedLight::SummedLight(const gpu::Device& device, std::size_t lumels)
 
 void SummedLight::finish_source(gpu::Pacer& pacer)
 {
-    pacer.work("sum of a source", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("sum of a source", [&](gpu::Commands& commands) {
         commands.dispatch(finish_, {sums_, irradiance_}, FinishLightParams{lumels()}, lumels());
     });
 }

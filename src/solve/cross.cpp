@@ -147,10 +147,8 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       fresh_(device, lumels.lumels.size()),
       crossing_(device, lumels.lumels.size())
 {
-    solver.pacer().work("prepare", 1, 1,
-                        [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-                            commands.fill(crossing_.buffer());
-                        });
+    solver.pacer().work("prepare",
+                        [&](gpu::Commands& commands) { commands.fill(crossing_.buffer()); });
 }
 
 void CrossRedistribution::set_near_field(const NearField& near)
@@ -167,9 +165,7 @@ void CrossRedistribution::begin(std::span<const glm::mat4> transforms)
     gpu::Pacer& pacer = solver_->pacer();
     pacer.finish();
     world_->place(transforms);
-    pacer.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.fill(fresh_.buffer());
-    });
+    pacer.work("prepare", [&](gpu::Commands& commands) { commands.fill(fresh_.buffer()); });
     next_ = 0;
     under_way_ = true;
 }
@@ -188,11 +184,10 @@ bool CrossRedistribution::step()
     under_way_ = next_ < list_.size();
     if (!under_way_) {
         const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
-        solver_->pacer().work(
-            "settle", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-                commands.dispatch(settle_, {fresh_, crossing_, solver_->light().far}, params,
-                                  params.count);
-            });
+        solver_->pacer().work("settle", [&](gpu::Commands& commands) {
+            commands.dispatch(settle_, {fresh_, crossing_, solver_->light().far}, params,
+                              params.count);
+        });
     }
     return under_way_;
 }
@@ -201,7 +196,7 @@ void CrossRedistribution::look_from_fronts()
 {
     PatchShots& shots = solver_->shots();
     gpu::Pacer& pacer = solver_->pacer();
-    pacer.work("take", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("take", [&](gpu::Commands& commands) {
         shots.take(commands, solver_->light(), list_, next_);
         commands.dispatch(back_eyes_kernel_, {shots.eyes(), back_eyes_}, BackEyesParams{batch_},
                           batch_);
@@ -219,21 +214,20 @@ void CrossRedistribution::gather()
                                    .count = std::uint32_t(lumels_->lumels.size()),
                                    .batch = batch_,
                                    .near_radius = solver_->near_radius()};
-    solver_->pacer().work("gather", 1, 1,
-                          [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-                              commands.dispatch(gather_,
-                                                {world_->lumels(),
-                                                 shots.eyes(),
-                                                 shots.shots(),
-                                                 {views.image(), views.sampler()},
-                                                 light.shot,
-                                                 light.far},
-                                                params, std::size_t(batch_) * kProgressiveGroup);
-                              commands.dispatch(send_,
-                                                {shots.shots(), light.surface, light.emission,
-                                                 light.far, light.near, light.shot},
-                                                BackEyesParams{batch_}, batch_);
-                          });
+    solver_->pacer().work("gather", [&](gpu::Commands& commands) {
+        commands.dispatch(gather_,
+                          {world_->lumels(),
+                           shots.eyes(),
+                           shots.shots(),
+                           {views.image(), views.sampler()},
+                           light.shot,
+                           light.far},
+                          params, std::size_t(batch_) * kProgressiveGroup);
+        commands.dispatch(
+            send_,
+            {shots.shots(), light.surface, light.emission, light.far, light.near, light.shot},
+            BackEyesParams{batch_}, batch_);
+    });
 }
 
 void CrossRedistribution::look_from_backs()
@@ -249,19 +243,18 @@ void CrossRedistribution::look_from_backs()
 
 void CrossRedistribution::resolve_backs()
 {
-    solver_->pacer().work(
-        "resolve", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-            for (std::uint32_t level = 0; level < kBackLevels; ++level) {
-                const std::uint32_t side = kBackSide >> level;
-                commands.dispatch(resolve_, {{back_views_.image(), back_views_.sampler()}, back_},
-                                  ResolveParams{.views = back_views_.layout(),
-                                                .back = back_layout_,
-                                                .level = level,
-                                                .batch = batch_,
-                                                .samples = gpu::kManySamples},
-                                  std::size_t(batch_) * 3 * side * side);
-            }
-        });
+    solver_->pacer().work("resolve", [&](gpu::Commands& commands) {
+        for (std::uint32_t level = 0; level < kBackLevels; ++level) {
+            const std::uint32_t side = kBackSide >> level;
+            commands.dispatch(resolve_, {{back_views_.image(), back_views_.sampler()}, back_},
+                              ResolveParams{.views = back_views_.layout(),
+                                            .back = back_layout_,
+                                            .level = level,
+                                            .batch = batch_,
+                                            .samples = gpu::kManySamples},
+                              std::size_t(batch_) * 3 * side * side);
+        }
+    });
 }
 
 void CrossRedistribution::receive()

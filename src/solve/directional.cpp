@@ -83,7 +83,7 @@ public:
           pacer_(device)
     {
         batch_ = std::min(batch_, views_.capacity());
-        pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        pacer_.work("prepare", [&](gpu::Commands& commands) {
             for (const auto& band : bands_)
                 commands.fill(band.buffer());
             pyramid_.build(commands, source_, surface_, kDefensiveShare, reflecting_area(lumels));
@@ -137,7 +137,7 @@ private:
                                   .disc = near_radius_ > 0.0f ? 0u : 1u,
                                   .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                   .channels = world_->has_coloured_glass() ? 1u : 0u};
-        pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        pacer_.work("select", [&](gpu::Commands& commands) {
             commands.dispatch(select_,
                               {world_->lumels(), world_->pieces(), source_, source_,
                                pyramid_.array(), pyramid_.array(), eyes_, shots_},

@@ -169,10 +169,8 @@ void GlobalDirections::peel(const Chunk& chunk, std::uint32_t first_view)
     bool more = true;
     for (std::uint32_t layer = 0; more; ++layer) {
         maps_.look_along(pacer_, chunk.views, first_view, batch_, layer);
-        pacer_.work("clear news", 1, 1,
-                    [this](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-                        commands.fill(news_.buffer());
-                    });
+        pacer_.work("clear news",
+                    [this](gpu::Commands& commands) { commands.fill(news_.buffer()); });
         gather(chunk, first_view, layer, true);
         if (layer + 1 < layers_)
             continue;

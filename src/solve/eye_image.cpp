@@ -38,7 +38,7 @@ std::uint64_t EyeImage::most_points(const gpu::Device& device)
 
 void EyeImage::restart(gpu::Pacer& pacer)
 {
-    pacer.work("restart", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("restart", [&](gpu::Commands& commands) {
         for (const auto& sums : sums_)
             commands.fill(sums.buffer());
     });

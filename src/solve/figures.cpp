@@ -46,7 +46,7 @@ void Figures::ask(gpu::Pacer& pacer, std::uint64_t iteration,
 {
     if (waiting_ || iteration < next_)
         return;
-    pacer.work("figures", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("figures", [&](gpu::Commands& commands) {
         evaluate(commands);
         commands.copy(sums_.buffer(), host_.buffer(), sizeof(Terms));
     });
@@ -67,8 +67,7 @@ std::optional<Terms> Figures::take(gpu::Pacer& pacer, std::uint64_t iteration)
 
 Terms Figures::hear(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate)
 {
-    pacer.work("figures", 1, 1,
-               [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
+    pacer.work("figures", evaluate);
     pacer.finish();
     return checked(now());
 }

@@ -184,7 +184,7 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
       figures_(device, count_),
       pacer_(device)
 {
-    pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("prepare", [&](gpu::Commands& commands) {
         for (const auto* array : {&irradiance_, &change_, &sums_})
             commands.fill(array->buffer());
     });
@@ -217,7 +217,7 @@ void GatherRadiosity::place_eyes(std::uint32_t lumels)
                                   .seed = 2 * options_.seed + half(),
                                   .centre = averages_ ? 0u : 1u,
                                   .lift = lift_};
-    pacer_.work("eyes", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("eyes", [&](gpu::Commands& commands) {
         commands.dispatch(eyes_kernel_,
                           {world_->lumels(), world_->pieces(), order_, eyes_, points_}, params,
                           params.eyes);
@@ -227,7 +227,7 @@ void GatherRadiosity::place_eyes(std::uint32_t lumels)
 void GatherRadiosity::integrate(std::uint32_t eyes)
 {
     const IntegrateParams params{.views = views_.layout(), .samples = gpu::kManySamples};
-    pacer_.work("integrate", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("integrate", [&](gpu::Commands& commands) {
         commands.dispatch(
             integrate_,
             {{views_.image(), views_.sampler()}, points_, delta_form_factors_, gathered_}, params,
@@ -246,7 +246,7 @@ void GatherRadiosity::bounce(std::uint32_t lumels)
                               .averaged = averages_ ? 1u : 0u,
                               .half_ = half(),
                               .taken = {taken[0], taken[1]}};
-    pacer_.work("bounce", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("bounce", [&](gpu::Commands& commands) {
         commands.dispatch(
             bounce_,
             {order_, gathered_, surface_, emission_, sums_, change_, irradiance_, radiosity_},

@@ -129,7 +129,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
 
 void GlossyIllumination::begin()
 {
-    pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("prepare", [&](gpu::Commands& commands) {
         for (const auto* array :
              {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_, &passed_on_})
             commands.fill(array->buffer());
@@ -162,7 +162,7 @@ void GlossyIllumination::step()
 
 void GlossyIllumination::restart()
 {
-    pacer_.work("restart", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("restart", [&](gpu::Commands& commands) {
         commands.fill(sums_.buffer());
         commands.fill(absorbed_.buffer());
     });
@@ -181,7 +181,7 @@ void GlossyIllumination::select()
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u,
                                     .channels = world_->has_coloured_glass() ? 1u : 0u};
-    pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(kernels_.select,
                           {world_->lumels(), world_->pieces(), gloss_, diffuse_, last_,
                            power_.array(), eyes_[1 - now], albedo_table_, eyes_[now], shots_,
@@ -207,9 +207,8 @@ void GlossyIllumination::receive()
 {
     const auto& eyes = eyes_[state_.iterations % 2];
     if (!paper_)
-        pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-            near_rows_.light(commands, diffuse_, near_);
-        });
+        pacer_.work("near",
+                    [&](gpu::Commands& commands) { near_rows_.light(commands, diffuse_, near_); });
     GlossyReceiveParams params{.views = views_.layout(),
                                .count = count_,
                                .shots = batch_,
@@ -274,8 +273,7 @@ void GlossyIllumination::take_figures()
 
 std::vector<glm::vec3> GlossyIllumination::irradiance()
 {
-    pacer_.work("evaluate", 1, 1,
-                [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) { evaluate(commands); });
+    pacer_.work("evaluate", [&](gpu::Commands& commands) { evaluate(commands); });
     pacer_.finish();
     return irradiance_.download();
 }
@@ -292,7 +290,7 @@ void GlossyIllumination::rewind()
                            {*device_, last_.size()},
                            {*device_, kMostGlossyBatch},
                            {*device_, view(mean_exitance())}});
-    pacer_.work("rewind", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("rewind", [&](gpu::Commands& commands) {
         const auto carry = [&](const gpu::Buffer& now, const gpu::Buffer& held) {
             commands.copy(is_first ? now : held, is_first ? held : now, held.bytes());
         };
@@ -342,7 +340,7 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
 
 void GlossyIllumination::draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area)
 {
-    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("power", [&](gpu::Commands& commands) {
         power_.build(commands, exitance, surface_, by_area, reflecting_area_);
     });
 }

@@ -147,7 +147,7 @@ bool IncrementalRedistribution::step()
         return false;
     gpu::Pacer& pacer = solver_->pacer();
     PatchShots& shots = solver_->shots();
-    pacer.work("redistribute", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("redistribute", [&](gpu::Commands& commands) {
         if (sign_ > 0.0f && next_ == 0)
             commands.dispatch(reset_, {world_->lumels(), moved_, solver_->light().far},
                               ResetParams{std::uint32_t(world_->lumels().size())},

@@ -97,7 +97,7 @@ Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const Near
 
 void Iteration::begin(gpu::Pacer& pacer)
 {
-    pacer.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("prepare", [&](gpu::Commands& commands) {
         for (const auto* array : {&source_, &direct_, &indirect_, &earlier_, &near_emission_,
                                   &near_source_, &far_, &irradiance_})
             commands.fill(array->buffer());
@@ -160,7 +160,7 @@ void Iteration::evaluate(gpu::Commands& commands)
 
 void Iteration::advance(gpu::Pacer& pacer)
 {
-    pacer.work("advance", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("advance", [&](gpu::Commands& commands) {
         evaluate(commands);
         commands.dispatch(
             advance_, {surface_, emission_, irradiance_, totals_, indirect_, earlier_, source_},
@@ -209,7 +209,7 @@ void Iteration::take_figures(gpu::Pacer& pacer)
 
 std::vector<glm::vec3> Iteration::irradiance(gpu::Pacer& pacer)
 {
-    pacer.work("polish", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("polish", [&](gpu::Commands& commands) {
         evaluate(commands);
         if (paper_)
             return;

@@ -128,7 +128,7 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       figures_(device, count_),
       pacer_(device)
 {
-    pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("prepare", [&](gpu::Commands& commands) {
         for (const auto* array : {&light_.shot, &light_.far, &light_.near})
             commands.fill(array->buffer());
         commands.fill(shots_.levels().buffer(), kNoLevel);
@@ -157,7 +157,7 @@ void ProgressiveRadiosity::choose()
                               .finest = finest_level(shots_.batch()),
                               .patch_share = kPatchShare,
                               .area = area_};
-    pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(power_,
                           {shots_.charts(), light_.surface, light_.emission, light_.far,
                            light_.near, light_.shot, ambient_, chart_light_},
@@ -194,7 +194,7 @@ void ProgressiveRadiosity::receive()
 
 void ProgressiveRadiosity::settle()
 {
-    pacer_.work("settle", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("settle", [&](gpu::Commands& commands) {
         commands.dispatch(settle_, {shots_.chosen(), shots_.shots(), shots_.sending(), light_.shot},
                           TakeParams{shots_.batch()}, shots_.batch());
         if (state_.iterations % kNearEvery == kNearEvery - 1)
@@ -212,9 +212,7 @@ void ProgressiveRadiosity::set_near_field(const NearField& near)
 {
     pacer_.finish();
     near_rows_.replace(near);
-    pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        light_near(commands);
-    });
+    pacer_.work("near", [&](gpu::Commands& commands) { light_near(commands); });
 }
 
 void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
@@ -254,9 +252,7 @@ double ProgressiveRadiosity::residual()
 
 std::vector<glm::vec3> ProgressiveRadiosity::irradiance()
 {
-    pacer_.work("near", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        light_near(commands);
-    });
+    pacer_.work("near", [&](gpu::Commands& commands) { light_near(commands); });
     pacer_.finish();
     std::vector<glm::vec3> sum = light_.far.download();
     const std::vector<glm::vec3> near = light_.near.download();

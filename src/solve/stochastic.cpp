@@ -76,7 +76,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       pacer_(device)
 {
     iteration_.begin(pacer_);
-    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("power", [&](gpu::Commands& commands) {
         emission_power_pyramid_.build(commands, iteration_.emission(), iteration_.surface(), 0.0f,
                                       0.0f);
     });
@@ -86,7 +86,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
 
 void StochasticRadiosity::build_source_pyramid()
 {
-    pacer_.work("power", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("power", [&](gpu::Commands& commands) {
         source_power_pyramid_.build(commands, iteration_.source(), iteration_.surface(),
                                     paper_ ? 0.0f : kDefensiveShare, reflecting_area_);
     });
@@ -132,7 +132,7 @@ void StochasticRadiosity::select(std::uint32_t emission_shots)
                               .merge = paper_ ? options_.merge : 0u,
                               .width = atlas_width_,
                               .channels = world_->has_coloured_glass() ? 1u : 0u};
-    pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(select_,
                           {world_->lumels(), world_->pieces(), iteration_.emission(),
                            iteration_.source(), emission_power_pyramid_.array(),

@@ -174,7 +174,7 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
                                   std::uint32_t first, std::uint32_t count, std::uint32_t layer)
 {
     if (lists())
-        pacer.work("clear lists", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+        pacer.work("clear lists", [&](gpu::Commands& commands) {
             commands.fill(heads_.buffer(), kEndOfList);
             commands.copy(none_.buffer(), count_.buffer(), sizeof(FragmentCount::count));
         });

@@ -125,9 +125,7 @@ TEST(Pacer, CutsWorkWithoutChangingItsResult)
     constexpr std::uint32_t count = 1000000;
     const Array<std::uint32_t> array(device, count);
     Pacer pacer(device, 0.5);  // below what all of it takes at once
-    pacer.work("clear", 1, 1, [&](Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.fill(array.buffer(), 5);
-    });
+    pacer.work("clear", [&](Commands& commands) { commands.fill(array.buffer(), 5); });
     for (int round = 0; round < 3; ++round)
         pacer.work("twice", count, 65536,
                    [&](Commands& commands, std::uint32_t first, std::uint32_t last) {
