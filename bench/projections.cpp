@@ -183,8 +183,7 @@ void compare_projections(const Settings& settings)
             std::fflush(stdout);
         }
     }
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

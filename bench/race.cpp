@@ -142,8 +142,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         fmt::print("#   {:<12} {:>9.1f} ms\n", stage, ms);
     fmt::print("#   longest submission {:.1f} ms, memory at most {:.0f} MB\n",
                solver->longest_submission(), 1e-6 * double(peak_memory_bytes()));
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
     return rows;
 }
 

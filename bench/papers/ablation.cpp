@@ -233,8 +233,7 @@ void ablate(const AblationSettings& settings)
     fmt::print("{}, {} ({})\n\n", settings.shared.scene, device.info().name, device.info().driver);
     ablate_weighing(settings, device);
     ablate_disc(settings, device);
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

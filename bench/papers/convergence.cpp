@@ -157,8 +157,7 @@ void follow_convergence(const ConvergenceSettings& settings)
         follow(settings, settings.shared.solver, device, world, reference)};
     if (!settings.folder.empty())
         write_png(stem_of(settings) + "-pictures.png", contact_sheet(rows));
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

@@ -165,8 +165,7 @@ void show_directions(const DirectionsSettings& settings)
         std::filesystem::create_directories(settings.folder);
         write_png(settings.folder + "/directions.png", contact_sheet(rows));
     }
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

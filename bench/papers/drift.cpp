@@ -79,8 +79,7 @@ void follow_drift(const DriftSettings& settings)
                device.info().driver);
     follow(device, scene, Redistribution::incremental, settings);
     follow(device, scene, Redistribution::cross, settings);
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

@@ -11,7 +11,6 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
-#include "core/error.h"
 #include "reference/metrics.h"
 #include "solve/patches.h"
 
@@ -287,8 +286,7 @@ void follow_moves(const DynamicSettings& settings)
             print_parts(results, "until at rest", &Update::stages);
         }
     }
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

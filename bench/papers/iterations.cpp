@@ -97,8 +97,7 @@ void time_iterations(const IterationSettings& settings)
                       cost_of_iteration(device, *solver, settings.iterations));
         }
     }
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

@@ -228,8 +228,7 @@ void measure_layers(const LayersSettings& settings)
     fmt::print("\nSurfaces found among the lookups, {} maps of {}²\n\n", settings.views,
                shared.solver.map_side);
     print_chances(directed, device);
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

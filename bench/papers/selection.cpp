@@ -165,8 +165,7 @@ void time_selection(const SelectionSettings& settings)
                    gpu.wall_ms / rest, agreeing(host, gpu), numbers.size());
         std::fflush(stdout);
     }
-    if (!device.validation_messages().empty())
-        throw Error(ErrorKind::device, "validation", device.validation_messages());
+    device.check_validation();
 }
 
 }  // namespace lumel::bench

@@ -64,8 +64,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
                                           options.preview_width)));
     }
     stages.end();
-    if (const std::string messages = device.validation_messages(); !messages.empty())
-        throw Error(ErrorKind::device, "Vulkan validation", messages);
+    device.check_validation();
 
     const std::string report =
         to_json(bake_report(options, world, device, solver, results, stages));

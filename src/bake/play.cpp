@@ -301,8 +301,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     stages.begin("finishing");
     const bool filmed = !rows.empty() && !stages.stopped() && film(output, options.fps);
     stages.end();
-    if (const std::string messages = device.validation_messages(); !messages.empty())
-        throw Error(ErrorKind::device, "Vulkan validation", messages);
+    device.check_validation();
     const int written = int(rows.size());
     Report report = play_report(options, player.live(), device, height, std::move(rows), stages);
     for (const FrameRow& row : report.frames)

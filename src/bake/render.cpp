@@ -187,8 +187,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     Image image =
         compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
-    if (const std::string messages = device.validation_messages(); !messages.empty())
-        throw Error(ErrorKind::device, "Vulkan validation", messages);
+    device.check_validation();
     const Results results{.shots = solver.state().shots,
                           .iterations = solver.state().iterations,
                           .error = solved.error,

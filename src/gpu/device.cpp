@@ -373,6 +373,12 @@ std::string Device::validation_messages() const
     return validation_->messages;
 }
 
+void Device::check_validation() const
+{
+    if (const std::string messages = validation_messages(); !messages.empty())
+        throw Error(ErrorKind::device, "Vulkan validation", messages);
+}
+
 VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool host_visible,
                                 void** mapped) const
 {

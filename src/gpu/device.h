@@ -63,6 +63,8 @@ public:
 
     /// What the validation layers said so far, one message a line; empty: silent.
     std::string validation_messages() const;
+    /// Throws Error{device} with what they said, if anything.
+    void check_validation() const;
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
     std::uint32_t max_image_side() const { return max_image_side_; }
