@@ -2,19 +2,24 @@
 #include "live/live.shared.h"
 #include "atlas/lumel.shared.h"
 
-// Irradiance of the lumels, as texels of the atlas. Backs of double-sided surfaces share their
-// texels with the fronts, which are shown.
+// Irradiance of the lumels, and the same as texels of the atlas. Backs of double-sided surfaces
+// share their texels with the fronts, which are shown.
 
 layout(local_size_x = kShowGroup) in;
 layout(push_constant, scalar) uniform Params { ShowParams p; };
 layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Far { vec3 far[]; };
 layout(binding = 2, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 3, scalar) writeonly buffer Texels { vec4 texels[]; };
+layout(binding = 3, scalar) writeonly buffer Shown { vec3 shown[]; };
+layout(binding = 4, scalar) writeonly buffer Texels { vec4 texels[]; };
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
-    if (i < p.count && (lumels[i].flags & kLumelBack) == 0u)
-        texels[lumels[i].texel] = vec4(far[i] + near[i], 1.0);
+    if (i >= p.count)
+        return;
+    const vec3 irradiance = far[i] + near[i];
+    shown[i] = irradiance;
+    if ((lumels[i].flags & kLumelBack) == 0u)
+        texels[lumels[i].texel] = vec4(irradiance, 1.0);
 }

@@ -67,12 +67,12 @@ std::vector<char> open_meshes(const Scene& scene)
 
 /// Of all pairs; or, where what moves is lit apart, of pairs that stay, as if nothing else were
 /// there.
-NearField first_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+NearField first_near_field(const Scene& scene, const Lumels& lumels,
                            const std::vector<char>& movers, const LiveOptions& options)
 {
     const SolverOptions solver = progressive(options.solver);
     if (options.redistribution == Redistribution::incremental)
-        return near_field_for(scene, rays, lumels, solver);
+        return near_field_for(scene, RayScene(scene), lumels, solver);
     const Scene still = without(scene, movers);
     std::vector<char> stays;
     for (const Lumel& lumel : lumels.lumels)
@@ -104,20 +104,18 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     : options_(options),
       scene_(std::move(scene)),
       movers_(flags_of(scene_, options)),
-      rays_(scene_),
       atlas_(make_atlas(scene_, options.atlas)),
       lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
-      near_(first_near_field(scene_, rays_, lumels_, movers_, options)),
+      near_(first_near_field(scene_, lumels_, movers_, options)),
       world_(device, scene_, lumels_, &atlas_, movers_),
       solver_(device, world_, lumels_, near_, progressive(options.solver)),
       asked_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
-      shown_far_(device, lumels_.lumels.size()),
-      shown_near_(device, lumels_.lumels.size()),
+      shown_(device, lumels_.lumels.size()),
       texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
       images_{image_of(device, atlas_), image_of(device, atlas_)},
-      show_(device, "live.show", kShowSpirv, 4, sizeof(ShowParams), kShowGroup)
+      show_(device, "live.show", kShowSpirv, 5, sizeof(ShowParams), kShowGroup)
 {
     solver_.pacer().work("prepare", 1, 1,
                          [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
@@ -150,6 +148,12 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
         throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
     factors[instance] = factor;
+    surfaces_changed_ = true;
+    state_.residual = 1.0;
+}
+
+void LiveScene::upload_surfaces()
+{
     Lumels lumels = lumels_;
     for (Lumel& lumel : lumels.lumels) {
         lumel.emission *= emission_factor_[lumel.instance];
@@ -159,7 +163,7 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     solver_.pacer().finish();
     solver_.light().emission.upload(emission_of(lumels));
     solver_.light().surface.upload(surfaces_of(lumels));
-    state_.residual = 1.0;
+    surfaces_changed_ = false;
 }
 
 void LiveScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
@@ -208,9 +212,11 @@ void LiveScene::begin_move()
             incremental_->begin(move_);
         return;
     }
+    if (!move_.boxes.empty())
+        world_.place(move_.transforms);
     if (!move_.boxes.empty() || !knows_crossing_pairs_)
         find_crossing_pairs();
-    cross_->begin(move_.transforms);
+    cross_->begin();
 }
 
 void LiveScene::find_crossing_pairs()
@@ -221,12 +227,11 @@ void LiveScene::find_crossing_pairs()
     for (std::uint32_t i = 0; i < movers_.size(); ++i)
         if (movers_[i])
             boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
-    rays_ = RayScene(scene_);
     NearFieldOptions options = near_field_options(progressive(options_.solver));
     options.radius = near_.radius;
     const NearField around =
         build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
-                               rays_, lumels_, options);
+                               RayScene(scene_), lumels_, options);
     solver_.set_near_field(joined(near_, around, lumels_));
     cross_->set_near_field(around);
     knows_crossing_pairs_ = true;
@@ -237,10 +242,9 @@ void LiveScene::end_move()
     if (cross_) {
         crossed_ = true;
     } else {
-        rays_ = RayScene(scene_);
         const std::vector<char> affected =
             affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
-        near_ = update_near_field(near_, scene_, rays_, lumels_,
+        near_ = update_near_field(near_, scene_, RayScene(scene_), lumels_,
                                   near_field_options(progressive(options_.solver)), affected);
         solver_.set_near_field(near_);
     }
@@ -276,12 +280,15 @@ LiveState LiveScene::update(double budget_ms)
     const auto elapsed = [&] {
         return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     };
-    if (!is_at_rest())
+    if (surfaces_changed_)
+        upload_surfaces();
+    if (!is_at_rest()) {
         do
             work();
         while (!is_at_rest() && elapsed() < budget_ms);
-    if (!is_under_way())
-        show();
+        if (!is_under_way())
+            show();
+    }
     state_.under_way = is_under_way();
     state_.at_rest = is_at_rest();
     state_.hemicubes =
@@ -297,14 +304,12 @@ LiveState LiveScene::settle()
 
 void LiveScene::show()
 {
-    const std::uint64_t bytes = lumels_.lumels.size() * sizeof(glm::vec3);
     gpu::Pacer& pacer = solver_.pacer();
     pacer.work("show", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.copy(solver_.light().far.buffer(), shown_far_.buffer(), bytes);
-        commands.copy(solver_.light().near.buffer(), shown_near_.buffer(), bytes);
         const ShowParams params{std::uint32_t(lumels_.lumels.size())};
-        commands.dispatch(show_, {world_.lumels(), shown_far_, shown_near_, texels_}, params,
-                          params.count);
+        commands.dispatch(
+            show_, {world_.lumels(), solver_.light().far, solver_.light().near, shown_, texels_},
+            params, params.count);
         shown_image_ = 1 - shown_image_;
         commands.copy(texels_.buffer(), images_[shown_image_]);
     });
@@ -313,11 +318,7 @@ void LiveScene::show()
 
 std::vector<glm::vec3> LiveScene::irradiance() const
 {
-    std::vector<glm::vec3> sum = shown_far_.download();
-    const std::vector<glm::vec3> near = shown_near_.download();
-    for (std::size_t i = 0; i < sum.size(); ++i)
-        sum[i] += near[i];
-    return sum;
+    return shown_.download();
 }
 
 }  // namespace lumel

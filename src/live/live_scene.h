@@ -22,7 +22,9 @@ enum class Redistribution {
 struct LiveOptions {
     AtlasOptions atlas;
     Redistribution redistribution = Redistribution::incremental;
-    SolverOptions solver;               ///< method, max_shots, … are not used; target_error is
+    /// The method is progressive whatever is said here, and no limit stops it; target_error, or
+    /// else max_shots, still sets how fine the near field is (near_field_options).
+    SolverOptions solver;
     std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
     bool still = false;                 ///< none may, whatever `movers` says
     double residual = 0.002;            ///< light still to be shot, as a part of all, to rest at
@@ -84,6 +86,7 @@ private:
     void find_crossing_pairs();
     void shoot();
     void show();
+    void upload_surfaces();
     bool is_under_way() const;
     bool is_move_asked() const;
     bool is_at_rest() const;
@@ -93,7 +96,6 @@ private:
     LiveOptions options_;
     Scene scene_;
     std::vector<char> movers_;  ///< [instances]
-    RayScene rays_;
     Atlas atlas_;
     Lumels lumels_;
     NearField near_;  ///< with Redistribution::cross: among what stays
@@ -108,8 +110,9 @@ private:
     int batches_ = 0;       ///< shot since the last look at how much light is still to be shot
     bool crossed_ = false;  ///< what movers do is known for all that is shot
     bool knows_crossing_pairs_ = false;
-    gpu::Array<glm::vec3> shown_far_, shown_near_;  ///< [N] H after the last whole move
-    gpu::Array<glm::vec4> texels_;                  ///< [height][width] of the image
+    bool surfaces_changed_ = false;  ///< emission or reflectance, since the last update()
+    gpu::Array<glm::vec3> shown_;    ///< [N] H after the last whole move
+    gpu::Array<glm::vec4> texels_;   ///< [height][width] of the image
     std::array<gpu::Target, 2> images_;
     std::size_t shown_image_ = 0;
     gpu::Kernel show_;

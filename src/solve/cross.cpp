@@ -160,11 +160,10 @@ void CrossRedistribution::set_near_field(const NearField& near)
     near_factor_ = gpu::Array<float>(*device_, view(rows.factor));
 }
 
-void CrossRedistribution::begin(std::span<const glm::mat4> transforms)
+void CrossRedistribution::begin()
 {
     gpu::Pacer& pacer = solver_->pacer();
     pacer.finish();
-    world_->place(transforms);
     pacer.work("prepare", [&](gpu::Commands& commands) { commands.fill(fresh_.buffer()); });
     next_ = 0;
     under_way_ = true;

@@ -19,9 +19,9 @@ public:
 
     /// Pairs with a moving lumel, with instances where they are next. Nothing may be under way.
     void set_near_field(const NearField& near);
-    /// Begins to find anew what moving patches do, with instances where `transforms` say. Nothing
-    /// may be under way.
-    void begin(std::span<const glm::mat4> transforms);
+    /// Begins to find anew what moving patches do where they now are in the world. Nothing may be
+    /// under way.
+    void begin();
     /// One batch. Returns false once nothing is left to do.
     bool step();
     bool is_under_way() const { return under_way_; }
