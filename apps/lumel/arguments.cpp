@@ -294,6 +294,14 @@ void add_device_option(CLI::App& app, std::string& device)
         ->type_name("NAME");
 }
 
+void add_preview_option(CLI::App& app, int& width)
+{
+    app.add_option("--preview-width", width, "Of preview.png; 0: none")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kLargestAtlas));
+}
+
 CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
@@ -314,11 +322,33 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_choice(command, "--only", bake.options.parts, kParts,
                "Of the arriving light only what comes straight from its source, or only the rest");
     add_directional_option(command, bake.options.directional);
-    command.add_option("--preview-width", bake.options.preview_width, "Of preview.png; 0: none")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kLargestAtlas));
+    add_preview_option(command, bake.options.preview_width);
     add_talk_options(command, bake.talk);
+    return command;
+}
+
+CLI::App& add_update(CLI::App& app, UpdateArguments& update)
+{
+    CLI::App& command =
+        *app.add_subcommand("update", "Correct the lightmaps of a bake where its scene was edited");
+    UpdateOptions& options = update.options;
+    command.add_option("folder", update.folder, "What lumel bake wrote, corrected in place")
+        ->required()
+        ->type_name("FOLDER");
+    command.add_option("scene", update.scene, "The edited scene, a .gltf or .glb file")
+        ->required()
+        ->type_name("FILE");
+    command
+        .add_option_function<double>(
+            "--residual", [&options](double percent) { options.residual = percent / 100.0; },
+            fmt::format("Error of the correction to stop at, of all light (default: {:g})",
+                        100.0 * options.residual))
+        ->type_name("PERCENT")
+        ->check(positive());
+    add_light_options(command, options.lights);
+    add_device_option(command, options.device);
+    add_preview_option(command, options.preview_width);
+    add_talk_options(command, update.talk);
     return command;
 }
 
@@ -535,6 +565,7 @@ Arguments parse_arguments(int count, char** values)
     app.require_subcommand(1);
 
     BakeArguments bake;
+    UpdateArguments update;
     RenderArguments render;
     PlayArguments play;
     ReferenceArguments reference;
@@ -542,6 +573,7 @@ Arguments parse_arguments(int count, char** values)
     CompareArguments compare;
     DevicesArguments devices;
     const CLI::App& bake_command = add_bake(app, bake);
+    const CLI::App& update_command = add_update(app, update);
     const CLI::App& render_command = add_render(app, render);
     const CLI::App& play_command = add_play(app, play);
     const CLI::App& reference_command = add_reference(app, reference);
@@ -565,6 +597,8 @@ Arguments parse_arguments(int count, char** values)
         check_map_options(bake_command, bake.options.solver);
         return bake;
     }
+    if (update_command.parsed())
+        return update;
     if (render_command.parsed())
         return render;
     if (play_command.parsed())

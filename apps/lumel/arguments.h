@@ -8,6 +8,7 @@
 #include "bake/bake.h"
 #include "bake/play.h"
 #include "bake/render.h"
+#include "bake/update.h"
 
 namespace lumel {
 
@@ -48,6 +49,13 @@ struct PlayArguments {
     Talk talk;
 };
 
+struct UpdateArguments {
+    std::string folder;  ///< of a finished bake
+    std::string scene;   ///< as it is now
+    UpdateOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -73,9 +81,9 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments =
-    std::variant<BakeArguments, RenderArguments, PlayArguments, ReferenceArguments, InfoArguments,
-                 CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments = std::variant<BakeArguments, UpdateArguments, RenderArguments, PlayArguments,
+                               ReferenceArguments, InfoArguments, CompareArguments,
+                               DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

@@ -4,6 +4,7 @@
 
 #include "bake/directional_layers.h"
 #include "bake/report.h"
+#include "bake/solution_file.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "images/write_bytes.h"
@@ -43,26 +44,40 @@ void write_maps(const OutputFolder& folder, const Image& map, bool half, const P
 
 }  // namespace
 
+void check_validation(const gpu::Device& device)
+{
+    if (const std::string messages = device.validation_messages(); !messages.empty())
+        throw Error(ErrorKind::device, "Vulkan validation", messages);
+}
+
+void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
+                 const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
+                 const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
+{
+    const DirectionalMaps maps = finish_directional(world, irradiance, coefficients);
+    const Image& map = maps.light;
+    const Image radiance =
+        finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
+    write_maps(folder, map, options.half, world, maps.layers);
+    write_solution(folder.path(kSolutionFile), world.lumels, irradiance);
+    write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
+    write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
+    if (device && options.preview_width > 0) {
+        stages.begin("preview");
+        const View view = choose_view(world.scene, world.rays);
+        write_png(folder.path("preview.png"),
+                  tone_map(render_preview(*device, world.scene, world.atlas, map, view,
+                                          options.preview_width)));
+    }
+}
+
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    const DirectionalMaps maps =
-        finish_directional(world, irradiance, results.directional.coefficients);
-    const Image& map = maps.light;
-    const Image radiance =
-        finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
-    write_maps(folder, map, options.half, world, maps.layers);
-    write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
-    write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
-    if (options.preview_width > 0) {
-        stages.begin("preview");
-        const View view = choose_view(world.scene, world.rays);
-        write_png(folder.path("preview.png"),
-                  tone_map(render_preview(device, world.scene, world.atlas, map, view,
-                                          options.preview_width)));
-    }
+    write_light(folder, options, world, &device, irradiance, results.directional.coefficients,
+                stages);
     stages.end();
     device.check_validation();
 

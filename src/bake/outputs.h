@@ -25,11 +25,21 @@ struct Results {
     DirectionalLight directional;  ///< empty if not asked for
 };
 
+/// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.
+/// device: for the preview, which is left out without one. irradiance [N] [lx], coefficients as of
+/// DirectionalLight.
+void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
+                 const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
+                 const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
+
 /// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages);
+
+/// Throws Error{device} if the validation layers had anything to say.
+void check_validation(const gpu::Device& device);
 
 /// Writes all files of `lumel reference`.
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,

@@ -22,9 +22,14 @@ void check_camera(const Scene& scene, int camera)
 }
 
 Prepared::Prepared(Scene given, const AtlasOptions& options)
+    : Prepared(std::move(given), [&](const Scene& placed) { return make_atlas(placed, options); })
+{
+}
+
+Prepared::Prepared(Scene given, const std::function<Atlas(const Scene&)>& lay_out)
     : scene(std::move(given)),
       rays(scene),
-      atlas(make_atlas(scene, options)),
+      atlas(lay_out(scene)),
       lumels(lift(scene, atlas))
 {
     if (lumels.lumels.empty())

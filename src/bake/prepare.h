@@ -1,6 +1,7 @@
 #pragma once
 // What every method needs before it can begin.
 
+#include <functional>
 #include <string>
 
 #include "atlas/atlas.h"
@@ -20,6 +21,8 @@ void check_camera(const Scene& scene, int camera);
 struct Prepared {
     /// Lays out and lifts a scene. Throws Error.
     Prepared(Scene scene, const AtlasOptions& options);
+    /// The same with an atlas that `lay_out` makes of the scene.
+    Prepared(Scene scene, const std::function<Atlas(const Scene&)>& lay_out);
     /// Reads it first.
     Prepared(const std::string& scene_path, const AtlasOptions& options);
     Prepared(const Prepared&) = delete;

@@ -1,5 +1,7 @@
 #include "bake/report.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -36,6 +38,9 @@ const char* text_of(Parts parts)
 {
     return parts == Parts::all ? "all" : (parts == Parts::direct ? "direct" : "indirect");
 }
+
+const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    "solution.exr",
+                                              "scene.glb",    "scene-baked.glb", "report.json"};
 
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -162,8 +167,35 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     report.settings.emplace_back("directional", text_of(options.directional));
     report.directional_shots = results.directional.shots;
     add_times(report, "directional: ", results.directional.times);
-    report.files = {"lightmap.exr", "lightmap.png", "scene.glb", "scene-baked.glb", "report.json"};
+    report.files = kBakedFiles;
     if (options.preview_width > 0)
+        report.files.emplace_back("preview.png");
+    return report;
+}
+
+Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
+                     const Prepared& world, const gpu::Device* device, const Stages& stages)
+{
+    Report report = common(world, stages);
+    const Settings lights_before = settings_of(baked.lights);
+    for (const auto& entry : baked.settings)
+        if (std::find(lights_before.begin(), lights_before.end(), entry) == lights_before.end())
+            report.settings.push_back(entry);
+    append(report.settings, settings_of(options.lights));
+    report.seed = baked.seed;
+    if (device)
+        add_device(report, *device);
+    report.method = baked.method;
+    report.shots = baked.shots;
+    report.iterations = baked.iterations;
+    if (row.solved_anew)
+        report.estimated_error = row.residual;
+    else if (baked.error >= 0.0)
+        report.estimated_error = std::hypot(baked.error, row.residual);
+    report.interrupted = stages.stopped();
+    report.update = row;
+    report.files = kBakedFiles;
+    if (device && options.preview_width > 0)
         report.files.emplace_back("preview.png");
     return report;
 }

@@ -1,9 +1,11 @@
 #pragma once
 // What a bake has to say of itself.
 
+#include "bake/baked_folder.h"
 #include "bake/outputs.h"
 #include "bake/play.h"
 #include "bake/render.h"
+#include "bake/update.h"
 #include "output/report.h"
 
 namespace lumel {
@@ -20,6 +22,10 @@ Report reference_report(const LightOptions& lights, const ReferenceOptions& refe
 Report picture_report(const RenderOptions& options, const Prepared& world,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
+
+/// The facts of a bake that was corrected. device: of the preview and of lights, or none.
+Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
+                     const Prepared& world, const gpu::Device* device, const Stages& stages);
 
 /// The facts of a film. height: of the pictures [pixels].
 Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,

@@ -55,7 +55,15 @@ std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOp
 }
 
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
-    : world(in_stage(std::move(scene), stages), options.atlas),
+    : Setting(
+          std::move(scene), [&](const Scene& placed) { return make_atlas(placed, options.atlas); },
+          device, options, stages)
+{
+}
+
+Setting::Setting(Scene scene, const std::function<Atlas(const Scene&)>& lay_out,
+                 const gpu::Device& device, const BakeOptions& options, Stages& stages)
+    : world(in_stage(std::move(scene), stages), lay_out),
       near(near_field_of(world, options.solver, stages)),
       resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),
       particles(particles_for(world, options.solver))

@@ -22,6 +22,8 @@ Json map_units(bool directional)
         {"lightmap.exr", "irradiance H [lx] in RGB, not divided by pi; alpha is the covered "
                          "fraction of each texel, 0: not covered"},
         {"lightmap.png", "tone-mapped for looking, sRGB"},
+        {"solution.exr", "irradiance of lumels as solved [lx]: fronts in RGB, backs in layer back; "
+                         "alpha is the number of the chart, from 1"},
         {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
                       "texel linear, intensity in lx"},
         {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
@@ -109,6 +111,22 @@ Json frames(const Report& report)
     return rows;
 }
 
+Json update(const UpdateRow& row)
+{
+    Json json = {{"moved", row.moved},
+                 {"appeared", row.appeared},
+                 {"vanished", row.vanished},
+                 {"recoloured", row.recoloured},
+                 {"relit", row.relit},
+                 {"rays", row.rays},
+                 {"particles", row.particles},
+                 {"solved_anew", row.solved_anew},
+                 {"residual", number(row.residual)}};
+    if (row.error_before >= 0.0)
+        json["error_before"] = number(row.error_before);
+    return json;
+}
+
 Json sizes(const Report& report)
 {
     Json json = Json::object();
@@ -163,6 +181,8 @@ std::string to_json(const Report& report)
     json["solution"] = solution(report);
     if (!report.frames.empty())
         json["frames"] = frames(report);
+    if (report.update)
+        json["update"] = update(*report.update);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
     json["units"] =

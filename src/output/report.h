@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,20 @@ struct FrameRow {
     std::uint64_t hemicubes = 0;  ///< for it
     double residual = 0.0;        ///< light still to be shot, as a part of all
     bool at_rest = false;         ///< nothing was left to do
+};
+
+/// What became of a bake whose scene was edited.
+struct UpdateRow {
+    std::uint64_t moved = 0, appeared = 0, vanished = 0;  ///< instances
+    std::uint64_t recoloured = 0;  ///< instances that reflect or emit otherwise
+    bool relit = false;            ///< sky or lamps that are no surfaces are others
+    std::uint64_t rays = 0;        ///< followed to find what arrives otherwise
+    std::uint64_t particles = 0;   ///< that carried it on
+    bool solved_anew = false;      ///< too much changed for these; Report::shots is their solver's
+    double residual = 0.0;         ///< error of the correction, as a part of all light
+    double error_before = -1.0;    ///< estimated relative error of what was corrected, < 0: unknown
+
+    bool any() const { return moved + appeared + vanished + recoloured > 0 || relit; }
 };
 
 /// Everything report.json says. Empty strings, empty lists and negative numbers: not known; left
@@ -64,6 +79,7 @@ struct Report {
     bool interrupted = false;
     std::vector<ConvergencePoint> convergence;
     std::vector<FrameRow> frames;
+    std::optional<UpdateRow> update;
 
     double wall_seconds = 0.0;
     double cpu_seconds = 0.0;

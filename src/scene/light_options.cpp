@@ -153,6 +153,29 @@ std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions&
     return settings;
 }
 
+LightOptions light_options_of(const std::vector<std::pair<std::string, std::string>>& settings)
+{
+    LightOptions options;
+    for (const auto& [name, text] : settings) {
+        const double value = number_of(text).value_or(0.0);
+        if (name == "sky")
+            set_sky(options, text);
+        else if (name == "sky-scale")
+            options.sky_scale = float(value);
+        else if (name == "sky-rotation")
+            options.sky_rotation = glm::radians(value);
+        else if (name == "sun")
+            set_sun(options, text);
+        else if (name == "sun-angle")
+            options.sun_angle = float(glm::radians(value));
+        else if (name == "light-radius")
+            options.light_radius = float(value);
+        else if (name == "ies")
+            add_profile(options, text);
+    }
+    return options;
+}
+
 void add_lights(Scene& scene, const LightOptions& options)
 {
     add_sky(scene, options);

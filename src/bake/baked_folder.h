@@ -1,0 +1,30 @@
+#pragma once
+// What report.json says of a bake that is to be corrected.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/light_options.h"
+
+namespace lumel {
+
+struct BakedFolder {
+    std::vector<std::pair<std::string, std::string>> settings;  ///< as Report::settings
+    LightOptions lights;                                        ///< the settings among them
+    std::string method;                                         ///< id of the solver
+    std::uint32_t seed = 1;
+    std::uint64_t shots = 0, iterations = 0;
+    double error = -1.0;  ///< estimated relative error, < 0: not known
+    double texels_per_metre = 0.0;
+    int gutter = 0;  ///< [texels]
+    std::uint32_t sky_directions = 0;
+    bool centre = false, half = false;
+};
+
+/// Throws Error{input} if the folder is not a bake's, or one that cannot be corrected: of glossy
+/// surfaces, with directional layers, or of a part of the light.
+BakedFolder read_baked_folder(const std::string& folder);
+
+}  // namespace lumel

@@ -1,0 +1,169 @@
+// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and bring all they
+// carry to each lumel that they meet; reflected by its ρ, they go on by chance. Two independent
+// halves tell the error.
+
+#include "update/carried_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/frame.h"
+#include "core/luminance.h"
+#include "core/parallel.h"
+#include "reference/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Particles of each half in the first round; each round doubles what there is.
+constexpr std::size_t kFirstParticles = 1 << 15;
+/// Particles worth a task, and followed before their landings are added up.
+constexpr std::size_t kParticlesPerTask = 1024, kParticlesPerStep = 1 << 17;
+/// Lumels that a particle meets at most: white rooms would hold it for ever.
+constexpr std::uint32_t kMostBounces = 256;
+/// Bounces whose directions are stratified.
+constexpr std::uint32_t kStratifiedBounces = 1;
+/// Dimension pairs of a particle's random numbers.
+constexpr std::uint32_t kPointPair = 0, kFirstBouncePair = 1, kPairsPerBounce = 2;
+
+glm::vec3 by_cosine(const glm::vec3& normal, const glm::vec2& at)
+{
+    const float r = std::sqrt(at.x), turn = 2.0f * std::numbers::pi_v<float> * at.y;
+    return frame_about(normal) * glm::vec3(r * std::cos(turn), r * std::sin(turn),
+                                           std::sqrt(std::max(1.0f - at.x, 0.0f)));
+}
+
+double size_of(const glm::vec3& light)
+{
+    return luminance(glm::abs(light));
+}
+
+/// [lx] that the mean of two halves is off, as their difference tells.
+double error_of(const std::vector<glm::vec3> (&half)[2])
+{
+    double square = 0.0;
+    for (std::size_t i = 0; i < half[0].size(); ++i) {
+        const glm::dvec3 d = 0.5 * (glm::dvec3(half[0][i]) - glm::dvec3(half[1][i]));
+        square += glm::dot(d, d);
+    }
+    return std::sqrt(square / (3.0 * double(std::max<std::size_t>(half[0].size(), 1))));
+}
+
+}  // namespace
+
+struct LightCarrier::Landing {
+    std::uint32_t lumel;
+    glm::vec3 power;
+};
+
+std::vector<double> LightCarrier::powers_of(std::span<const glm::vec3> source) const
+{
+    std::vector<double> sums;
+    sums.reserve(source.size());
+    double sum = 0.0;
+    for (std::size_t j = 0; j < source.size(); ++j) {
+        const Lumel& lumel = lumels_->lumels[j];
+        if ((lumel.flags & kLumelBuried) == 0)
+            sum += double(lumel.area) * size_of(source[j]);
+        sums.push_back(sum);
+    }
+    return sums;
+}
+
+void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint32_t stream,
+                          std::uint32_t index, std::vector<Landing>& landings) const
+{
+    const PathSamples samples(stream, index);
+    const float lift = rays_->lift();
+    const LumelPoint y = world_->point_on(from, samples.stratified(kPointPair));
+    glm::vec3 position = y.position, normal = y.normal, carried = power;
+    for (std::uint32_t bounce = 0; bounce < kMostBounces; ++bounce) {
+        const std::uint32_t pair = kFirstBouncePair + kPairsPerBounce * bounce;
+        const glm::vec3 way = by_cosine(
+            normal, bounce < kStratifiedBounces ? samples.stratified(pair) : samples.random(pair));
+        RayHit hit;
+        if (!rays_->closest(position + lift * normal, way, 0.0f, std::numeric_limits<float>::max(),
+                            samples.bits(pair), hit))
+            return;
+        const std::uint32_t i = hits_->lumel(hit);
+        if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
+            return;
+        carried *= hit.tint;
+        landings.push_back({i, carried});
+        const glm::vec3 reflected = carried * lumels_->lumels[i].albedo;
+        const double chance = std::min(size_of(reflected) / size_of(carried), 1.0);
+        if (!(double(samples.random(pair + 1).x) < chance))
+            return;
+        carried = reflected * float(1.0 / chance);
+        position += lift * normal + hit.distance * way;
+        normal = hit.front ? hit.normal : -hit.normal;
+    }
+}
+
+CarriedLight LightCarrier::carry(std::span<const glm::vec3> source, double error,
+                                 std::uint64_t most, std::uint32_t seed,
+                                 const std::function<bool(const CarryState&)>& go_on) const
+{
+    const std::size_t count = source.size();
+    CarriedLight light{std::vector<glm::vec3>(count, glm::vec3(0.0f)), {}};
+    const std::vector<double> sums = powers_of(source);
+    if (sums.empty() || !(sums.back() > 0.0))
+        return light;
+
+    std::vector<glm::dvec3> sum[2] = {std::vector<glm::dvec3>(count),
+                                      std::vector<glm::dvec3>(count)};
+    std::vector<glm::vec3> half[2] = {light.irradiance, light.irradiance};
+    std::size_t done = 0;  // of each half
+    const auto follow_some = [&](std::uint32_t h, std::size_t first, std::size_t last) {
+        const std::size_t tasks = (last - first + kParticlesPerTask - 1) / kParticlesPerTask;
+        std::vector<std::vector<Landing>> landings(tasks);
+        const std::uint32_t stream = PathSamples::hash(seed, h);
+        parallel_for(tasks, 1, [&](std::size_t task, std::size_t end) {
+            for (; task < end; ++task)
+                for (std::size_t m = first + task * kParticlesPerTask;
+                     m < std::min(first + (task + 1) * kParticlesPerTask, last); ++m) {
+                    const double at =
+                        double(PathSamples(~stream, std::uint32_t(m)).stratified(0).x) *
+                        sums.back();
+                    const auto j = std::uint32_t(std::min<std::ptrdiff_t>(
+                        std::upper_bound(sums.begin(), sums.end(), at) - sums.begin(),
+                        std::ptrdiff_t(count) - 1));
+                    const glm::vec3 power = source[j] * float(sums.back() / size_of(source[j]));
+                    follow(j, power, stream, std::uint32_t(m), landings[task]);
+                }
+        });
+        for (const std::vector<Landing>& some : landings)
+            for (const Landing& landing : some)
+                sum[h][landing.lumel] += glm::dvec3(landing.power);
+    };
+    for (std::size_t goal = kFirstParticles;; goal *= 2) {
+        while (done < goal) {
+            const std::size_t last = std::min(done + kParticlesPerStep, goal);
+            for (std::uint32_t h = 0; h < 2; ++h)
+                follow_some(h, done, last);
+            done = last;
+            light.state.particles = 2 * done;
+            if (go_on && !go_on(light.state))
+                goal = done;
+        }
+        for (std::uint32_t h = 0; h < 2; ++h)
+            for (std::size_t i = 0; i < count; ++i)
+                half[h][i] = glm::vec3(
+                    sum[h][i] / (double(done) * std::max(double(lumels_->lumels[i].area), 1e-30)));
+        light.state.error = error_of(half);
+        if (light.state.error <= error || (go_on && !go_on(light.state)))
+            break;
+        // The error falls with the square root of their number.
+        const double lacking = light.state.error / error;
+        light.state.gave_up = double(light.state.particles) * lacking * lacking > double(most);
+        if (light.state.gave_up)
+            break;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        light.irradiance[i] = 0.5f * (half[0][i] + half[1][i]);
+    return light;
+}
+
+}  // namespace lumel
