@@ -44,12 +44,6 @@ void write_maps(const OutputFolder& folder, const Image& map, bool half, const P
 
 }  // namespace
 
-void check_validation(const gpu::Device& device)
-{
-    if (const std::string messages = device.validation_messages(); !messages.empty())
-        throw Error(ErrorKind::device, "Vulkan validation", messages);
-}
-
 void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
                  const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)

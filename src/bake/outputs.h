@@ -38,9 +38,6 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages);
 
-/// Throws Error{device} if the validation layers had anything to say.
-void check_validation(const gpu::Device& device);
-
 /// Writes all files of `lumel reference`.
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const ReferenceOptions& reference, const Prepared& world,

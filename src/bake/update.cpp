@@ -44,8 +44,8 @@ constexpr std::uint32_t kMoreEffort = 4, kMostEffort = 64;
 /// Where the light of emitters, as a part of all that is sent, changes by more than this, a new
 /// solution takes less than a correction.
 constexpr double kMostChange = 0.25;
-/// So do more particles than this for each lumel.
-constexpr std::uint64_t kMostParticles = 512;
+/// So do more particles than this for each lumel, if they are more than a solver's start is worth.
+constexpr std::uint64_t kMostParticles = 512, kFewParticles = 1 << 21;
 /// Error to stop a new solution at, where the former one's is not known.
 constexpr double kUsualError = 0.02;
 
@@ -414,8 +414,8 @@ private:
         const WorldLumels world(is.scene, is.rays, is.lumels);
         const LightCarrier carrier(is.rays, is.lumels, world, hits_now_);
         CarriedLight carried =
-            carrier.carry(source, error, most_particles(source.size()), baked_.seed,
-                          [&](const CarryState& state) {
+            carrier.carry(source, error, std::max(kMostParticles * source.size(), kFewParticles),
+                          baked_.seed, [&](const CarryState& state) {
                               const double part = state.error > 0.0 ? error / state.error : 0.0;
                               return stages_.tell(std::min(part * part, 1.0), state.particles);
                           });
@@ -511,7 +511,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     write_light(output, files, edit.now, device ? &*device : nullptr, *irradiance, {}, stages);
     stages.end();
     if (device)
-        check_validation(*device);
+        device->check_validation();
     const Report report =
         update_report(options, baked, row, edit.now, device ? &*device : nullptr, stages);
     const std::string text = to_json(report);

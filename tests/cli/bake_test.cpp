@@ -11,7 +11,8 @@ namespace lumel::test {
 namespace {
 
 const std::vector<std::string> kResults = {"lightmap.exr", "lightmap.png",    "preview.png",
-                                           "report.json",  "scene-baked.glb", "scene.glb"};
+                                           "report.json",  "scene-baked.glb", "scene.glb",
+                                           "solution.exr"};
 
 std::vector<std::string> inside(const std::string& folder)
 {
