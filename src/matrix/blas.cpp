@@ -1,5 +1,6 @@
 #include "matrix/blas.h"
 
+#include <algorithm>
 #include <cassert>
 #include <vector>
 
@@ -8,8 +9,22 @@
 // LAPACK's own symbols: OpenBLAS has them, without a header in C.
 extern "C" void sgesv_(const int* n, const int* columns, float* a, const int* stride_a, int* pivots,
                        float* b, const int* stride_b, int* info);
+extern "C" void ssyev_(const char* vectors, const char* half, const int* n, float* a,
+                       const int* stride, float* values, float* work, const int* work_size,
+                       int* info);
+extern "C" void sgeqrf_(const int* rows, const int* columns, float* a, const int* stride,
+                        float* factors, float* work, const int* work_size, int* info);
+extern "C" void sorgqr_(const int* rows, const int* columns, const int* reflectors, float* a,
+                        const int* stride, const float* factors, float* work, const int* work_size,
+                        int* info);
 
 namespace lumel::blas {
+namespace {
+
+/// Floats per column that LAPACK works in; its block size, so that it need not go column by column.
+constexpr int kWorkPerColumn = 64;
+
+}  // namespace
 
 void product(const Operand& a, const Operand& b, std::span<float> c, float scale, float keep)
 {
@@ -36,6 +51,29 @@ bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n)
     int info = 0;
     sgesv_(&size, &rows, a.data(), &size, pivots.data(), b.data(), &size, &info);
     return info == 0;
+}
+
+// LAPACK's columns are our rows; it sorts eigenvalues from the least to the largest.
+void eigenvectors(std::span<float> a, std::uint32_t n)
+{
+    const int size = int(n), work_size = kWorkPerColumn * size;
+    std::vector<float> values(n), work(std::max(work_size, 1));
+    int info = 0;
+    ssyev_("V", "U", &size, a.data(), &size, values.data(), work.data(), &work_size, &info);
+    for (std::size_t row = 0; row < n / 2; ++row)
+        std::swap_ranges(a.begin() + std::ptrdiff_t(row * n),
+                         a.begin() + std::ptrdiff_t((row + 1) * n),
+                         a.begin() + std::ptrdiff_t((n - 1 - row) * n));
+}
+
+void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns)
+{
+    const int length = int(columns), count = int(rows), work_size = kWorkPerColumn * count;
+    std::vector<float> factors(rows), work(std::max(work_size, 1));
+    int info = 0;
+    sgeqrf_(&length, &count, a.data(), &length, factors.data(), work.data(), &work_size, &info);
+    sorgqr_(&length, &count, &count, a.data(), &length, factors.data(), work.data(), &work_size,
+            &info);
 }
 
 }  // namespace lumel::blas

@@ -26,4 +26,10 @@ void product(const Operand& a, const Operand& b, std::span<float> c, float scale
 /// Solves X A = B in place: b becomes X. a [n][n] is lost, b [rows][n]. False: A is singular.
 bool solve_from_right(std::span<float> a, std::span<float> b, std::uint32_t n);
 
+/// a [n][n], symmetric, becomes its eigenvectors, one a row, that of the largest eigenvalue first.
+void eigenvectors(std::span<float> a, std::uint32_t n);
+
+/// Makes the rows of a [rows][columns], rows ≤ columns, orthonormal; they span what they did.
+void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns);
+
 }  // namespace lumel::blas

@@ -1,0 +1,51 @@
+#pragma once
+// A color matrix in local bases, of which only few coefficients matter: the smallest form.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "matrix/color_matrix.h"
+#include "matrix/elements.h"
+#include "matrix/tiles.shared.h"
+
+namespace lumel {
+
+struct TileOptions {
+    /// Relative error to aim at, of indirect light where direct light comes from anywhere.
+    float error = 0.005f;
+};
+
+/// Tiles of one kind, row by row.
+struct TileRows {
+    std::vector<std::uint32_t> first;  ///< [tile rows + 1]
+    /// Upper 16 bits: half float, what the largest code means; lower: the tile's column.
+    std::vector<std::uint32_t> place;
+    std::vector<std::uint32_t> codes;  ///< per tile: 4 words of 8 bits, or 2 of 4; row by row
+};
+
+/// M = D^-1 Q^T T Q D C: colours C, D = √area, an orthonormal basis Q for each cluster of patches,
+/// and T made of three sparse matrices of 4 × 4 tiles, one for each axis of colours.
+struct TiledMatrix {
+    std::uint32_t size = 0;
+    std::vector<std::uint32_t> order;  ///< [size] the patch at each place; clusters lie together
+    std::vector<std::uint32_t> kept;   ///< [clusters] coefficients in use, a multiple of 4
+    std::vector<std::uint16_t> basis;  ///< half floats, for each cluster [kept][kCluster]
+    std::vector<glm::vec3> color;      ///< [size], the caller's order
+    std::vector<float> root_area;      ///< [size] √area, the caller's order
+    float unit = 1.0f;                 ///< what a half float 1 means in a tile
+    std::array<TileRows, 3> fine;      ///< of 8 bits, for each axis
+    std::array<TileRows, 3> coarse;    ///< of 4 bits
+
+    std::uint32_t clusters() const { return std::uint32_t(kept.size()); }
+    std::size_t bytes() const;
+};
+
+/// Throws Error{input} if the matrix is too large, or if elements are missing.
+TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
+                           const TileOptions& options);
+ColorMatrix decompress(const TiledMatrix& tiled);
+
+}  // namespace lumel

@@ -1,0 +1,21 @@
+#pragma once
+// Bringing like rows and like columns together [SF17 section 3.5].
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lumel {
+
+enum class Reordering : std::uint8_t {
+    none,
+    rows,
+    rows_and_columns,
+};
+
+/// Greedy: the first row stays, the row most like it (Euclidean distance) follows, and so on.
+/// rows: [count][length]. Place p of the result names the row that goes there.
+std::vector<std::uint32_t> order_by_likeness(std::span<const float> rows, std::uint32_t count,
+                                             std::uint32_t length);
+
+}  // namespace lumel
