@@ -297,6 +297,8 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     features.core.features.shaderClipDistance = have.core.features.shaderClipDistance;
     can_list_fragments_ = have.core.features.fragmentStoresAndAtomics == VK_TRUE;
     features.core.features.fragmentStoresAndAtomics = have.core.features.fragmentStoresAndAtomics;
+    can_read_blocks_ = have.core.features.textureCompressionBC == VK_TRUE;
+    features.core.features.textureCompressionBC = have.core.features.textureCompressionBC;
     features.v13.dynamicRendering = VK_TRUE;
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;
@@ -329,7 +331,8 @@ Device::Device(const HostDevice& host)
       queue_family_(host.queue_family),
       owned_(false),
       can_tessellate_(host.tessellation),
-      can_list_fragments_(host.fragment_stores)
+      can_list_fragments_(host.fragment_stores),
+      can_read_blocks_(host.block_textures)
 {
     if (!instance_ || !physical_ || !device_ || !queue_)
         throw Error(ErrorKind::device, "", "the host gave a Vulkan handle that is null");

@@ -40,6 +40,7 @@ struct HostDevice {
     std::uint32_t queue_family = 0;
     bool tessellation = false;     ///< the feature tessellationShader is on
     bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
+    bool block_textures = false;   ///< the feature textureCompressionBC is on
 };
 
 /// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
@@ -72,6 +73,7 @@ public:
     bool can_list_fragments() const { return can_list_fragments_; }  ///< fragments may write arrays
     bool can_tessellate() const { return can_tessellate_; }          ///< has tessellation shaders
     bool can_clip() const { return can_clip_; }                      ///< by planes of a shader
+    bool can_read_blocks() const { return can_read_blocks_; }        ///< has textures of Pixel::bc1
     /// Are samples where Vulkan's standard has them?
     bool has_standard_samples() const { return standard_samples_; }
     std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
@@ -113,7 +115,7 @@ private:
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
     bool can_tessellate_ = false, can_list_fragments_ = false, can_clip_ = false,
-         standard_samples_ = false;
+         can_read_blocks_ = false, standard_samples_ = false;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
     mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;

@@ -7,9 +7,12 @@
 
 namespace lumel::gpu {
 
-std::uint32_t pixel_bytes(Pixel pixel)
+std::uint64_t image_bytes(Pixel pixel, std::uint32_t width, std::uint32_t height)
 {
-    return pixel == Pixel::rgba32 ? 16u : (pixel == Pixel::rg32u ? 8u : 4u);
+    const std::uint64_t pixels = std::uint64_t(width) * height;
+    if (pixel == Pixel::bc1)
+        return pixels / 2;
+    return pixels * (pixel == Pixel::rgba32 ? 16u : (pixel == Pixel::rg32u ? 8u : 4u));
 }
 
 VkFormat format_of(Pixel pixel)
@@ -25,6 +28,8 @@ VkFormat format_of(Pixel pixel)
         return VK_FORMAT_R32G32_UINT;
     case Pixel::rgba32:
         return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case Pixel::bc1:
+        return VK_FORMAT_BC1_RGB_UNORM_BLOCK;
     }
     return VK_FORMAT_UNDEFINED;
 }
@@ -33,6 +38,22 @@ VkImageAspectFlags aspect_of(Pixel pixel)
 {
     return pixel == Pixel::depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
+
+namespace {
+
+VkImageUsageFlags usage_as_target(Pixel pixel)
+{
+    switch (pixel) {
+    case Pixel::depth:
+        return VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    case Pixel::bc1:
+        return 0;
+    default:
+        return VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    }
+}
+
+}  // namespace
 
 Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
                std::uint32_t mip_levels, std::uint32_t samples)
@@ -47,9 +68,7 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
                     "an image of " + std::to_string(width) + " × " + std::to_string(height) +
                         " is larger than this device allows (" +
                         std::to_string(device.max_image_side()) + ")");
-    const VkImageUsageFlags drawn = pixel == Pixel::depth
-                                        ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
-                                        : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    const VkImageUsageFlags drawn = usage_as_target(pixel);
     const VkImageUsageFlags copied =
         samples > 1 ? 0u : VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
@@ -110,7 +129,7 @@ Target::Target(Target&& other) noexcept
 
 void Target::upload(const void* pixels)
 {
-    const std::uint64_t bytes = std::uint64_t(width_) * height_ * pixel_bytes(pixel_);
+    const std::uint64_t bytes = image_bytes(pixel_, width_, height_);
     const Buffer staging(*device_, bytes, Buffer::Place::host);
     std::memcpy(staging.mapped(), pixels, bytes);
     Commands commands(*device_);
@@ -120,7 +139,7 @@ void Target::upload(const void* pixels)
 
 void Target::download(void* pixels) const
 {
-    const std::uint64_t bytes = std::uint64_t(width_) * height_ * pixel_bytes(pixel_);
+    const std::uint64_t bytes = image_bytes(pixel_, width_, height_);
     const Buffer staging(*device_, bytes, Buffer::Place::host);
     Commands commands(*device_);
     commands.copy(*this, staging);

@@ -11,10 +11,11 @@ enum class Pixel {
     srgba8,  ///< 8-bit, colour channels sRGB-coded
     rgba32,  ///< float, four channels
     rg32u,   ///< 32-bit unsigned, two channels
+    bc1,     ///< blocks of 4 × 4, three channels; only read by shaders (Device::can_read_blocks)
 };
 
-/// Bytes of one pixel.
-std::uint32_t pixel_bytes(Pixel pixel);
+/// Bytes of an image's level 0; of bc1, sides are multiples of 4.
+std::uint64_t image_bytes(Pixel pixel, std::uint32_t width, std::uint32_t height);
 
 /// Samples of a multisampled pixel: what every Vulkan device has for colours of floats and depth,
 /// to draw and to read.
@@ -37,7 +38,8 @@ public:
     std::uint32_t height() const { return height_; }
     std::uint32_t mip_levels() const { return mip_levels_; }
 
-    /// Blocking: fills level 0 from tightly packed rows, then the smaller levels by averaging.
+    /// Blocking: fills level 0 from tightly packed rows (of blocks), then the smaller levels by
+    /// averaging.
     void upload(const void* pixels);
     /// Blocking: level 0, tightly packed rows.
     void download(void* pixels) const;

@@ -90,6 +90,23 @@ ColorMatrix balanced(const ColorMatrix& matrix, const Elements& elements)
     return result;
 }
 
+std::vector<glm::vec3> sent_weights(std::span<const glm::vec3> color,
+                                    std::span<const float> root_area)
+{
+    std::vector<glm::vec3> weights(color.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = color[i] * root_area[i];
+    return weights;
+}
+
+std::vector<float> received_weights(std::span<const float> root_area)
+{
+    std::vector<float> weights(root_area.size());
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = 1.0f / root_area[i];
+    return weights;
+}
+
 ColorMatrix unbalanced(const ColorMatrix& balanced, std::span<const glm::vec3> color,
                        std::span<const float> root_area)
 {

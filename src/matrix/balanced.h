@@ -18,6 +18,11 @@ ColorMatrix balanced(const ColorMatrix& matrix, const Elements& elements);
 ColorMatrix unbalanced(const ColorMatrix& balanced, std::span<const glm::vec3> color,
                        std::span<const float> root_area);
 
+/// D C [n]: what patches' light is multiplied by before K; and D^-1: after it.
+std::vector<glm::vec3> sent_weights(std::span<const glm::vec3> color,
+                                    std::span<const float> root_area);
+std::vector<float> received_weights(std::span<const float> root_area);
+
 /// √area [n]
 std::vector<float> root_areas(const Elements& elements);
 

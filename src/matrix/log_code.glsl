@@ -1,0 +1,7 @@
+// From codes 0…255 to entries of a matrix.
+
+vec4 from_log_codes(vec4 codes, float log_step, float log_factor)
+{
+    const vec4 entries = exp2(codes * log_step + log_factor);
+    return mix(entries, vec4(0.0), lessThan(codes, vec4(kLeastLogCode)));
+}

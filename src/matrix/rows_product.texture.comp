@@ -1,0 +1,21 @@
+#version 460
+#include "matrix/log_code.shared.h"
+#include "matrix/rows_product.shared.h"
+#include "matrix/log_code.glsl"
+
+// Logarithms of all channels in a texture of BC1 blocks, decoded by the hardware.
+
+layout(push_constant, scalar) uniform Params { ProductParams p; };
+layout(binding = 0) uniform sampler2D matrix;
+
+const uint kPlanes = 3u;
+
+vec4 part(uint block_row, uint quad, uint plane, uint r)
+{
+    vec4 codes;
+    for (uint i = 0u; i < 4u; ++i)
+        codes[i] = texelFetch(matrix, ivec2(quad * 4u + i, block_row * 4u + r), 0)[plane];
+    return from_log_codes(codes * kLogCodes, p.log_step, p.log_factor[plane]);
+}
+
+#include "matrix/rows_product.glsl"
