@@ -99,4 +99,26 @@ struct DriftSettings {
 /// What many moves, or one far away and back, leave of the first solution.
 void follow_drift(const DriftSettings& settings);
 
+struct MatrixSettings {
+    Settings shared;
+    std::vector<int> patches{2048};                 ///< n at most, one after the other
+    int lights = 16;                                ///< states of light that errors are taken of
+    std::vector<double> shares{0, 1, 2, 4, 8, 16};  ///< kept exactly [%]
+};
+
+/// [SF17] figures 1, 2, 7 and 12: distribution of form factors, error and bytes of compressed
+/// matrices.
+void compare_matrix_forms(const MatrixSettings& settings);
+
+struct MatrixSpeedSettings {
+    Settings shared;
+    int patches = 2048;                    ///< n at most, of the scene
+    std::vector<int> bounces{1, 2, 4, 8};  ///< of naive radiosity
+    int large = 8192;                      ///< rows of a matrix of random numbers; 0: none
+    int repeats = 8;                       ///< timed at a stretch
+};
+
+/// [SF17] figure 11: time of one multiply against naive radiosity, bounce by bounce.
+void time_matrices(const MatrixSpeedSettings& settings);
+
 }  // namespace lumel::bench

@@ -5,6 +5,7 @@
 //           the GPU. 2005.
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //           Utrecht University, 2013.
+//   [SF17]  A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
 //   [TN11]  A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include <cstdio>
@@ -186,6 +187,32 @@ void add_drift(CLI::App& app, DriftSettings& settings)
     figure->callback([&settings] { follow_drift(settings); });
 }
 
+void add_matrix(CLI::App& app, MatrixSettings& settings)
+{
+    CLI::App* figure =
+        add_figure(app, "matrix", "Form-factor matrices compressed", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
+    add_list(figure, "--patches", settings.patches, "of the simplified scene, at most");
+    add_number(figure, "--lights", settings.lights, "states of light that errors are taken of");
+    figure->add_option("--shares", settings.shares, "of a row that are kept exactly [%]")
+        ->delimiter(',')
+        ->check(CLI::Range(0.0, 100.0))
+        ->capture_default_str();
+    figure->callback([&settings] { compare_matrix_forms(settings); });
+}
+
+void add_matrix_speed(CLI::App& app, MatrixSpeedSettings& settings)
+{
+    CLI::App* figure =
+        add_figure(app, "matrix-speed", "One multiply against many bounces", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
+    add_number(figure, "--patches", settings.patches, "of the simplified scene, at most", 8);
+    add_list(figure, "--bounces", settings.bounces, "of naive radiosity");
+    add_number(figure, "--large", settings.large, "rows of a matrix of random numbers", 0);
+    add_number(figure, "--repeats", settings.repeats, "timed at a stretch");
+    figure->callback([&settings] { time_matrices(settings); });
+}
+
 int run(int argc, char** argv)
 {
     IterationSettings iterations;
@@ -196,6 +223,8 @@ int run(int argc, char** argv)
     DirectionsSettings directions;
     DynamicSettings dynamic;
     DriftSettings drift;
+    MatrixSettings matrix;
+    MatrixSpeedSettings matrix_speed;
     CLI::App app("The papers' figures, made again");
     app.require_subcommand(1);
     add_iterations(app, iterations);
@@ -206,6 +235,8 @@ int run(int argc, char** argv)
     add_directions(app, directions);
     add_dynamic(app, dynamic);
     add_drift(app, drift);
+    add_matrix(app, matrix);
+    add_matrix_speed(app, matrix_speed);
     CLI11_PARSE(app, argc, argv);
     return 0;
 }

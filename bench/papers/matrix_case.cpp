@@ -1,0 +1,118 @@
+#include "bench/papers/matrix_case.h"
+
+#include <algorithm>
+#include <random>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "nearfield/world_lumels.h"
+#include "solve/matrix.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, says nothing
+constexpr int kMostTries = 100;     // places for each light
+constexpr float kMargin = 0.05f;    // of the scene's box: no light within this of its sides
+constexpr std::size_t kLumelsPerTask = 256;
+
+/// E [N] of a point light of 1 cd.
+std::vector<glm::vec3> light_of(const Prepared& world, const WorldLumels& lumels,
+                                const glm::vec3& lamp)
+{
+    std::vector<glm::vec3> light(lumels.size(), glm::vec3(0.0f));
+    parallel_for(light.size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const WorldLumel& lumel = lumels[i];
+            const glm::vec3 to = lamp - lumel.centre;
+            const float square = glm::dot(to, to) + lumel.size * lumel.size;
+            const float cosine = glm::dot(to, lumel.normal) / std::sqrt(square);
+            if (cosine > 0.0f && world.rays.sees(lumel.centre + lumel.lift * lumel.normal, lamp,
+                                                 lumel.lift, std::uint32_t(i)))
+                light[i] = glm::vec3(cosine / square);
+        }
+    });
+    return light;
+}
+
+double lit_share(const std::vector<glm::vec3>& light)
+{
+    const auto lit = std::count_if(light.begin(), light.end(),
+                                   [](const glm::vec3& color) { return color.g > 0.0f; });
+    return double(lit) / double(light.size());
+}
+
+std::vector<std::vector<glm::vec3>> light_patches(const Prepared& world,
+                                                  const VoxelPatches& patches, int count)
+{
+    const WorldLumels lumels(world.scene, world.rays, world.lumels);
+    const glm::vec3 low = world.rays.low(), size = world.rays.high() - low;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> inside(kMargin, 1.0f - kMargin);
+    std::vector<std::vector<glm::vec3>> lights;
+    for (int tries = 0; int(lights.size()) < count && tries < count * kMostTries; ++tries) {
+        const float x = inside(random), y = inside(random), z = inside(random);
+        const std::vector<glm::vec3> light =
+            light_of(world, lumels, low + glm::vec3(x, y, z) * size);
+        if (lit_share(light) >= kLitShare)
+            lights.push_back(patches.means(world.lumels, light));
+    }
+    if (lights.empty())
+        throw Error(ErrorKind::input, world.scene.path, "has no place from which much is seen");
+    return lights;
+}
+
+Elements elements_of(const VoxelPatches& patches)
+{
+    Elements elements;
+    for (const VoxelPatch& patch : patches.patches) {
+        elements.color.push_back(patch.color);
+        elements.area.push_back(patch.area);
+        elements.place.push_back(patch.centre);
+        elements.normal.push_back(patch.normal);
+    }
+    return elements;
+}
+
+}  // namespace
+
+MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
+                            std::uint32_t patches, int lights)
+{
+    SolverOptions options = settings.solver;
+    options.method = "matrix";
+    options.patches = patches;
+    const Prepared world = prepare(settings, settings.size);
+    const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
+    const World resident(device, world.scene, world.lumels);
+    TransportBuilder builder(device, resident, world.lumels, near, options);
+    while (!builder.done())
+        builder.step();
+    Transport transport = builder.finish();
+    return {.elements = elements_of(transport.patches),
+            .form_factors = std::move(transport.form_factors),
+            .bounces = std::move(transport.bounces),
+            .lights = light_patches(world, transport.patches, lights)};
+}
+
+LightError light_error(const MatrixCase& matrix_case, const ColorMatrix& found)
+{
+    LightError error;
+    for (const std::vector<glm::vec3>& light : matrix_case.lights) {
+        const std::vector<glm::vec3> wanted = multiply(matrix_case.bounces, light);
+        const std::vector<glm::vec3> got = multiply(found, light);
+        double off = 0.0, all = 0.0;
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            const double area = double(matrix_case.elements.area[i]);
+            const glm::dvec3 w(wanted[i]), d = glm::dvec3(got[i]) - w;
+            off += area * glm::dot(d, d);
+            all += area * glm::dot(w, w);
+        }
+        const double relative = std::sqrt(off / all);
+        error.mean += relative / double(matrix_case.lights.size());
+        error.worst = std::max(error.worst, relative);
+    }
+    return error;
+}
+
+}  // namespace lumel::bench

@@ -1,0 +1,205 @@
+// [SF17] figures 1, 2, 7 and 12: how form factors are distributed, and what compression costs;
+// beyond the paper, error against bytes of every form.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <fmt/core.h>
+
+#include "bench/papers/matrix_case.h"
+#include "core/usage.h"
+#include "matrix/compressed.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr double kPercent = 100.0;
+constexpr double kMebibyte = 1048576.0;
+
+/// Differences of entries, as figure 7 has them.
+struct EntryError {
+    double total = 0.0, mean = 0.0, largest = 0.0;
+};
+
+EntryError entry_error(const ColorMatrix& found, const ColorMatrix& truth)
+{
+    EntryError error;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < truth.channel[c].values.size(); ++i, ++count) {
+            const double off =
+                std::abs(double(found.channel[c].values[i]) - double(truth.channel[c].values[i]));
+            error.total += off;
+            error.largest = std::max(error.largest, off);
+        }
+    error.mean = error.total / double(count);
+    return error;
+}
+
+/// Bytes of F as floats, without colours.
+double naive_bytes(const MatrixCase& matrix_case)
+{
+    return 4.0 * double(matrix_case.size()) * double(matrix_case.size());
+}
+
+CodingOptions papers_settings()
+{
+    return {.code = Code::bc1, .mend = false};
+}
+
+void print_distribution(const MatrixCase& matrix_case)
+{
+    constexpr std::array bounds = {0.0f,  1e-8f, 1e-7f, 1e-6f, 1e-5f,
+                                   1e-4f, 1e-3f, 5e-3f, 1e-2f, 1e-1f};
+    std::array<std::size_t, bounds.size() + 1> counts{};
+    for (const float value : matrix_case.form_factors.values) {
+        const auto above = std::lower_bound(bounds.begin(), bounds.end(), value);
+        ++counts[std::size_t(above - bounds.begin())];
+    }
+    fmt::print("\nForm factors (figure 1):\n\n| form factor | share % |\n|---|---|\n");
+    const double all = double(matrix_case.form_factors.values.size());
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+        const std::string range =
+            k == 0 ? "0"
+                   : (k < bounds.size() ? fmt::format("{:g} to {:g}", bounds[k - 1], bounds[k])
+                                        : fmt::format("above {:g}", bounds[k - 1]));
+        fmt::print("| {} | {:.3f} |\n", range, kPercent * double(counts[k]) / all);
+    }
+}
+
+void print_shares(const MatrixCase& matrix_case, const std::vector<double>& shares)
+{
+    fmt::print(
+        "\nError against the share kept exactly (figure 2), the paper's settings:\n\n"
+        "| share % | total error | mean | largest | light, RMSE % | worst % | naive / bytes |\n"
+        "|---|---|---|---|---|---|---|\n");
+    for (const double share : shares) {
+        CodingOptions options = papers_settings();
+        options.exact_share = float(share / kPercent);
+        const CodedMatrix coded = encode(matrix_case.bounces, options);
+        const ColorMatrix decoded = decode(coded);
+        const EntryError error = entry_error(decoded, matrix_case.bounces);
+        const LightError light = light_error(matrix_case, decoded);
+        fmt::print("| {:g} | {:.3f} | {:.3g} | {:.4f} | {:.2f} | {:.2f} | {:.2f} |\n", share,
+                   error.total, error.mean, error.largest, kPercent * light.mean,
+                   kPercent * light.worst, naive_bytes(matrix_case) / double(coded.bytes()));
+        std::fflush(stdout);
+    }
+}
+
+void print_reorderings(const MatrixCase& matrix_case)
+{
+    fmt::print("\nError by reordering (figure 7):\n\n"
+               "| exact part | order | mean error | largest | total | of none | light, RMSE % |\n"
+               "|---|---|---|---|---|---|---|\n");
+    constexpr std::array names = {"as it is", "rows", "rows and columns"};
+    for (const bool mend : {false, true}) {
+        double without = 0.0;
+        for (const Reordering how :
+             {Reordering::none, Reordering::rows, Reordering::rows_and_columns}) {
+            CodingOptions options = papers_settings();
+            options.mend = mend;
+            options.reordering = how;
+            const ColorMatrix decoded = decode(encode(matrix_case.bounces, options));
+            const EntryError error = entry_error(decoded, matrix_case.bounces);
+            without = how == Reordering::none ? error.total : without;
+            fmt::print("| {} | {} | {:.3g} | {:.4f} | {:.3f} | 1/{:.2f} | {:.2f} |\n",
+                       mend ? "mends" : "paper's", names[std::size_t(how)], error.mean,
+                       error.largest, error.total, without / error.total,
+                       kPercent * light_error(matrix_case, decoded).mean);
+            std::fflush(stdout);
+        }
+    }
+}
+
+struct FormOfCurve {
+    std::string name;
+    std::function<CompressedMatrix()> make;
+};
+
+ColorMatrix whole(const CompressedMatrix& compressed)
+{
+    if (const auto* coded = std::get_if<CodedMatrix>(&compressed))
+        return decode(*coded);
+    if (const auto* low = std::get_if<LowRankMatrix>(&compressed))
+        return decompress(*low);
+    return decompress(std::get<TiledMatrix>(compressed));
+}
+
+std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
+{
+    const auto coded = [&](const CodingOptions& options) {
+        return [&, options] { return CompressedMatrix(encode(matrix_case.bounces, options)); };
+    };
+    std::vector<FormOfCurve> forms;
+    const auto add = [&](std::string name, std::function<CompressedMatrix()> make) {
+        forms.push_back({std::move(name), std::move(make)});
+    };
+    add("float", coded({.code = Code::float32}));
+    add("half", coded({.code = Code::float16}));
+    for (const auto& [code, name] : {std::pair{Code::log8, "8-bit logarithm"},
+                                     std::pair{Code::bc4, "BC4"}, std::pair{Code::bc1, "BC1"}}) {
+        const Reordering order =
+            code == Code::log8 ? Reordering::none : Reordering::rows_and_columns;
+        add(fmt::format("{}, the paper's settings", name),
+            coded({.code = code, .reordering = order, .mend = false}));
+        add(fmt::format("{}, mended, offset 12", name),
+            coded({.code = code, .offset = 12.0f, .reordering = order}));
+        add(fmt::format("{}, 1 % exact, mended, offset 12", name),
+            coded({.code = code, .exact_share = 0.01f, .offset = 12.0f, .reordering = order}));
+    }
+    for (const std::uint32_t part : {64u, 32u, 16u, 8u, 4u}) {
+        const std::uint32_t rank = matrix_case.size() / part;
+        add(fmt::format("low rank, {}", rank), [&, rank] {
+            return CompressedMatrix(
+                compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
+        });
+    }
+    for (const float error : {0.1f, 0.05f, 0.02f, 0.01f, 0.005f, 0.002f, 0.001f})
+        add(fmt::format("tiles, error {:g} %", kPercent * double(error)), [&, error] {
+            return CompressedMatrix(
+                compress_tiles(matrix_case.bounces, matrix_case.elements, {.error = error}));
+        });
+    return forms;
+}
+
+void print_curve(const MatrixCase& matrix_case)
+{
+    fmt::print("\nBytes (figure 12) and error of indirect light, {} states:\n\n"
+               "| form | MiB | naive / bytes | RMSE % | worst state % | seconds |\n"
+               "|---|---|---|---|---|---|\n| naive: F, without colours | {:.2f} | 1 | | | |\n",
+               matrix_case.lights.size(), naive_bytes(matrix_case) / kMebibyte);
+    for (const FormOfCurve& form : forms_of(matrix_case)) {
+        const double begin = wall_seconds();
+        const CompressedMatrix compressed = form.make();
+        const double seconds = wall_seconds() - begin;
+        const LightError error = light_error(matrix_case, whole(compressed));
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} | {:.1f} |\n", form.name,
+                   double(bytes_of(compressed)) / kMebibyte,
+                   naive_bytes(matrix_case) / double(bytes_of(compressed)), kPercent * error.mean,
+                   kPercent * error.worst, seconds);
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+
+void compare_matrix_forms(const MatrixSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    for (const int patches : settings.patches) {
+        const double begin = wall_seconds();
+        const MatrixCase matrix_case =
+            make_matrix_case(device, settings.shared, std::uint32_t(patches), settings.lights);
+        fmt::print("\n## {}, {} patches, {:.0f} s to make\n", settings.shared.scene,
+                   matrix_case.size(), wall_seconds() - begin);
+        print_distribution(matrix_case);
+        print_curve(matrix_case);
+        print_reorderings(matrix_case);
+        print_shares(matrix_case, settings.shares);
+    }
+}
+
+}  // namespace lumel::bench

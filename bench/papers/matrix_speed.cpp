@@ -1,0 +1,298 @@
+// [SF17] figure 11: one multiply by the matrix of all reflections against naive radiosity, which
+// multiplies by F once for each of them. Both read their matrices by the same kernels.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+#include <fmt/core.h>
+
+#include "bench/papers/matrix_case.h"
+#include "bench/papers/matrix_speed.shared.h"
+#include "bench/stopwatch.h"
+#include "core/error.h"
+#include "matrix/multiply.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr std::uint32_t kRowSpirv[] = {
+#include "../bench/papers/matrix_speed.row.comp.inc"
+};
+constexpr std::uint32_t kReflectSpirv[] = {
+#include "../bench/papers/matrix_speed.reflect.comp.inc"
+};
+
+constexpr int kStretches = 3;  // the fastest counts
+constexpr double kGigabyte = 1e9;
+
+struct Time {
+    double cpu_ms = std::numeric_limits<double>::max();
+    double wall_ms = std::numeric_limits<double>::max();
+};
+
+Time time_of(const gpu::Device& device, int repeats,
+             const std::function<void(gpu::Commands&)>& record)
+{
+    Time time;
+    gpu::Commands commands(device);
+    record(commands);  // the driver compiles what it meets for the first time
+    commands.run();
+    for (int stretch = 0; stretch < kStretches; ++stretch) {
+        Stopwatch watch;
+        watch.start();
+        for (int i = 0; i < repeats; ++i)
+            record(commands);
+        commands.run();
+        watch.stop();
+        time.cpu_ms = std::min(time.cpu_ms, 1e3 * watch.cpu / repeats);
+        time.wall_ms = std::min(time.wall_ms, 1e3 * watch.wall / repeats);
+    }
+    return time;
+}
+
+/// incident_total of k reflections, one after the other [SF17 Eqs. (3), (4)].
+class NaiveRadiosity {
+public:
+    NaiveRadiosity(const gpu::Device& device, const MatrixCase& matrix_case)
+        : count_(matrix_case.size()),
+          width_(filled_up(count_)),
+          color_(device, std::span<const glm::vec3>(matrix_case.elements.color)),
+          sent_(device, std::size_t(width_) * 3),
+          received_(device, std::size_t(width_) * 3),
+          gather_(device, count_, width_, {}, matrix_case.elements.color),
+          product_(device, Code::float32, std::span(&words_of(matrix_case), 1), count_, count_, {}),
+          reflect_(device, "matrix_speed.reflect", kReflectSpirv, 4, sizeof(ReflectParams),
+                   kRowLanes)
+    {
+        words_.clear();
+    }
+
+    void record(gpu::Commands& commands, const gpu::Array<glm::vec3>& x,
+                const gpu::Array<glm::vec3>& y, int bounces)
+    {
+        commands.fill(y.buffer());
+        gather_.record(commands, x, sent_, 1);
+        for (int bounce = 0; bounce < bounces; ++bounce) {
+            product_.record(commands, sent_, received_, width_, 1);
+            commands.dispatch(reflect_, {color_, received_, sent_, y},
+                              ReflectParams{count_, width_}, count_);
+        }
+    }
+
+private:
+    const std::vector<std::uint32_t>& words_of(const MatrixCase& matrix_case)
+    {
+        const ColorMatrix gray{{matrix_case.form_factors, {}, {}}};
+        words_ = encode(gray, {.code = Code::float32}).words[0];
+        return words_;
+    }
+
+    std::uint32_t count_, width_;
+    std::vector<std::uint32_t> words_;
+    gpu::Array<glm::vec3> color_;
+    gpu::Array<float> sent_, received_;
+    Gather gather_;
+    RowsProduct product_;
+    gpu::Kernel reflect_;
+};
+
+double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
+{
+    double off = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const glm::dvec3 d = glm::dvec3(a[i]) - glm::dvec3(b[i]);
+        off += glm::dot(d, d);
+        all += glm::dot(glm::dvec3(b[i]), glm::dvec3(b[i]));
+    }
+    return std::sqrt(off / all);
+}
+
+std::vector<std::pair<std::string, CompressedMatrix>> forms_of(const MatrixCase& matrix_case)
+{
+    std::vector<std::pair<std::string, CompressedMatrix>> forms;
+    for (const auto& [code, name] :
+         {std::pair{Code::float32, "float"}, std::pair{Code::float16, "half"},
+          std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"},
+          std::pair{Code::bc1, "BC1"}})
+        forms.emplace_back(name, encode(matrix_case.bounces, {.code = code}));
+    const std::uint32_t rank = matrix_case.size() / 8;
+    forms.emplace_back(fmt::format("low rank, {}", rank),
+                       compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
+    for (const float error : {0.01f, 0.005f})
+        forms.emplace_back(
+            fmt::format("tiles, error {:g} %", 100.0 * double(error)),
+            compress_tiles(matrix_case.bounces, matrix_case.elements, {.error = error}));
+    return forms;
+}
+
+void print_against_naive(const gpu::Device& device, const MatrixCase& matrix_case,
+                         const MatrixSpeedSettings& settings)
+{
+    fmt::print("\nFigure 11: {}, {} patches:\n\n"
+               "| what | MiB | cpu ms | wall ms | naive, {} bounces / this (cpu) | (wall) | "
+               "difference from all bounces % |\n|---|---|---|---|---|---|---|\n",
+               settings.shared.scene, matrix_case.size(), settings.bounces.back());
+    const std::vector<glm::vec3>& light = matrix_case.lights.front();
+    const std::vector<glm::vec3> truth = multiply(matrix_case.bounces, light);
+    const gpu::Array<glm::vec3> x(device, std::span<const glm::vec3>(light));
+    const gpu::Array<glm::vec3> y(device, light.size());
+    const double n = double(matrix_case.size()), mebi = 1048576.0;
+
+    NaiveRadiosity naive(device, matrix_case);
+    Time naive_time;
+    for (const int bounces : settings.bounces) {
+        naive_time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
+            naive.record(commands, x, y, bounces);
+        });
+        fmt::print("| naive, {} bounces | {:.2f} | {:.2f} | {:.2f} | | | {:.3f} |\n", bounces,
+                   4.0 * n * n / mebi, naive_time.cpu_ms, naive_time.wall_ms,
+                   100.0 * difference(y.download(), truth));
+    }
+    for (const auto& [name, matrix] : forms_of(matrix_case)) {
+        Multiply product(device, matrix);
+        const Time time = time_of(device, settings.repeats,
+                                  [&](gpu::Commands& commands) { product.record(commands, x, y); });
+        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.3f} |\n", name,
+                   double(bytes_of(matrix)) / mebi, time.cpu_ms, time.wall_ms,
+                   naive_time.cpu_ms / time.cpu_ms, naive_time.wall_ms / time.wall_ms,
+                   100.0 * difference(y.download(), truth));
+        std::fflush(stdout);
+    }
+}
+
+/// Random words: as valid as any, but for floats, which are drawn.
+CodedMatrix random_matrix(Code code, std::uint32_t n)
+{
+    CodedMatrix matrix{.code = code, .size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f};
+    constexpr std::uint32_t bits[] = {32, 16, 8, 4, 4};  // of an entry, by code
+    std::mt19937 random(1);
+    for (std::size_t c = 0; c < (code == Code::bc1 ? 1u : 3u); ++c) {
+        const std::size_t side = filled_up(n);
+        matrix.words[c].resize(side * side * bits[std::size_t(code)] / 32);
+        for (std::uint32_t& word : matrix.words[c]) {
+            word = std::uint32_t(random());
+            if (code == Code::float32)
+                word = 0x3f000000u | (word & 0x7fffffu);  // 0.5…1
+            if (code == Code::float16)
+                word = 0x38003800u | (word & 0x03ff03ffu);
+        }
+    }
+    return matrix;
+}
+
+/// The float matrix read by one group for each row.
+class RowByRow {
+public:
+    RowByRow(const gpu::Device& device, const CodedMatrix& matrix)
+        : quads_(filled_up(matrix.size) / 4),
+          rows_(matrix.size),
+          kernel_(device, "matrix_speed.row", kRowSpirv, 3, sizeof(RowParams), kRowLanes)
+    {
+        const std::size_t row_words = std::size_t(quads_) * 4;
+        const std::uint32_t most = std::min(
+            rows_, std::uint32_t(device.max_array_bytes() / (row_words * sizeof(std::uint32_t))));
+        for (std::uint32_t c = 0; c < 3; ++c)
+            for (std::uint32_t row = 0; row < rows_; row += most) {
+                const std::uint32_t count = std::min(most, rows_ - row);
+                parts_.push_back(
+                    {c * rows_ + row, count,
+                     gpu::Array<std::uint32_t>(
+                         device,
+                         std::span(matrix.words[c]).subspan(row * row_words, count * row_words))});
+            }
+    }
+
+    void record(gpu::Commands& commands, const gpu::Array<float>& in, const gpu::Array<float>& out)
+    {
+        for (const Part& part : parts_)
+            commands.dispatch(kernel_, {part.words, in, out},
+                              RowParams{quads_, part.first_row, rows_},
+                              std::size_t(part.rows) * kRowLanes);
+    }
+
+private:
+    struct Part {
+        std::uint32_t first_row, rows;
+        gpu::Array<std::uint32_t> words;
+    };
+
+    std::uint32_t quads_, rows_;
+    std::vector<Part> parts_;
+    gpu::Kernel kernel_;
+};
+
+/// Bytes per second that a copy on the device reads and writes.
+double copy_bandwidth(const gpu::Device& device, int repeats)
+{
+    constexpr std::uint64_t bytes = std::uint64_t(128) << 20;  // any device allows
+    const gpu::Buffer from(device, bytes), to(device, bytes);
+    const Time time =
+        time_of(device, repeats, [&](gpu::Commands& commands) { commands.copy(from, to, bytes); });
+    return 2.0 * double(bytes) / (1e-3 * time.wall_ms);
+}
+
+void print_large(const gpu::Device& device, const MatrixSpeedSettings& settings)
+{
+    const auto n = std::uint32_t(settings.large);
+    const double copy = copy_bandwidth(device, settings.repeats);
+    fmt::print(
+        "\nThe multiply alone, {} × {} random numbers for each channel. A copy reads and "
+        "writes {:.2f} GB/s.\n\n"
+        "| kernel | MiB | cpu ms | wall ms | row by row / this (cpu) | (wall) | GB/s read | of "
+        "the copy % |\n|---|---|---|---|---|---|---|---|\n",
+        n, n, copy / kGigabyte);
+    const std::vector<float> ones(std::size_t(filled_up(n)) * 3, 1.0f);
+    const gpu::Array<float> in(device, std::span<const float>(ones));
+    const gpu::Array<float> out(device, ones.size());
+    Time plain;
+    const auto print = [&](const char* name, double bytes, const Time& time) {
+        const double rate = bytes / (1e-3 * time.wall_ms);
+        fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", name,
+                   bytes / 1048576.0, time.cpu_ms, time.wall_ms, plain.cpu_ms / time.cpu_ms,
+                   plain.wall_ms / time.wall_ms, rate / kGigabyte, 100.0 * rate / copy);
+        std::fflush(stdout);
+    };
+    for (const auto& [code, name] :
+         {std::pair{Code::float32, "float"}, std::pair{Code::float16, "half"},
+          std::pair{Code::log8, "8-bit logarithm"}, std::pair{Code::bc4, "BC4"},
+          std::pair{Code::bc1, "BC1"}}) {
+        const CodedMatrix matrix = random_matrix(code, n);
+        if (code == Code::float32) {
+            RowByRow simple(device, matrix);
+            plain = time_of(device, settings.repeats,
+                            [&](gpu::Commands& commands) { simple.record(commands, in, out); });
+            print("float, a group for each row", double(matrix.bytes()), plain);
+        }
+        for (const Decoder decoder : {Decoder::shader, Decoder::hardware}) {
+            if (decoder == Decoder::hardware &&
+                (code != Code::bc1 || !device.can_read_blocks() || n > device.max_image_side()))
+                continue;
+            RowsProduct product(device, code,
+                                std::span(matrix.words).first(code == Code::bc1 ? 1 : 3), n, n,
+                                {.offset = matrix.offset}, decoder);
+            const Time time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
+                product.record(commands, in, out, filled_up(n), 1);
+            });
+            print(decoder == Decoder::hardware ? "BC1, texture" : name, double(matrix.bytes()),
+                  time);
+        }
+    }
+}
+
+}  // namespace
+
+void time_matrices(const MatrixSpeedSettings& settings)
+{
+    const gpu::Device device(settings.shared.device);
+    fmt::print("Device: {} ({})\n", device.info().name, device.info().driver);
+    print_against_naive(
+        device, make_matrix_case(device, settings.shared, std::uint32_t(settings.patches), 1),
+        settings);
+    if (settings.large > 0)
+        print_large(device, settings);
+}
+
+}  // namespace lumel::bench
