@@ -85,7 +85,8 @@ public:
 private:
     const std::vector<std::uint32_t>& words_of(const MatrixCase& matrix_case)
     {
-        const ColorMatrix gray{{matrix_case.form_factors, {}, {}}};
+        const SquareMatrix& factors = matrix_case.form_factors;
+        const ColorMatrix gray{{factors, factors, factors}};
         words_ = encode(gray, {.code = Code::float32}).words[0];
         return words_;
     }

@@ -1,7 +1,7 @@
 #version 460
 #include "../bench/papers/matrix_speed.shared.h"
 
-// Naive radiosity between its products, Eq. (4): what arrived is added up, and its colours are sent on.
+// Naive radiosity between its products, Eq. (4): what arrived is added up, and sent on coloured.
 
 layout(local_size_x = kRowLanes) in;
 layout(push_constant, scalar) uniform Params { ReflectParams p; };

@@ -2,14 +2,16 @@
 //
 // 1. Patches are put into clusters of 64 that lie together and face the same way.
 // 2. Each cluster gets the basis in which its rows have most of their energy in few coefficients
-//    (principal components), so that all of the matrix becomes T = Q K Q^T, K the balanced matrix.
+//    (principal components), rounded to 8 bits. All of the matrix becomes T, K = Q^T T Q, K the
+//    balanced matrix; the dual of Q makes up for its rounding.
 // 3. The three channels, which differ only in later bounces, become three axes, two of them small.
-// 4. Tiles of 4 × 4 coefficients are dropped or stored with 4 or 8 bits: whatever is least of
+// 4. Tiles of 4 × 4 coefficients are dropped or stored with 4, 8 or 16 bits: whatever is least of
 //    distortion + λ bytes. λ is found for the error that is asked for.
 //
 // Distortion counts by the light that a coefficient is likely to meet: direct light falls on
-// patches much as light from other patches does, so coefficient j is expected to have the energy of
-// row j of T.
+// patches much as light from other patches does, but has more detail than light of all bounces. The
+// root of the energy of T's rows was best among its powers, by bytes for the same error of real
+// direct light.
 
 #include "matrix/compressed_tiles.h"
 
@@ -32,12 +34,22 @@ constexpr std::size_t kTexels = std::size_t(kTile) * kTile;
 constexpr std::size_t kBasis = std::size_t(kCluster) * kCluster;
 constexpr std::size_t kTileRowsPerTask = 16;
 constexpr int kSearchSteps = 40;  // halvings of λ's logarithm
-constexpr double kPlaceBytes = 4.0;
-constexpr double kFineBytes = kPlaceBytes + 16.0, kCoarseBytes = kPlaceBytes + 8.0;
+
+/// The estimate of an error by `expected_light` is so much of what real direct light shows, by
+/// `lumel-papers matrix`.
+constexpr double kEstimateOfError = 0.55;
+constexpr std::array<float, kPrecisions> kCodes = {kCodes4, kCodes8, kCodes16};
+constexpr int kDropped = kPrecisions;  // the precision of tiles that are not stored
 
 using Tile = std::array<float, kTexels>;
 
-enum class Kind : std::uint8_t { dropped, coarse, fine };
+double tile_bytes(int precision)
+{
+    constexpr double place_bytes = 4.0;
+    return precision == kDropped
+               ? 0.0
+               : place_bytes + double(kTexels * kTileBits[std::size_t(precision)]) / 8.0;
+}
 
 /// Matrices of one side, filled up to whole clusters.
 struct Coefficients {
@@ -77,7 +89,33 @@ Coefficients by_axes(const ColorMatrix& balanced, std::span<const std::uint32_t>
     return result;
 }
 
-/// For each cluster [coefficient][place], the coefficient of most energy first; as halves keep it.
+/// Rows of a basis in 8 bits.
+struct CodedBasis {
+    std::vector<std::int8_t> codes;  ///< [rows][kCluster]
+    std::vector<float> units;        ///< [rows]
+
+    std::size_t rows() const { return units.size(); }
+    float at(std::size_t row, std::size_t column) const
+    {
+        return float(codes[row * kCluster + column]) * units[row] / kCodes8;
+    }
+};
+
+void append_rows(CodedBasis& basis, std::span<const float> values)
+{
+    for (std::size_t first = 0; first < values.size(); first += kCluster) {
+        const auto row = values.subspan(first, kCluster);
+        float unit = 0.0f;
+        for (const float value : row)
+            unit = std::max(unit, std::abs(value));
+        basis.units.push_back(unit);
+        for (const float value : row)
+            basis.codes.push_back(unit > 0.0f ? std::int8_t(std::lround(value / unit * kCodes8))
+                                              : std::int8_t(0));
+    }
+}
+
+/// For each cluster [coefficient][place], the coefficient of most energy first.
 std::vector<float> find_bases(const Coefficients& matrix)
 {
     std::vector<float> bases(matrix.side / kCluster * kBasis);
@@ -88,10 +126,27 @@ std::vector<float> find_bases(const Coefficients& matrix)
         const auto width = std::uint32_t(matrix.side);
         blas::product({rows, kCluster, width}, blas::transposed(rows, kCluster, width), basis);
         blas::eigenvectors(basis, kCluster);
-        for (float& value : basis)
-            value = from_half(to_half(value));
     }
     return bases;
+}
+
+/// Q^-T for each cluster, Q as it is stored: T = Q^-T K Q^-1.
+std::vector<float> duals(const CodedBasis& bases)
+{
+    std::vector<float> result(bases.codes.size());
+    for (std::size_t b = 0; b < result.size() / kBasis; ++b) {
+        std::vector<float> transposed(kBasis);
+        const auto dual = std::span(result).subspan(b * kBasis, kBasis);
+        for (std::size_t i = 0; i < kCluster; ++i) {
+            dual[i * kCluster + i] = 1.0f;
+            for (std::size_t j = 0; j < kCluster; ++j)
+                transposed[j * kCluster + i] = bases.at(b * kCluster + i, j);
+        }
+        if (!blas::solve_from_right(transposed, dual, kCluster))
+            throw Error(ErrorKind::input, "form-factor matrix",
+                        "has patches of which nothing can be told apart; use fewer patches");
+    }
+    return result;
 }
 
 /// row [side] ← Q row, cluster by cluster; or ← Q^T row.
@@ -132,16 +187,31 @@ void transform(std::span<const float> bases, Coefficients& matrix, bool back)
         }
 }
 
-/// Energy that a coefficient is expected to have.
-std::vector<float> expected_energy(const Coefficients& matrix)
+/// Makes K symmetric, which rounding left it nearly.
+void symmetrise(Coefficients& matrix)
 {
-    std::vector<float> energy(matrix.side);
-    for (std::size_t i = 0; i < matrix.side; ++i)
+    for (std::vector<float>& values : matrix.axis)
+        for (std::size_t i = 0; i < matrix.side; ++i)
+            for (std::size_t j = 0; j < i; ++j) {
+                float& below = values[i * matrix.side + j];
+                float& above = values[j * matrix.side + i];
+                below = above = 0.5f * (below + above);
+            }
+}
+
+/// Weight of the error at a coefficient of what T is multiplied by.
+std::vector<float> expected_light(const Coefficients& matrix)
+{
+    std::vector<float> weight(matrix.side);
+    for (std::size_t i = 0; i < matrix.side; ++i) {
+        float energy = 0.0f;
         for (std::size_t j = 0; j < matrix.side; ++j) {
             const float value = matrix.axis[0][i * matrix.side + j];
-            energy[i] += value * value;
+            energy += value * value;
         }
-    return energy;
+        weight[i] = std::sqrt(energy);
+    }
+    return weight;
 }
 
 float largest_of(const Tile& tile)
@@ -178,41 +248,41 @@ Tile decoded(const CodedTile& coded, float unit, float codes)
     return tile;
 }
 
-/// Distortion of one tile by kind.
-struct Loss {
-    float dropped = 0.0f, coarse = 0.0f, fine = 0.0f;
-};
+/// Distortion of one tile by precision, kDropped the last.
+using Loss = std::array<float, kPrecisions + 1>;
 
-double cost(const Loss& loss, double lambda, Kind& kind)
+/// What costs least.
+int choose_precision(const Loss& loss, double lambda)
 {
-    const double dropped = double(loss.dropped);
-    const double coarse = double(loss.coarse) + lambda * kCoarseBytes;
-    const double fine = double(loss.fine) + lambda * kFineBytes;
-    kind = dropped <= std::min(coarse, fine) ? Kind::dropped
-                                             : (coarse <= fine ? Kind::coarse : Kind::fine);
-    return kind == Kind::dropped ? double(loss.dropped)
-                                 : double(kind == Kind::coarse ? loss.coarse : loss.fine);
+    int best = kDropped;
+    for (int precision = kDropped - 1; precision >= 0; --precision)
+        if (double(loss[std::size_t(precision)]) + lambda * tile_bytes(precision) <
+            double(loss[std::size_t(best)]) + lambda * tile_bytes(best))
+            best = precision;
+    return best;
 }
 
-/// [axis][tile row][tile column]
+/// [axis][tile row][tile column ≤ row]; each tile stands for its mirror image too.
 std::vector<Loss> losses(const Coefficients& matrix, float unit)
 {
-    const std::vector<float> energy = expected_energy(matrix);
+    const std::vector<float> light = expected_light(matrix);
     const std::size_t rows = matrix.tile_rows();
     std::vector<Loss> result(3 * rows * rows);
     parallel_for(3 * rows, kTileRowsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row)
-            for (std::size_t column = 0; column < rows; ++column) {
+            for (std::size_t column = 0; column <= row % rows; ++column) {
                 const Tile tile = matrix.tile(int(row / rows), row % rows, column);
-                const Tile fine = decoded(code_tile(tile, unit, kFineCodes), unit, kFineCodes);
-                const Tile coarse =
-                    decoded(code_tile(tile, unit, kCoarseCodes), unit, kCoarseCodes);
-                Loss& loss = result[row * rows + column];
-                for (std::size_t i = 0; i < kTexels; ++i) {
-                    const float weight = energy[column * kTile + i % kTile];
-                    loss.dropped += weight * tile[i] * tile[i];
-                    loss.coarse += weight * (tile[i] - coarse[i]) * (tile[i] - coarse[i]);
-                    loss.fine += weight * (tile[i] - fine[i]) * (tile[i] - fine[i]);
+                for (std::size_t kind = 0; kind <= kPrecisions; ++kind) {
+                    const Tile stored =
+                        kind < kPrecisions
+                            ? decoded(code_tile(tile, unit, kCodes[kind]), unit, kCodes[kind])
+                            : Tile{};
+                    for (std::size_t i = 0; i < kTexels; ++i) {
+                        const float weight = light[column * kTile + i % kTile] +
+                                             light[row % rows * kTile + i / kTile];
+                        result[row * rows + column][kind] +=
+                            weight * (tile[i] - stored[i]) * (tile[i] - stored[i]);
+                    }
                 }
             }
     });
@@ -224,33 +294,38 @@ double find_lambda(std::span<const Loss> losses, float error)
 {
     double all = 0.0, largest = 0.0;
     for (const Loss& loss : losses) {
-        all += double(loss.dropped);
-        largest = std::max(largest, double(loss.dropped));
+        all += double(loss[kDropped]);
+        largest = std::max(largest, double(loss[kDropped]));
     }
-    const double allowed = all * double(error) * double(error);
+    const double estimate = kEstimateOfError * double(error);
+    const double allowed = all * estimate * estimate;
     double low = -60.0, high = 0.0;  // log2 of λ in the largest tile's energy
     for (int step = 0; step < kSearchSteps; ++step) {
         const double middle = 0.5 * (low + high), lambda = largest * std::exp2(middle);
         double distortion = 0.0;
-        Kind kind;
         for (const Loss& loss : losses)
-            distortion += cost(loss, lambda, kind);
+            distortion += double(loss[std::size_t(choose_precision(loss, lambda))]);
         (distortion <= allowed ? low : high) = middle;
     }
     return largest * std::exp2(low);
 }
 
-void append(TileRows& rows, const CodedTile& tile, std::size_t column, int bits)
+void append(TileRows& rows, const CodedTile& tile, std::size_t column, std::uint32_t bits)
 {
     rows.place.push_back(std::uint32_t(tile.scale) << 16 | std::uint32_t(column));
-    const int per_word = 32 / bits;
-    for (std::size_t i = 0; i < kTexels; i += std::size_t(per_word)) {
+    const std::size_t per_word = 32 / bits;
+    for (std::size_t i = 0; i < kTexels; i += per_word) {
         std::uint32_t word = 0;
-        for (int k = 0; k < per_word; ++k)
-            word |= (std::uint32_t(tile.code[i + std::size_t(k)]) & ((1u << bits) - 1u))
-                    << (k * bits);
+        for (std::size_t k = 0; k < per_word; ++k)
+            word |= (std::uint32_t(tile.code[i + k]) & ((1u << bits) - 1u)) << (k * bits);
         rows.codes.push_back(word);
     }
+}
+
+void begin_row(TiledMatrix& tiled, std::size_t axis)
+{
+    for (std::array<TileRows, 3>& axes : tiled.tiles)
+        axes[axis].first.push_back(std::uint32_t(axes[axis].place.size()));
 }
 
 void store(TiledMatrix& tiled, const Coefficients& matrix, std::span<const Loss> losses,
@@ -262,66 +337,105 @@ void store(TiledMatrix& tiled, const Coefficients& matrix, std::span<const Loss>
         std::uint32_t& most = used[tile_row * kTile / kCluster];
         most = std::max(most, std::uint32_t((tile_row * kTile) % kCluster + kTile));
     };
-    for (int axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t row = 0; row < rows; ++row) {
-            tiled.fine[axis].first.push_back(std::uint32_t(tiled.fine[axis].place.size()));
-            tiled.coarse[axis].first.push_back(std::uint32_t(tiled.coarse[axis].place.size()));
-            for (std::size_t column = 0; column < rows; ++column) {
-                Kind kind;
-                cost(losses[(std::size_t(axis) * rows + row) * rows + column], lambda, kind);
-                if (kind == Kind::dropped)
+            begin_row(tiled, axis);
+            for (std::size_t column = 0; column <= row; ++column) {
+                const int kind =
+                    choose_precision(losses[(axis * rows + row) * rows + column], lambda);
+                if (kind == kDropped)
                     continue;
                 use(row);
                 use(column);
-                const bool fine = kind == Kind::fine;
-                append((fine ? tiled.fine : tiled.coarse)[axis],
-                       code_tile(matrix.tile(axis, row, column), tiled.unit,
-                                 fine ? kFineCodes : kCoarseCodes),
-                       column, fine ? 8 : 4);
+                const auto precision = std::size_t(kind);
+                append(
+                    tiled.tiles[precision][axis],
+                    code_tile(matrix.tile(int(axis), row, column), tiled.unit, kCodes[precision]),
+                    column, kTileBits[precision]);
             }
         }
-    for (int axis = 0; axis < 3; ++axis) {
-        tiled.fine[axis].first.push_back(std::uint32_t(tiled.fine[axis].place.size()));
-        tiled.coarse[axis].first.push_back(std::uint32_t(tiled.coarse[axis].place.size()));
+        begin_row(tiled, axis);  // where the last one ends
     }
     tiled.kept = used;
 }
 
-void store_bases(TiledMatrix& tiled, std::span<const float> bases)
+/// Of each cluster the rows that are used.
+void store_bases(TiledMatrix& tiled, const CodedBasis& bases)
 {
     for (std::size_t b = 0; b < tiled.kept.size(); ++b)
-        for (std::size_t i = 0; i < std::size_t(tiled.kept[b]) * kCluster; ++i)
-            tiled.basis.push_back(to_half(bases[b * kBasis + i]));
+        for (std::size_t row = b * kCluster; row < b * kCluster + tiled.kept[b]; ++row) {
+            tiled.basis_unit.push_back(bases.units[row]);
+            tiled.basis.insert(tiled.basis.end(),
+                               bases.codes.begin() + std::ptrdiff_t(row * kCluster),
+                               bases.codes.begin() + std::ptrdiff_t((row + 1) * kCluster));
+        }
+}
+
+int code_at(const TileRows& tiles, std::size_t tile, std::size_t texel, std::uint32_t bits)
+{
+    const std::size_t per_word = 32 / bits, at = tile * kTexels + texel;
+    const auto shift = 32 - bits * std::uint32_t(at % per_word + 1);
+    return int(tiles.codes[at / per_word] << shift) >> (32 - bits);  // with its sign
 }
 
 /// Adds the tiles to one axis of T.
-void load(const TileRows& tiles, float unit, int bits, float codes, std::size_t side,
+void load(const TileRows& tiles, float unit, std::size_t precision, std::size_t side,
           std::vector<float>& values)
 {
-    const int per_word = 32 / bits;
     for (std::size_t row = 0; row + 1 < tiles.first.size(); ++row)
         for (std::size_t tile = tiles.first[row]; tile < tiles.first[row + 1]; ++tile) {
             const std::size_t column = tiles.place[tile] & 0xffffu;
-            const float step = from_half(std::uint16_t(tiles.place[tile] >> 16)) * unit / codes;
+            const float step =
+                from_half(std::uint16_t(tiles.place[tile] >> 16)) * unit / kCodes[precision];
             for (std::size_t i = 0; i < kTexels; ++i) {
-                const std::size_t at = tile * kTexels + i;
-                const std::uint32_t word = tiles.codes[at / std::size_t(per_word)];
-                const int shift = 32 - bits * (int(at % std::size_t(per_word)) + 1);
-                const int code = int(word << shift) >> (32 - bits);  // with its sign
-                values[(row * kTile + i / kTile) * side + column * kTile + i % kTile] +=
-                    float(code) * step;
+                const std::size_t r = row * kTile + i / kTile, c = column * kTile + i % kTile;
+                const float value = float(code_at(tiles, tile, i, kTileBits[precision])) * step;
+                values[r * side + c] = value;
+                values[c * side + r] = value;
             }
         }
 }
 
 std::vector<float> load_bases(const TiledMatrix& tiled)
 {
+    const CodedBasis coded{tiled.basis, tiled.basis_unit};
     std::vector<float> bases(tiled.kept.size() * kBasis);
     std::size_t from = 0;
     for (std::size_t b = 0; b < tiled.kept.size(); ++b)
-        for (std::size_t i = 0; i < std::size_t(tiled.kept[b]) * kCluster; ++i)
-            bases[b * kBasis + i] = from_half(tiled.basis[from++]);
+        for (std::size_t row = 0; row < tiled.kept[b]; ++row, ++from)
+            for (std::size_t column = 0; column < kCluster; ++column)
+                bases[b * kBasis + row * kCluster + column] = coded.at(from, column);
     return bases;
+}
+
+/// [axis] A tile's mirror image belongs into row `column`.
+TileRows with_mirror_images(const TileRows& below, std::uint32_t bits)
+{
+    struct Source {
+        std::uint32_t column, tile;
+        bool mirrored;
+    };
+    std::vector<std::vector<Source>> rows(below.first.empty() ? 0 : below.first.size() - 1);
+    for (std::uint32_t row = 0; row < rows.size(); ++row)
+        for (std::uint32_t tile = below.first[row]; tile < below.first[row + 1]; ++tile) {
+            const std::uint32_t column = below.place[tile] & 0xffffu;
+            rows[row].push_back({column, tile, false});
+            if (column != row)
+                rows[column].push_back({row, tile, true});
+        }
+    TileRows all;
+    for (const std::vector<Source>& row : rows) {
+        all.first.push_back(std::uint32_t(all.place.size()));
+        for (const Source& source : row) {
+            CodedTile tile{.scale = std::uint16_t(below.place[source.tile] >> 16)};
+            for (std::size_t i = 0; i < kTexels; ++i)
+                tile.code[source.mirrored ? i % kTile * kTile + i / kTile : i] =
+                    code_at(below, source.tile, i, bits);
+            append(all, tile, source.column, bits);
+        }
+    }
+    all.first.push_back(std::uint32_t(all.place.size()));
+    return all;
 }
 
 }  // namespace
@@ -329,10 +443,10 @@ std::vector<float> load_bases(const TiledMatrix& tiled)
 std::size_t TiledMatrix::bytes() const
 {
     std::size_t count = order.size() * sizeof(std::uint32_t) + kept.size() * sizeof(std::uint32_t) +
-                        basis.size() * sizeof(std::uint16_t) + color.size() * sizeof(glm::vec3) +
-                        root_area.size() * sizeof(float);
-    for (const auto* kinds : {&fine, &coarse})
-        for (const TileRows& rows : *kinds)
+                        basis.size() + basis_unit.size() * sizeof(float) +
+                        color.size() * sizeof(glm::vec3) + root_area.size() * sizeof(float);
+    for (const std::array<TileRows, 3>& axes : tiles)
+        for (const TileRows& rows : axes)
             count +=
                 (rows.first.size() + rows.place.size() + rows.codes.size()) * sizeof(std::uint32_t);
     return count;
@@ -349,10 +463,13 @@ TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
     tiled.color = elements.color;
     tiled.root_area = root_areas(elements);
     Coefficients coefficients = by_axes(balance, tiled.order);
-    const std::vector<float> bases = find_bases(coefficients);
-    transform(bases, coefficients, false);
+    symmetrise(coefficients);
+    CodedBasis bases;
+    append_rows(bases, find_bases(coefficients));
+    transform(duals(bases), coefficients, false);
+    tiled.unit = half_unit(coefficients.axis[0]);
     for (const std::vector<float>& axis : coefficients.axis)
-        tiled.unit = std::max(&axis == &coefficients.axis[0] ? 0.0f : tiled.unit, half_unit(axis));
+        tiled.unit = std::max(tiled.unit, half_unit(axis));
     const std::vector<Loss> loss = losses(coefficients, tiled.unit);
     store(tiled, coefficients, loss, find_lambda(loss, options.error));
     store_bases(tiled, bases);
@@ -365,8 +482,9 @@ ColorMatrix decompress(const TiledMatrix& tiled)
     Coefficients coefficients{filled(n), {}};
     for (int a = 0; a < 3; ++a) {
         coefficients.axis[a].assign(coefficients.side * coefficients.side, 0.0f);
-        load(tiled.fine[a], tiled.unit, 8, kFineCodes, coefficients.side, coefficients.axis[a]);
-        load(tiled.coarse[a], tiled.unit, 4, kCoarseCodes, coefficients.side, coefficients.axis[a]);
+        for (std::size_t precision = 0; precision < kPrecisions; ++precision)
+            load(tiled.tiles[precision][a], tiled.unit, precision, coefficients.side,
+                 coefficients.axis[a]);
     }
     transform(load_bases(tiled), coefficients, true);
     ColorMatrix result;
@@ -379,6 +497,16 @@ ColorMatrix decompress(const TiledMatrix& tiled)
                         kAxes[a][c] * coefficients.axis[a][i * coefficients.side + j];
     }
     return unbalanced(result, tiled.color, tiled.root_area);
+}
+
+std::array<std::array<TileRows, 3>, kPrecisions> both_halves(const TiledMatrix& tiled)
+{
+    std::array<std::array<TileRows, 3>, kPrecisions> all;
+    for (std::size_t precision = 0; precision < kPrecisions; ++precision)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            all[precision][axis] =
+                with_mirror_images(tiled.tiles[precision][axis], kTileBits[precision]);
+    return all;
 }
 
 }  // namespace lumel

@@ -15,37 +15,43 @@ namespace lumel {
 
 struct TileOptions {
     /// Relative error to aim at, of indirect light where direct light comes from anywhere.
-    float error = 0.005f;
+    float error = 0.01f;
 };
 
-/// Tiles of one kind, row by row.
+inline constexpr std::array<std::uint32_t, kPrecisions> kTileBits = {4, 8, 16};
+
+/// Tiles of one precision, row by row.
 struct TileRows {
     std::vector<std::uint32_t> first;  ///< [tile rows + 1]
     /// Upper 16 bits: half float, what the largest code means; lower: the tile's column.
     std::vector<std::uint32_t> place;
-    std::vector<std::uint32_t> codes;  ///< per tile: 4 words of 8 bits, or 2 of 4; row by row
+    std::vector<std::uint32_t> codes;  ///< per tile: 16 of kTileBits each, row by row
 };
 
-/// M = D^-1 Q^T T Q D C: colours C, D = √area, an orthonormal basis Q for each cluster of patches,
-/// and T made of three sparse matrices of 4 × 4 tiles, one for each axis of colours.
+/// M = D^-1 Q^T T Q D C: colours C, D = √area, a basis Q for each cluster of patches, and T made of
+/// three sparse, symmetric matrices of 4 × 4 tiles, one for each axis of colours.
 struct TiledMatrix {
     std::uint32_t size = 0;
     std::vector<std::uint32_t> order;  ///< [size] the patch at each place; clusters lie together
     std::vector<std::uint32_t> kept;   ///< [clusters] coefficients in use, a multiple of 4
-    std::vector<std::uint16_t> basis;  ///< half floats, for each cluster [kept][kCluster]
+    std::vector<std::int8_t> basis;    ///< for each cluster [kept][kCluster], in kCodes8 of a unit
+    std::vector<float> basis_unit;     ///< of each row of `basis`
     std::vector<glm::vec3> color;      ///< [size], the caller's order
     std::vector<float> root_area;      ///< [size] √area, the caller's order
     float unit = 1.0f;                 ///< what a half float 1 means in a tile
-    std::array<TileRows, 3> fine;      ///< of 8 bits, for each axis
-    std::array<TileRows, 3> coarse;    ///< of 4 bits
+    std::array<std::array<TileRows, 3>, kPrecisions> tiles;  ///< [precision][axis], column ≤ row
 
     std::uint32_t clusters() const { return std::uint32_t(kept.size()); }
     std::size_t bytes() const;
 };
 
-/// Throws Error{input} if the matrix is too large, or if elements are missing.
+/// Takes the symmetric part of the balanced matrix. Throws Error{input} if the matrix is too large,
+/// or if elements are missing.
 TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
                            const TileOptions& options);
 ColorMatrix decompress(const TiledMatrix& tiled);
+
+/// All tiles, those above the diagonal too, columns ascending.
+std::array<std::array<TileRows, 3>, kPrecisions> both_halves(const TiledMatrix& tiled);
 
 }  // namespace lumel

@@ -33,32 +33,42 @@ Words first_basis(const TiledMatrix& matrix)
 
 Words basis_words(const TiledMatrix& matrix)
 {
-    Words words(matrix.basis.size() / 2);
+    Words words(matrix.basis.size() / 4);
     for (std::size_t i = 0; i < matrix.basis.size(); ++i)
-        words[i / 2] |= std::uint32_t(matrix.basis[i]) << (16 * (i % 2));
+        words[i / 4] |= std::uint32_t(std::uint8_t(matrix.basis[i])) << (8 * (i % 4));
     return words;
 }
 
-Words all_firsts(const TiledMatrix& matrix)
+using AllTiles = std::array<std::array<TileRows, 3>, kPrecisions>;
+
+Words all_firsts(const AllTiles& tiles)
 {
     Words words;
-    for (const auto* kind : {&matrix.fine, &matrix.coarse}) {
-        std::uint32_t before = 0;
-        for (const TileRows& rows : *kind) {
+    std::uint32_t before = 0;
+    for (const std::array<TileRows, 3>& axes : tiles)
+        for (const TileRows& rows : axes) {
             for (const std::uint32_t first : rows.first)
                 words.push_back(before + first);
             before += std::uint32_t(rows.place.size());
         }
-    }
     return words;
 }
 
-/// One after the other, of all axes.
-Words joined(const std::array<TileRows, 3>& axes, std::vector<std::uint32_t> TileRows::*part)
+Words all_places(const AllTiles& tiles)
+{
+    Words words;
+    for (const std::array<TileRows, 3>& axes : tiles)
+        for (const TileRows& rows : axes)
+            words.insert(words.end(), rows.place.begin(), rows.place.end());
+    return words;
+}
+
+/// Of one precision, all axes.
+Words codes_of(const std::array<TileRows, 3>& axes)
 {
     Words words;
     for (const TileRows& rows : axes)
-        words.insert(words.end(), (rows.*part).begin(), (rows.*part).end());
+        words.insert(words.end(), rows.codes.begin(), rows.codes.end());
     return words;
 }
 
@@ -71,6 +81,12 @@ std::size_t plane_floats(const TiledMatrix& matrix, std::uint32_t states)
 
 MultiplyTiles::MultiplyTiles(const gpu::Device& device, const TiledMatrix& matrix,
                              std::uint32_t states)
+    : MultiplyTiles(device, matrix, both_halves(matrix), states)
+{
+}
+
+MultiplyTiles::MultiplyTiles(const gpu::Device& device, const TiledMatrix& matrix,
+                             const AllTiles& tiles, std::uint32_t states)
     : clusters_(matrix.clusters()),
       unit_(matrix.unit),
       in_(device, plane_floats(matrix, states)),
@@ -81,16 +97,17 @@ MultiplyTiles::MultiplyTiles(const gpu::Device& device, const TiledMatrix& matri
               sent_weights(matrix.color, matrix.root_area)),
       first_basis_(on_device(device, first_basis(matrix))),
       basis_(on_device(device, basis_words(matrix))),
-      first_(on_device(device, all_firsts(matrix))),
-      fine_place_(on_device(device, joined(matrix.fine, &TileRows::place))),
-      fine_(on_device(device, joined(matrix.fine, &TileRows::codes))),
-      coarse_place_(on_device(device, joined(matrix.coarse, &TileRows::place))),
-      coarse_(on_device(device, joined(matrix.coarse, &TileRows::codes))),
+      basis_unit_(device, std::span<const float>(matrix.basis_unit)),
+      first_(on_device(device, all_firsts(tiles))),
+      place_(on_device(device, all_places(tiles))),
+      codes4_(on_device(device, codes_of(tiles[0]))),
+      codes8_(on_device(device, codes_of(tiles[1]))),
+      codes16_(on_device(device, codes_of(tiles[2]))),
       scatter_(device, matrix.size, clusters_ * kCluster, matrix.order,
                received_weights(matrix.root_area), {}),
-      project_(device, "multiply_tiles.project", kProjectSpirv, 4, sizeof(TileParams), kCluster),
+      project_(device, "multiply_tiles.project", kProjectSpirv, 5, sizeof(TileParams), kCluster),
       product_(device, "multiply_tiles.product", kProductSpirv, 7, sizeof(TileParams), kTileGroup),
-      expand_(device, "multiply_tiles.expand", kExpandSpirv, 4, sizeof(TileParams), kCluster)
+      expand_(device, "multiply_tiles.expand", kExpandSpirv, 5, sizeof(TileParams), kCluster)
 {
 }
 
@@ -100,10 +117,10 @@ void MultiplyTiles::record(gpu::Commands& commands, const gpu::Array<glm::vec3>&
     const TileParams params{clusters_, states, unit_};
     const std::size_t patches = std::size_t(states) * clusters_ * kCluster;
     gather_.record(commands, x, in_, states);
-    commands.dispatch(project_, {first_basis_, basis_, in_, seen_}, params, patches);
-    commands.dispatch(product_, {first_, fine_place_, fine_, coarse_place_, coarse_, seen_, sent_},
-                      params, patches / kTile * kTileLanes);
-    commands.dispatch(expand_, {first_basis_, basis_, sent_, out_}, params, patches);
+    commands.dispatch(project_, {first_basis_, basis_, basis_unit_, in_, seen_}, params, patches);
+    commands.dispatch(product_, {first_, place_, codes4_, codes8_, codes16_, seen_, sent_}, params,
+                      patches / kTile * kTileLanes);
+    commands.dispatch(expand_, {first_basis_, basis_, basis_unit_, sent_, out_}, params, patches);
     scatter_.record(commands, out_, x, y, states);
 }
 

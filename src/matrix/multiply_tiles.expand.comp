@@ -7,9 +7,10 @@
 layout(local_size_x = kCluster) in;
 layout(push_constant, scalar) uniform Params { TileParams p; };
 layout(binding = 0, scalar) readonly buffer First { uint first_basis[]; };
-layout(binding = 1, scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 2]
-layout(binding = 2, scalar) readonly buffer In { float coefficients[]; };
-layout(binding = 3, scalar) writeonly buffer Out { float patches[]; };
+layout(binding = 1, scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 4]
+layout(binding = 2, scalar) readonly buffer Unit { float unit[]; };  // of each row
+layout(binding = 3, scalar) readonly buffer In { float coefficients[]; };
+layout(binding = 4, scalar) writeonly buffer Out { float patches[]; };
 
 shared vec3 light[kCluster];
 
@@ -24,8 +25,8 @@ void main()
     vec3 sum = vec3(0.0);
     const uint first = first_basis[cluster], kept = first_basis[cluster + 1u] - first;
     for (uint k = 0u; k < kept; ++k) {
-        const vec2 weights = unpackHalf2x16(basis[(first + k) * (kCluster / 2u) + me / 2u]);
-        sum += weights[me % 2u] * light[k];
+        const vec4 weights = unpackSnorm4x8(basis[(first + k) * (kCluster / 4u) + me / 4u]);
+        sum += weights[me % 4u] * unit[first + k] * light[k];
     }
     for (uint c = 0u; c < 3u; ++c)
         patches[(state * 3u + c) * width + place] = sum[c];

@@ -15,14 +15,20 @@ public:
                 const gpu::Array<glm::vec3>& y, std::uint32_t states);
 
 private:
+    MultiplyTiles(const gpu::Device& device, const TiledMatrix& matrix,
+                  const std::array<std::array<TileRows, 3>, kPrecisions>& tiles,
+                  std::uint32_t states);
+
     std::uint32_t clusters_;
     float unit_;
     gpu::Array<float> in_, seen_, sent_, out_;  ///< planes: of patches, of coefficients
     Gather gather_;
     gpu::Array<std::uint32_t> first_basis_;  ///< [clusters + 1] rows of all bases before
-    gpu::Array<std::uint32_t> basis_;        ///< two half floats a word
-    gpu::Array<std::uint32_t> first_;        ///< [fine, coarse][axis][tile rows + 1]
-    gpu::Array<std::uint32_t> fine_place_, fine_, coarse_place_, coarse_;
+    gpu::Array<std::uint32_t> basis_;        ///< four codes a word
+    gpu::Array<float> basis_unit_;           ///< of each row
+    gpu::Array<std::uint32_t> first_;        ///< [precision][axis][tile rows + 1], of all tiles
+    gpu::Array<std::uint32_t> place_;        ///< of all tiles
+    gpu::Array<std::uint32_t> codes4_, codes8_, codes16_;
     Scatter scatter_;
     gpu::Kernel project_, product_, expand_;
 };

@@ -6,44 +6,45 @@
 
 layout(local_size_x = kTileGroup) in;
 layout(push_constant, scalar) uniform Params { TileParams p; };
-layout(binding = 0, scalar) readonly buffer First { uint first[]; };  // [kind][axis][rows + 1]
-layout(binding = 1, scalar) readonly buffer FinePlace { uint fine_place[]; };
-layout(binding = 2, scalar) readonly buffer Fine { uvec4 fine[]; };  // a row of 4 × 8 bits each
-layout(binding = 3, scalar) readonly buffer CoarsePlace { uint coarse_place[]; };
-layout(binding = 4, scalar) readonly buffer Coarse { uvec2 coarse[]; };  // two rows of 4 × 4 bits
-layout(binding = 5, scalar) readonly buffer In { vec4 seen[]; };         // [states][3][rows]
-layout(binding = 6, scalar) writeonly buffer Out { vec4 sent[]; };       // the same
+layout(binding = 0, scalar) readonly buffer First { uint first[]; };  // [bits][axis][rows + 1]
+layout(binding = 1, scalar) readonly buffer Place { uint place[]; };  // of all tiles
+layout(binding = 2, scalar) readonly buffer Codes4 { uvec2 codes4[]; };  // one each
+layout(binding = 3, scalar) readonly buffer Codes8 { uvec4 codes8[]; };
+layout(binding = 4, scalar) readonly buffer Codes16 { uvec4 codes16[][2]; };
+layout(binding = 5, scalar) readonly buffer In { vec4 seen[]; };    // [states][3][rows]
+layout(binding = 6, scalar) writeonly buffer Out { vec4 sent[]; };  // the same
 
 // Four rows' light, for each channel.
 struct Light { vec4 channel[3]; };
 
 shared Light parts[kTileGroup];
 
-// Rows of the tile are columns of `rows`, so that rows · x is their dot products with x.
-void add_tile(inout Light sum, mat4 rows, uint place, uint state, uint row_count, vec3 axis)
-{
-    const float scale = unpackHalf2x16(place).y * p.unit;
-    const uint column = place & 0xffffu;
-    for (uint c = 0u; c < 3u; ++c)
-        sum.channel[c] += axis[c] * scale * (seen[(state * 3u + c) * row_count + column] * rows);
-}
-
 vec4 signed_nibbles(uint bits)
 {
     const ivec4 left = ivec4(uvec4(bits << 28, bits << 24, bits << 20, bits << 16));
-    return vec4(left >> 28) / kCoarseCodes;
+    return vec4(left >> 28) / kCodes4;
 }
 
-mat4 fine_rows(uvec4 codes)
+vec4 shorts(uvec2 words)
 {
-    return mat4(unpackSnorm4x8(codes.x), unpackSnorm4x8(codes.y), unpackSnorm4x8(codes.z),
-                unpackSnorm4x8(codes.w));
+    return vec4(unpackSnorm2x16(words.x), unpackSnorm2x16(words.y));
 }
 
-mat4 coarse_rows(uvec2 codes)
+// Rows of a tile as columns, so that x · columns is their dot products with x.
+mat4 rows_of(uint digits, uint tile)
 {
-    return mat4(signed_nibbles(codes.x), signed_nibbles(codes.x >> 16), signed_nibbles(codes.y),
-                signed_nibbles(codes.y >> 16));
+    if (digits == 0u) {
+        const uvec2 codes = codes4[tile];
+        return mat4(signed_nibbles(codes.x), signed_nibbles(codes.x >> 16),
+                    signed_nibbles(codes.y), signed_nibbles(codes.y >> 16));
+    }
+    if (digits == 1u) {
+        const uvec4 codes = codes8[tile];
+        return mat4(unpackSnorm4x8(codes.x), unpackSnorm4x8(codes.y), unpackSnorm4x8(codes.z),
+                    unpackSnorm4x8(codes.w));
+    }
+    return mat4(shorts(codes16[tile][0].xy), shorts(codes16[tile][0].zw),
+                shorts(codes16[tile][1].xy), shorts(codes16[tile][1].zw));
 }
 
 void main()
@@ -55,16 +56,20 @@ void main()
     Light sum;
     for (uint c = 0u; c < 3u; ++c)
         sum.channel[c] = vec4(0.0);
-    if (state < p.states)
-        for (uint a = 0u; a < 3u; ++a) {
-            const vec3 axis = a == 0u ? kGrayAxis : (a == 1u ? kRedBlueAxis : kGreenAxis);
-            const uint fine_row = a * (row_count + 1u) + row;
-            const uint coarse_row = (a + 3u) * (row_count + 1u) + row;
-            for (uint t = first[fine_row] + lane; t < first[fine_row + 1u]; t += kTileLanes)
-                add_tile(sum, fine_rows(fine[t]), fine_place[t], state, row_count, axis);
-            for (uint t = first[coarse_row] + lane; t < first[coarse_row + 1u]; t += kTileLanes)
-                add_tile(sum, coarse_rows(coarse[t]), coarse_place[t], state, row_count, axis);
+    for (uint kind = 0u; kind < 3u * kPrecisions && state < p.states; ++kind) {
+        const uint digits = kind / 3u;
+        const uint a = kind % 3u;
+        const vec3 axis = a == 0u ? kGrayAxis : (a == 1u ? kRedBlueAxis : kGreenAxis);
+        const uint begin = kind * (row_count + 1u) + row;
+        for (uint t = first[begin] + lane; t < first[begin + 1u]; t += kTileLanes) {
+            const mat4 rows = rows_of(digits, t - first[digits * 3u * (row_count + 1u)]);
+            const float scale = unpackHalf2x16(place[t]).y * p.unit;
+            const uint column = place[t] & 0xffffu;
+            for (uint c = 0u; c < 3u; ++c)
+                sum.channel[c] +=
+                    axis[c] * scale * (seen[(state * 3u + c) * row_count + column] * rows);
         }
+    }
     parts[me] = sum;
     for (uint width = kTileLanes / 2u; width > 0u; width /= 2u) {
         barrier();

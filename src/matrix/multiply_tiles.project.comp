@@ -7,9 +7,10 @@
 layout(local_size_x = kCluster) in;
 layout(push_constant, scalar) uniform Params { TileParams p; };
 layout(binding = 0, scalar) readonly buffer First { uint first_basis[]; };
-layout(binding = 1, scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 2]
-layout(binding = 2, scalar) readonly buffer In { float patches[]; };
-layout(binding = 3, scalar) writeonly buffer Out { float coefficients[]; };
+layout(binding = 1, scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 4]
+layout(binding = 2, scalar) readonly buffer Unit { float unit[]; };  // of each row
+layout(binding = 3, scalar) readonly buffer In { float patches[]; };
+layout(binding = 4, scalar) writeonly buffer Out { float coefficients[]; };
 
 shared vec3 light[kCluster];
 
@@ -23,11 +24,14 @@ void main()
     barrier();
     vec3 sum = vec3(0.0);
     const uint row = first_basis[cluster] + me;
-    if (row < first_basis[cluster + 1u])
-        for (uint pair = 0u; pair < kCluster / 2u; ++pair) {
-            const vec2 weight = unpackHalf2x16(basis[row * (kCluster / 2u) + pair]);
-            sum += weight.x * light[2u * pair] + weight.y * light[2u * pair + 1u];
+    if (row < first_basis[cluster + 1u]) {
+        for (uint quad = 0u; quad < kCluster / 4u; ++quad) {
+            const vec4 weights = unpackSnorm4x8(basis[row * (kCluster / 4u) + quad]);
+            for (uint i = 0u; i < 4u; ++i)
+                sum += weights[i] * light[4u * quad + i];
         }
+        sum *= unit[row];
+    }
     for (uint c = 0u; c < 3u; ++c)
         coefficients[(state * 3u + c) * width + place] = sum[c];
 }

@@ -3,10 +3,12 @@
 #include "core/shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kCluster = 64u;        ///< patches that share a basis
-LUMEL_CONST uint kTile = 4u;            ///< side of a tile of coefficients
-LUMEL_CONST float kFineCodes = 127.0f;  ///< codes of 8 bits are −127…127
-LUMEL_CONST float kCoarseCodes = 7.0f;  ///< codes of 4 bits are −7…7
+LUMEL_CONST uint kCluster = 64u;    ///< patches that share a basis
+LUMEL_CONST uint kTile = 4u;        ///< side of a tile of coefficients
+LUMEL_CONST uint kPrecisions = 3u;  ///< kinds of tiles: codes of 4, 8 and 16 bits
+
+/// What the codes are divided by; they go as far below 0.
+LUMEL_CONST float kCodes4 = 7.0f, kCodes8 = 127.0f, kCodes16 = 32767.0f;
 
 /// Light of all channels, red against blue, green against both: orthonormal, so that errors of axes
 /// add up like those of channels. Channel c of a matrix is Σ axis[c] T_axis.

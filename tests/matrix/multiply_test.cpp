@@ -105,10 +105,8 @@ TEST(MultiplyOnGpu, IsTheStoredMatrixOfTiles)
     TestRoom room = sphere_room(kSize, 3);
     const ColorMatrix kernel = shuffled_kernel(kSize, 4);
     const TiledMatrix compressed = compress_tiles(kernel, room.elements, {.error = 0.02f});
-    for (const TileRows& rows : compressed.coarse)
-        EXPECT_FALSE(rows.place.empty());
-    for (const TileRows& rows : compressed.fine)
-        EXPECT_FALSE(rows.place.empty());
+    for (const std::array<TileRows, 3>& axes : compressed.tiles)
+        EXPECT_FALSE(axes[0].place.empty());
     const std::vector<glm::vec3> x = random_light(2 * kSize);
     expect_products(on_gpu(device, Multiply(device, compressed, 2), x, 2), decompress(compressed),
                     x, kSumRounding);
