@@ -89,10 +89,9 @@ void print_distribution(const MatrixCase& matrix_case)
 
 void print_shares(const MatrixCase& matrix_case, const std::vector<double>& shares)
 {
-    fmt::print(
-        "\nError against the share kept exactly (figure 2), the paper's settings:\n\n"
-        "| share % | total error | mean | largest | light, RMSE % | worst % | naive / bytes |\n"
-        "|---|---|---|---|---|---|---|\n");
+    fmt::print("\nError against the share kept exactly (figure 2), the paper's settings:\n\n"
+               "| share % | Σ e | Σ e² | largest | light, RMSE % | worst % | naive / bytes |\n"
+               "|---|---|---|---|---|---|---|\n");
     for (const double share : shares) {
         CodingOptions options = papers_settings();
         options.exact_share = float(share / kPercent);

@@ -21,19 +21,25 @@ float channel_of(uint color, uint plane)
     return float(code << 3 | code >> 2);
 }
 
-vec4 part(uint block_row, uint quad, uint plane, uint r)
+vec4 texels(uint bits, vec4 palette)
 {
-    const uvec2 block = matrix[block_row * p.quads + quad];
-    const uint first = block.x & 0xffffu, second = block.x >> 16;
-    const float a = channel_of(first, plane), b = channel_of(second, plane);
-    const vec4 palette = first > second ? vec4(a, b, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0)
-                                        : vec4(a, b, 0.5 * (a + b), 0.0);
-    const uint bits = block.y >> (8u * r);
     const uvec4 index = uvec4(bits, bits >> 2, bits >> 4, bits >> 6) & 3u;
-    const vec4 codes = mix(mix(vec4(palette.x), vec4(palette.y), equal(index, uvec4(1u))),
-                           mix(vec4(palette.z), vec4(palette.w), equal(index, uvec4(3u))),
-                           greaterThan(index, uvec4(1u)));
-    return from_log_codes(codes, p.log_step, p.log_factor[plane]);
+    return mix(mix(vec4(palette.x), vec4(palette.y), equal(index, uvec4(1u))),
+               mix(vec4(palette.z), vec4(palette.w), equal(index, uvec4(3u))),
+               greaterThan(index, uvec4(1u)));
+}
+
+// The four entries that a block can have are decoded once, then chosen from.
+mat4 block(uint block_row, uint quad, uint plane)
+{
+    const uvec2 words = matrix[block_row * p.quads + quad];
+    const uint first = words.x & 0xffffu, second = words.x >> 16;
+    const float a = channel_of(first, plane), b = channel_of(second, plane);
+    const vec4 codes = first > second ? vec4(a, b, (2.0 * a + b) / 3.0, (a + 2.0 * b) / 3.0)
+                                      : vec4(a, b, 0.5 * (a + b), 0.0);
+    const vec4 palette = from_log_codes(codes, p.log_step, p.log_factor[plane]);
+    return mat4(texels(words.y, palette), texels(words.y >> 8, palette),
+                texels(words.y >> 16, palette), texels(words.y >> 24, palette));
 }
 
 #include "matrix/rows_product.glsl"

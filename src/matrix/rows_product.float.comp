@@ -8,9 +8,11 @@ layout(binding = 0, scalar) readonly buffer Matrix { vec4 matrix[]; };
 
 const uint kPlanes = 1u;
 
-vec4 part(uint block_row, uint quad, uint plane, uint r)
+mat4 block(uint block_row, uint quad, uint plane)
 {
-    return matrix[(block_row * 4u + r) * p.quads + quad];
+    const uint first = block_row * 4u * p.quads + quad;
+    return mat4(matrix[first], matrix[first + p.quads], matrix[first + 2u * p.quads],
+                matrix[first + 3u * p.quads]);
 }
 
 #include "matrix/rows_product.glsl"

@@ -8,10 +8,17 @@ layout(binding = 0, scalar) readonly buffer Matrix { uvec2 matrix[]; };
 
 const uint kPlanes = 1u;
 
-vec4 part(uint block_row, uint quad, uint plane, uint r)
+vec4 floats(uvec2 words)
 {
-    const uvec2 words = matrix[(block_row * 4u + r) * p.quads + quad];
-    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y)) * p.factor[plane];
+    return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y));
+}
+
+mat4 block(uint block_row, uint quad, uint plane)
+{
+    const uint first = block_row * 4u * p.quads + quad;
+    return p.factor[plane] *
+           mat4(floats(matrix[first]), floats(matrix[first + p.quads]),
+                floats(matrix[first + 2u * p.quads]), floats(matrix[first + 3u * p.quads]));
 }
 
 #include "matrix/rows_product.glsl"

@@ -10,11 +10,17 @@ layout(binding = 0, scalar) readonly buffer Matrix { uint matrix[]; };
 
 const uint kPlanes = 1u;
 
-vec4 part(uint block_row, uint quad, uint plane, uint r)
+vec4 entries(uint word, uint plane)
 {
-    const vec4 codes =
-        unpackUnorm4x8(matrix[(block_row * 4u + r) * p.quads + quad]) * kLogCodes;
-    return from_log_codes(codes, p.log_step, p.log_factor[plane]);
+    return from_log_codes(unpackUnorm4x8(word) * kLogCodes, p.log_step, p.log_factor[plane]);
+}
+
+mat4 block(uint block_row, uint quad, uint plane)
+{
+    const uint first = block_row * 4u * p.quads + quad;
+    return mat4(entries(matrix[first], plane), entries(matrix[first + p.quads], plane),
+                entries(matrix[first + 2u * p.quads], plane),
+                entries(matrix[first + 3u * p.quads], plane));
 }
 
 #include "matrix/rows_product.glsl"

@@ -4,6 +4,7 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kProductLanes = 64u;  ///< invocations that share the columns of a group's rows
+LUMEL_CONST uint kTeam = 8u;           ///< of them read neighbouring columns: 128 bytes of floats
 /// Rows of a group: what is read of the vectors serves all of them, and as many loads of a lane are
 /// under way at once.
 LUMEL_CONST uint kProductRows = 8u;

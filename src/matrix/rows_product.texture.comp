@@ -10,12 +10,19 @@ layout(binding = 0) uniform sampler2D matrix;
 
 const uint kPlanes = 3u;
 
-vec4 part(uint block_row, uint quad, uint plane, uint r)
+vec4 entries(uint row, uint quad, uint plane)
 {
     vec4 codes;
     for (uint i = 0u; i < 4u; ++i)
-        codes[i] = texelFetch(matrix, ivec2(quad * 4u + i, block_row * 4u + r), 0)[plane];
+        codes[i] = texelFetch(matrix, ivec2(quad * 4u + i, row), 0)[plane];
     return from_log_codes(codes * kLogCodes, p.log_step, p.log_factor[plane]);
+}
+
+mat4 block(uint block_row, uint quad, uint plane)
+{
+    const uint row = block_row * 4u;
+    return mat4(entries(row, quad, plane), entries(row + 1u, quad, plane),
+                entries(row + 2u, quad, plane), entries(row + 3u, quad, plane));
 }
 
 #include "matrix/rows_product.glsl"
