@@ -168,11 +168,10 @@ void print_against_naive(const gpu::Device& device, const MatrixCase& matrix_cas
 CodedMatrix random_matrix(Code code, std::uint32_t n)
 {
     CodedMatrix matrix{.code = code, .size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f};
-    constexpr std::uint32_t bits[] = {32, 16, 8, 4, 4};  // of an entry, by code
     std::mt19937 random(1);
     for (std::size_t c = 0; c < (code == Code::bc1 ? 1u : 3u); ++c) {
         const std::size_t side = filled_up(n);
-        matrix.words[c].resize(side * side * bits[std::size_t(code)] / 32);
+        matrix.words[c].resize(side * side * bits_of(code) / 32);
         for (std::uint32_t& word : matrix.words[c]) {
             word = std::uint32_t(random());
             if (code == Code::float32)

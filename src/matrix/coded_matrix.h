@@ -46,6 +46,13 @@ struct CodedMatrix {
 CodedMatrix encode(const ColorMatrix& matrix, const CodingOptions& options);
 ColorMatrix decode(const CodedMatrix& coded);
 
+/// Bits of an entry; of bc1, of an entry of all channels.
+constexpr std::uint32_t bits_of(Code code)
+{
+    return code == Code::float32 ? 32u
+                                 : (code == Code::float16 ? 16u : (code == Code::log8 ? 8u : 4u));
+}
+
 /// `size` filled up to a whole number of blocks.
 constexpr std::uint32_t filled_up(std::uint32_t size)
 {

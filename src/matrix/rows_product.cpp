@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "matrix/block_codes.h"
 #include "matrix/half.h"
 #include "matrix/log_code.shared.h"
 #include "matrix/rows_product.shared.h"
@@ -36,25 +37,14 @@ constexpr std::uint32_t kMostVectors = 4, kMostColorVectors = 1;
 /// An array is not larger, so that its staging copy is not either.
 constexpr std::uint64_t kMostPartBytes = std::uint64_t(256) << 20;
 
-constexpr std::uint32_t kBlockRows = 4;  // all codes lie in memory by four rows
+constexpr std::uint32_t kBlockRows = kBlockSide;  // all codes lie in memory by four rows
 
 constexpr float kLeastLargest = 1e-37f;  // a channel without light has a logarithm too
 
 /// Words of four rows.
 std::size_t block_row_words(Code code, std::uint32_t quads)
 {
-    switch (code) {
-    case Code::float32:
-        return std::size_t(quads) * 16;
-    case Code::float16:
-        return std::size_t(quads) * 8;
-    case Code::log8:
-        return std::size_t(quads) * 4;
-    case Code::bc1:
-    case Code::bc4:
-        return std::size_t(quads) * 2;
-    }
-    return 0;
+    return std::size_t(quads) * kBlockTexels * bits_of(code) / 32;
 }
 
 gpu::Spirv spirv_of(Code code, bool texture)

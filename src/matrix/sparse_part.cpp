@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -33,10 +32,10 @@ void choose_largest(std::span<const float> row, std::span<std::uint16_t> columns
 SparsePart largest_entries(const ColorMatrix& matrix, float share)
 {
     SparsePart part{.size = matrix.size()};
-    if (part.size > std::numeric_limits<std::uint16_t>::max() + 1u)
+    if (part.size > kMostColumns)
         throw Error(ErrorKind::input, "form-factor matrix",
-                    "has " + std::to_string(part.size) +
-                        " patches, more than 65,536; use fewer patches");
+                    "has " + std::to_string(part.size) + " patches, more than " +
+                        std::to_string(kMostColumns) + "; use fewer patches");
     part.per_row = std::min(part.size, std::uint32_t(std::lround(share * float(part.size))));
     const std::size_t n = part.size, kept = part.per_row;
     for (int c = 0; c < 3; ++c) {

@@ -5,9 +5,12 @@
 
 namespace lumel {
 
+/// Columns that 16 bits can name.
+inline constexpr std::uint32_t kMostColumns = 0x10000u;
+
 /// For each channel and row the same number of entries.
 struct SparsePart {
-    std::uint32_t size = 0;     ///< rows and columns of the matrix, at most 65,536
+    std::uint32_t size = 0;     ///< rows and columns of the matrix, at most kMostColumns
     std::uint32_t per_row = 0;  ///< entries in a row of a channel
     std::array<std::vector<std::uint16_t>, 3> column;  ///< [size][per_row], ascending in a row
     std::array<std::vector<float>, 3> value;           ///< [size][per_row]
