@@ -104,6 +104,7 @@ struct MatrixSettings {
     std::vector<int> patches{2048};                 ///< n at most, one after the other
     int lights = 16;                                ///< states of light that errors are taken of
     std::vector<double> shares{0, 1, 2, 4, 8, 16};  ///< kept exactly [%]
+    std::string forms;  ///< a part of the names of those to compare, without the other tables
 };
 
 /// [SF17] figures 1, 2, 7 and 12: distribution of form factors, error and bytes of compressed

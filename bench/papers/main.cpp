@@ -198,6 +198,7 @@ void add_matrix(CLI::App& app, MatrixSettings& settings)
         ->delimiter(',')
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
+    figure->add_option("--forms", settings.forms, "only those whose names have this in them");
     figure->callback([&settings] { compare_matrix_forms(settings); });
 }
 

@@ -188,13 +188,16 @@ std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
     return forms;
 }
 
-void print_curve(const MatrixCase& matrix_case)
+/// Of forms whose names have `wanted` in them.
+void print_curve(const MatrixCase& matrix_case, const std::string& wanted)
 {
     fmt::print("\nBytes (figure 12) and error of indirect light, {} states:\n\n"
                "| form | MiB | naive / bytes | RMSE % | worst state % | seconds |\n"
                "|---|---|---|---|---|---|\n| naive: F, without colours | {:.2f} | 1 | | | |\n",
                matrix_case.lights.size(), naive_bytes(matrix_case) / kMebibyte);
     for (const FormOfCurve& form : forms_of(matrix_case)) {
+        if (form.name.find(wanted) == std::string::npos)
+            continue;
         const double begin = wall_seconds();
         const CompressedMatrix compressed = form.make();
         const double seconds = wall_seconds() - begin;
@@ -218,8 +221,10 @@ void compare_matrix_forms(const MatrixSettings& settings)
             make_matrix_case(device, settings.shared, std::uint32_t(patches), settings.lights);
         fmt::print("\n## {}, {} patches, {:.0f} s to make\n", settings.shared.scene,
                    matrix_case.size(), wall_seconds() - begin);
+        print_curve(matrix_case, settings.forms);
+        if (!settings.forms.empty())
+            continue;
         print_distribution(matrix_case);
-        print_curve(matrix_case);
         print_reorderings(matrix_case);
         print_shares(matrix_case, settings.shares);
     }
