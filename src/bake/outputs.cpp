@@ -53,7 +53,7 @@ void write_light(const OutputFolder& folder, const BakeOptions& options, const P
     const Image radiance =
         finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
     write_maps(folder, map, options.half, world, maps.layers);
-    write_solution(folder.path(kSolutionFile), world.lumels, irradiance);
+    write_solution(folder.path(kSolutionFile), world.lumels, irradiance, world.open);
     write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
     write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
     if (device && options.preview_width > 0) {

@@ -26,7 +26,7 @@ Prepared::Prepared(Scene given, const AtlasOptions& options)
 {
 }
 
-Prepared::Prepared(Scene given, const std::function<Atlas(const Scene&)>& lay_out)
+Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury)
     : scene(std::move(given)),
       rays(scene),
       atlas(lay_out(scene)),
@@ -36,7 +36,7 @@ Prepared::Prepared(Scene given, const std::function<Atlas(const Scene&)>& lay_ou
         throw Error(ErrorKind::input, scene.path,
                     "has no surface that light could fall on: nothing is drawn, or all of it is "
                     "cut out");
-    mark_buried(scene, rays, lumels);
+    open = bury ? bury(scene, rays, lumels) : mark_buried(scene, rays, lumels);
 }
 
 Prepared::Prepared(const std::string& scene_path, const AtlasOptions& options)

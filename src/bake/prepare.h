@@ -21,8 +21,11 @@ void check_camera(const Scene& scene, int camera);
 struct Prepared {
     /// Lays out and lifts a scene. Throws Error.
     Prepared(Scene scene, const AtlasOptions& options);
-    /// The same with an atlas that `lay_out` makes of the scene.
-    Prepared(Scene scene, const std::function<Atlas(const Scene&)>& lay_out);
+    /// The same with an atlas that `lay_out` makes of the scene, and what `bury` says of lumels
+    /// that mark_buried would mark; its result is `open`.
+    using LayOut = std::function<Atlas(const Scene&)>;
+    using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
+    Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {});
     /// Reads it first.
     Prepared(const std::string& scene_path, const AtlasOptions& options);
     Prepared(const Prepared&) = delete;
@@ -32,6 +35,7 @@ struct Prepared {
     RayScene rays;
     Atlas atlas;
     Lumels lumels;
+    std::vector<float> open;  ///< [N] share of each lumel's area that is not buried
 };
 
 }  // namespace lumel

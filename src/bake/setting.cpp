@@ -61,8 +61,8 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 {
 }
 
-Setting::Setting(Scene scene, const std::function<Atlas(const Scene&)>& lay_out,
-                 const gpu::Device& device, const BakeOptions& options, Stages& stages)
+Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+                 const BakeOptions& options, Stages& stages)
     : world(in_stage(std::move(scene), stages), lay_out),
       near(near_field_of(world, options.solver, stages)),
       resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),

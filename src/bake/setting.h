@@ -1,7 +1,6 @@
 #pragma once
 // A scene made ready for a solver, and a solver let run, as the stages that a user sees.
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,8 +26,8 @@ struct Setting {
     /// Throws Error.
     Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages);
     /// The same with an atlas that `lay_out` makes of the scene.
-    Setting(Scene scene, const std::function<Atlas(const Scene&)>& lay_out,
-            const gpu::Device& device, const BakeOptions& options, Stages& stages);
+    Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+            const BakeOptions& options, Stages& stages);
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 

@@ -16,18 +16,24 @@ struct StoredSolution {
     int side = 0;                        ///< of the atlas [texels]
     ChartMap charts;                     ///< [side][side]
     std::vector<glm::vec3> front, back;  ///< [side][side] H [lx], 0 where there is no such lumel
+    std::vector<glm::vec3> open;         ///< [side][side] open shares: of fronts, of backs
 
-    /// H of a lumel of that atlas.
-    const glm::vec3& of(const Lumel& lumel) const
+    /// H, and the open share of the area, of a lumel that has the texel in that atlas.
+    const glm::vec3& irradiance(const Lumel& lumel, std::size_t texel) const
     {
-        return (lumel.flags & kLumelBack ? back : front)[lumel.texel];
+        return (lumel.flags & kLumelBack ? back : front)[texel];
+    }
+    float open_share(const Lumel& lumel, std::size_t texel) const
+    {
+        return open[texel][lumel.flags & kLumelBack ? 1 : 0];
     }
 };
 
-/// R, G, B: H [lx] of fronts; A: the number of the chart, from 1; layer "back": of backs. 32-bit
-/// float. irradiance [N]. Throws Error{output}.
+/// R, G, B: H [lx] of fronts; A: the number of the chart, from 1; layer "back": H of backs; layer
+/// "open": Prepared::open of fronts in R, of backs in G. 32-bit float. irradiance [N], open [N].
+/// Throws Error{output}.
 void write_solution(const std::string& path, const Lumels& lumels,
-                    const std::vector<glm::vec3>& irradiance);
+                    const std::vector<glm::vec3>& irradiance, const std::vector<float>& open);
 
 /// Throws Error{input}.
 StoredSolution read_solution(const std::string& path);

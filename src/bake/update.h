@@ -24,7 +24,8 @@ struct UpdateSummary {
 };
 
 /// Finds what differs between the scene that was baked into `folder` and the one at `scene_path`,
-/// and brings all files of the bake up to date with it. Throws Error.
+/// and brings all files of the bake up to date with it; only report.json where nothing does. Throws
+/// Error.
 UpdateSummary update(const std::string& folder, const std::string& scene_path,
                      const UpdateOptions& options, const ProgressFunction& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// Maps of the unit square to directions. All keep areas: even points give even directions.
+// Maps of the unit square to directions. Even points give even directions.
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +26,13 @@ inline glm::vec3 in_cone(const glm::vec2& at, float angle)
     const float r = std::sqrt(std::max(down * (2.0f - down), 0.0f));
     const float turn = 2.0f * std::numbers::pi_v<float> * at.y;
     return {r * std::cos(turn), r * std::sin(turn), 1.0f - down};
+}
+
+/// The same over the hemisphere about +z, as dense as the cosine to it.
+inline glm::vec3 by_cosine(const glm::vec2& at)
+{
+    const float r = std::sqrt(at.x), turn = 2.0f * std::numbers::pi_v<float> * at.y;
+    return {r * std::cos(turn), r * std::sin(turn), std::sqrt(std::max(1.0f - at.x, 0.0f))};
 }
 
 }  // namespace lumel

@@ -231,36 +231,41 @@ OpenPart find_open_part(const Look& look, std::size_t i)
     return part;
 }
 
-/// Makes the lumel its open part, or buries it.
-void apply(Lumels& lumels, const OpenPart& part)
+/// Makes the lumel its open part, or buries it. Returns its open share.
+float apply(Lumels& lumels, const OpenPart& part)
 {
     Lumel& lumel = lumels.lumels[part.lumel];
     if (part.share < kLeastOpen) {
         lumel.flags |= kLumelBuried;
-        return;
+        return 0.0f;
     }
     lumel.area *= part.share;
     lumel.first_piece = std::uint32_t(lumels.pieces.size());
     lumel.piece_count = std::uint32_t(part.pieces.size());
     lumels.pieces.insert(lumels.pieces.end(), part.pieces.begin(), part.pieces.end());
+    return part.share;
 }
 
 }  // namespace
 
-void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels)
+std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
+                               const std::vector<char>& chosen)
 {
     std::vector<OpenPart> parts(lumels.lumels.size());
     {
         const WorldLumels world(scene, rays, lumels);
         const Look look{scene, rays, world, lumels};
         parallel_for(world.size(), 64, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                parts[i] = looks_open(look, i) ? OpenPart{i, {}, 1.0f} : find_open_part(look, i);
+            for (std::size_t i = begin; i < end; ++i) {
+                const bool open = (!chosen.empty() && !chosen[i]) || looks_open(look, i);
+                parts[i] = open ? OpenPart{i, {}, 1.0f} : find_open_part(look, i);
+            }
         });
     }
+    std::vector<float> shares;
     for (const OpenPart& part : parts)
-        if (part.share < 1.0f)
-            apply(lumels, part);
+        shares.push_back(part.share < 1.0f ? apply(lumels, part) : 1.0f);
+    return shares;
 }
 
 }  // namespace lumel

@@ -17,6 +17,10 @@ namespace lumel {
 /// a hundredth of the lumel's size above it (a surface lying on it). A point is hidden if every ray
 /// of it is shut in; one ray that gets away, or meets a front or a double-sided surface farther
 /// off, clears it. So the dark inside of a sealed but roomy box is not buried.
-void mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels);
+///
+/// Returns the open share of each lumel's area [N], 0 of buried ones. chosen [N]: looks at these
+/// alone and leaves the others as they are, with a share of 1; empty: all.
+std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
+                               const std::vector<char>& chosen = {});
 
 }  // namespace lumel

@@ -23,7 +23,8 @@ Json map_units(bool directional)
                          "fraction of each texel, 0: not covered"},
         {"lightmap.png", "tone-mapped for looking, sRGB"},
         {"solution.exr", "irradiance of lumels as solved [lx]: fronts in RGB, backs in layer back; "
-                         "alpha is the number of the chart, from 1"},
+                         "open shares of their areas in layer open, R and G; alpha is the number "
+                         "of the chart, from 1"},
         {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
                       "texel linear, intensity in lx"},
         {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},

@@ -7,18 +7,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/frame.h"
 #include "core/luminance.h"
 #include "core/parallel.h"
+#include "core/sphere.h"
 #include "reference/samples.h"
+#include "update/two_estimates.h"
 
 namespace lumel {
 namespace {
 
-/// Particles of each half in the first round; each round doubles what there is.
+/// Particles of each half in the first round. A round at most doubles what there is, as the error
+/// that it foresees is noisy itself, and makes so many times as many as that asks for.
 constexpr std::size_t kFirstParticles = 1 << 15;
+constexpr double kMargin = 1.1;
 /// Particles worth a task, and followed before their landings are added up.
 constexpr std::size_t kParticlesPerTask = 1024, kParticlesPerStep = 1 << 17;
 /// Lumels that a particle meets at most: white rooms would hold it for ever.
@@ -28,27 +31,9 @@ constexpr std::uint32_t kStratifiedBounces = 1;
 /// Dimension pairs of a particle's random numbers.
 constexpr std::uint32_t kPointPair = 0, kFirstBouncePair = 1, kPairsPerBounce = 2;
 
-glm::vec3 by_cosine(const glm::vec3& normal, const glm::vec2& at)
-{
-    const float r = std::sqrt(at.x), turn = 2.0f * std::numbers::pi_v<float> * at.y;
-    return frame_about(normal) * glm::vec3(r * std::cos(turn), r * std::sin(turn),
-                                           std::sqrt(std::max(1.0f - at.x, 0.0f)));
-}
-
 double size_of(const glm::vec3& light)
 {
     return luminance(glm::abs(light));
-}
-
-/// [lx] that the mean of two halves is off, as their difference tells.
-double error_of(const std::vector<glm::vec3> (&half)[2])
-{
-    double square = 0.0;
-    for (std::size_t i = 0; i < half[0].size(); ++i) {
-        const glm::dvec3 d = 0.5 * (glm::dvec3(half[0][i]) - glm::dvec3(half[1][i]));
-        square += glm::dot(d, d);
-    }
-    return std::sqrt(square / (3.0 * double(std::max<std::size_t>(half[0].size(), 1))));
 }
 
 }  // namespace
@@ -81,8 +66,9 @@ void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint3
     glm::vec3 position = y.position, normal = y.normal, carried = power;
     for (std::uint32_t bounce = 0; bounce < kMostBounces; ++bounce) {
         const std::uint32_t pair = kFirstBouncePair + kPairsPerBounce * bounce;
-        const glm::vec3 way = by_cosine(
-            normal, bounce < kStratifiedBounces ? samples.stratified(pair) : samples.random(pair));
+        const glm::vec2 at =
+            bounce < kStratifiedBounces ? samples.stratified(pair) : samples.random(pair);
+        const glm::vec3 way = frame_about(normal) * by_cosine(at);
         RayHit hit;
         if (!rays_->closest(position + lift * normal, way, 0.0f, std::numeric_limits<float>::max(),
                             samples.bits(pair), hit))
@@ -114,7 +100,7 @@ CarriedLight LightCarrier::carry(std::span<const glm::vec3> source, double error
 
     std::vector<glm::dvec3> sum[2] = {std::vector<glm::dvec3>(count),
                                       std::vector<glm::dvec3>(count)};
-    std::vector<glm::vec3> half[2] = {light.irradiance, light.irradiance};
+    TwoEstimates both(count);
     std::size_t done = 0;  // of each half
     const auto follow_some = [&](std::uint32_t h, std::size_t first, std::size_t last) {
         const std::size_t tasks = (last - first + kParticlesPerTask - 1) / kParticlesPerTask;
@@ -138,7 +124,7 @@ CarriedLight LightCarrier::carry(std::span<const glm::vec3> source, double error
             for (const Landing& landing : some)
                 sum[h][landing.lumel] += glm::dvec3(landing.power);
     };
-    for (std::size_t goal = kFirstParticles;; goal *= 2) {
+    for (std::size_t goal = kFirstParticles;;) {
         while (done < goal) {
             const std::size_t last = std::min(done + kParticlesPerStep, goal);
             for (std::uint32_t h = 0; h < 2; ++h)
@@ -150,9 +136,9 @@ CarriedLight LightCarrier::carry(std::span<const glm::vec3> source, double error
         }
         for (std::uint32_t h = 0; h < 2; ++h)
             for (std::size_t i = 0; i < count; ++i)
-                half[h][i] = glm::vec3(
+                both.half[h][i] = glm::vec3(
                     sum[h][i] / (double(done) * std::max(double(lumels_->lumels[i].area), 1e-30)));
-        light.state.error = error_of(half);
+        light.state.error = both.error();
         if (light.state.error <= error || (go_on && !go_on(light.state)))
             break;
         // The error falls with the square root of their number.
@@ -160,9 +146,10 @@ CarriedLight LightCarrier::carry(std::span<const glm::vec3> source, double error
         light.state.gave_up = double(light.state.particles) * lacking * lacking > double(most);
         if (light.state.gave_up)
             break;
+        goal = std::size_t(double(done) * std::min(kMargin * lacking * lacking, 2.0));
     }
     for (std::size_t i = 0; i < count; ++i)
-        light.irradiance[i] = 0.5f * (half[0][i] + half[1][i]);
+        light.irradiance[i] = both.mean(i);
     return light;
 }
 

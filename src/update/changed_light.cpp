@@ -112,9 +112,7 @@ public:
         at.x = std::clamp((at.x - below) / cones_[k].share, 0.0f, 0x1.fffffep-1f);
         if (!cones_[k].all_round)
             return frame_about(cones_[k].axis) * in_cone(at, cones_[k].angle);
-        const float r = std::sqrt(at.x), turn = 2.0f * kPi * at.y;
-        return frame_about(normal_) * glm::vec3(r * std::cos(turn), r * std::sin(turn),
-                                                std::sqrt(std::max(1.0f - at.x, 0.0f)));
+        return frame_about(normal_) * by_cosine(at);
     }
 
     /// Per solid angle, of a direction with that cosine to the normal.
@@ -506,7 +504,7 @@ std::vector<Ball> changed_balls(const Scene& before, const Scene& now, const Mat
     return balls;
 }
 
-TwoEstimates gather_changed_light(const SeenScene& before, const SeenScene& now,
+ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
                                   const std::vector<Asked>& asked, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,
@@ -514,9 +512,7 @@ TwoEstimates gather_changed_light(const SeenScene& before, const SeenScene& now,
 {
     const Gatherer gatherer(before, now, partner, asked, balls, options);
     const std::size_t count = asked.size();
-    TwoEstimates light;
-    for (std::vector<glm::vec3>& half : light.half)
-        half.resize(count, glm::vec3(0.0f));
+    ChangedLight light{TwoEstimates(count)};
     std::atomic<std::uint64_t> rays = 0;
     parallel_steps(
         count, kLumelsPerStep, kLumelsPerTask,
@@ -524,7 +520,7 @@ TwoEstimates gather_changed_light(const SeenScene& before, const SeenScene& now,
             std::uint64_t followed = 0;
             for (std::size_t i = first; i < last; ++i)
                 for (std::uint32_t h = 0; h < 2; ++h)
-                    light.half[h][i] = gatherer.gather(std::uint32_t(i), h, followed);
+                    light.irradiance.half[h][i] = gatherer.gather(std::uint32_t(i), h, followed);
             rays += followed;
         },
         [&](std::size_t done) {

@@ -9,6 +9,7 @@
 #include "nearfield/hit_lumels.h"
 #include "rays/ray_scene.h"
 #include "update/matches.h"
+#include "update/two_estimates.h"
 
 namespace lumel {
 
@@ -41,24 +42,23 @@ enum class Asked : std::uint8_t {
 };
 
 struct ChangedLightOptions {
-    float fineness = 0.004f;    ///< error of a lumel's light aimed at, as a part of what it faces
-    std::uint32_t whole = 256;  ///< rays of a lumel of which all is asked
-    std::uint32_t lamps = 64;   ///< points of lamps for each lumel
+    float fineness = 0.012f;    ///< error of a lumel's light aimed at, as a part of what it faces
+    std::uint32_t whole = 128;  ///< rays of a lumel of which all is asked
+    std::uint32_t lamps = 32;   ///< points of lamps for each lumel
     std::uint32_t effort = 1;   ///< so many times as many rays and points
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Two independent estimates; the mean is the better one.
-struct TwoEstimates {
-    std::vector<glm::vec3> half[2];  ///< [N] each
-    std::uint64_t rays = 0;          ///< followed for them
+struct ChangedLight {
+    TwoEstimates irradiance;  ///< [N] [lx]
+    std::uint64_t rays = 0;   ///< followed for it
 };
 
 /// Of the lumels `now`. Light that comes straight from the sky and lamps of `before` counts, in
 /// both scenes; the lights of `now` are not asked. partner [N]: the same lumel before, kNoLumel:
 /// none or changed. Noise is in proportion to what changed: where nothing did the difference is 0.
-TwoEstimates gather_changed_light(const SeenScene& before, const SeenScene& now,
+ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
                                   const std::vector<Asked>& asked, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,

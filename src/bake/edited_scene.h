@@ -1,0 +1,52 @@
+#pragma once
+// A baked scene and an edited one, side by side, in one atlas.
+
+#include <vector>
+
+#include "bake/baked_folder.h"
+#include "bake/prepare.h"
+#include "bake/solution_file.h"
+#include "output/report.h"
+#include "update/changed_light.h"
+#include "update/matches.h"
+
+namespace lumel {
+
+inline bool is_buried(const Lumel& lumel)
+{
+    return (lumel.flags & kLumelBuried) != 0;
+}
+
+/// Stays where it was made.
+struct EditedScene {
+    /// before: as read from the bake's scene.glb. Throws Error.
+    EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakedFolder& baked);
+    EditedScene(const EditedScene&) = delete;
+    EditedScene& operator=(const EditedScene&) = delete;
+
+    Prepared before;
+    Matches matches;
+    std::vector<Ball> balls;  ///< around what moved
+    /// [N now] Open shares of lumels whose pieces are still the whole; 1 of others. What is
+    /// gathered at points all over them is so much of what their open part gets, as the rest sees
+    /// nothing.
+    std::vector<float> thinned;
+    Prepared now;
+    /// [N now] The lumel of the same texel and side before, kNoLumel where there was none that
+    /// could be seen.
+    std::vector<std::uint32_t> same;
+    /// [N now] Of those, the lumels that also stand where they stood, as open as they were.
+    std::vector<std::uint32_t> partner;
+
+private:
+    std::vector<float> bury_anew(const Scene& scene, const RayScene& rays,
+                                 const StoredSolution& solution, Lumels& lumels);
+};
+
+/// Do two lumels reflect and emit alike?
+bool looks_alike(const Lumel& a, const Lumel& b);
+
+/// What was done to the scene.
+UpdateRow changes_of(const EditedScene& edit);
+
+}  // namespace lumel
