@@ -57,6 +57,10 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"list", "peel", "stochastic"}));
     app.add_option("--lookups", settings.solver.lookups, "with stochastic layers: 1, 3 or 5 wide")
         ->capture_default_str();
+    app.add_option("--slabs", settings.solver.slabs,
+                   "with stochastic layers: that directions are cut into; 0: as needed")
+        ->capture_default_str()
+        ->check(CLI::Range(0u, kMostSlabs));
     app.add_option("--map-side", settings.solver.map_side,
                    "of illumination maps [pixels]; 0: as suits the lumels")
         ->capture_default_str();

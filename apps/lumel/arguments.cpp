@@ -82,6 +82,7 @@ const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Di
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
 const Choices<Layers> kLayers = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
+constexpr const char* kAsNeeded = "auto";
 const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
@@ -133,6 +134,15 @@ void add_map_options(CLI::App& app, SolverOptions& solver)
                "(stochastic)");
     add_choice(app, "--lookups", solver.lookups, kLookups,
                "Side of the square of pixels looked up among stochastic layers (default: 3)");
+    app.add_option_function<std::string>(
+           "--slabs",
+           [&solver](const std::string& text) {
+               solver.slabs = text == kAsNeeded ? 0 : std::uint32_t(std::stoul(text));
+           },
+           "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
+           "stochastic layers; auto (the default): as many as the overdraw asks for")
+        ->type_name("auto|N")
+        ->check(CLI::IsMember({kAsNeeded}) | whole(1, kMostSlabs));
     app.add_option("--map-side", solver.map_side,
                    "Side of --solver directions' maps in pixels (default: as suits the lumels)")
         ->type_name("N")
@@ -530,9 +540,10 @@ void check_map_options(const CLI::App& command, const SolverOptions& solver)
         if (command.count(option) > 0 && !used)
             throw Error(ErrorKind::input, option, std::string("does nothing without ") + with);
     };
-    for (const char* option : {"--layers", "--lookups", "--map-side"})
+    for (const char* option : {"--layers", "--lookups", "--slabs", "--map-side"})
         require(option, solver.method == "directions", "--solver directions");
-    require("--lookups", solver.layers == Layers::stochastic, "--layers stochastic");
+    for (const char* option : {"--lookups", "--slabs"})
+        require(option, solver.layers == Layers::stochastic, "--layers stochastic");
     if (solver.method == "gather" && solver.projection != Projection::hemicube)
         throw Error(ErrorKind::input, "--projection",
                     "must be hemicube with --solver gather, which knows no other");

@@ -56,7 +56,8 @@ struct LayersSettings {
     Settings shared;
     int directions = 5000;
     std::vector<int> overdraws{1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20};  ///< planes in the stack
-    int views = 4;  ///< that the chance is taken from
+    std::vector<int> slabs{1, 2, 4};  ///< that divide the planes, or are left out
+    int views = 4;                    ///< that the chance is taken from
 };
 
 /// [TN11] figures 7 and 8: the chance that a surface is found, and the red light that leaks where

@@ -2,7 +2,6 @@
 // a stack of planes leaks onto one that can see no red.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -13,6 +12,7 @@
 #include "bench/stopwatch.h"
 #include "reference/samples.h"
 #include "scene/light_options.h"
+#include "solve/slabs.h"
 
 namespace lumel::bench {
 namespace {
@@ -28,11 +28,18 @@ struct Variant {
     const char* name;
     Layers layers;
     int lookups;
+    std::uint32_t slabs = 1;
 };
 
 constexpr Variant kVariants[] = {{"stochastic, 1 × 1", Layers::stochastic, 1},
+                                 {"the same, 2 slabs", Layers::stochastic, 1, 2},
+                                 {"the same, 4 slabs", Layers::stochastic, 1, 4},
+                                 {"the same, 8 slabs", Layers::stochastic, 1, 8},
                                  {"stochastic, 3 × 3", Layers::stochastic, 3},
+                                 {"the same, 2 slabs", Layers::stochastic, 3, 2},
+                                 {"the same, 4 slabs", Layers::stochastic, 3, 4},
                                  {"stochastic, 5 × 5", Layers::stochastic, 5},
+                                 {"the same, 2 slabs", Layers::stochastic, 5, 2},
                                  {"list", Layers::list, 1},
                                  {"peel", Layers::peel, 1}};
 
@@ -56,33 +63,43 @@ Scene stack_of(int planes)
     return scene;
 }
 
-/// An illumination map of planes: which of them each pixel shows, -1: none.
-struct PlaneMap {
+/// Illumination maps of planes, one of each slab: which of them each pixel shows, -1: none.
+struct PlaneMaps {
     int side = 0;
-    std::vector<int> planes;
+    std::vector<std::vector<int>> slabs;
 
-    int at(int x, int y) const
+    int at(std::size_t slab, int x, int y) const
     {
-        return planes[std::size_t(y) * std::size_t(side) + std::size_t(x)];
+        return slabs[slab][std::size_t(y) * std::size_t(side) + std::size_t(x)];
     }
 };
 
+/// Marks the planes that a pixel shows. Returns whether there is any.
+bool mark_planes(const PlaneMaps& maps, int x, int y, std::vector<bool>& seen)
+{
+    bool any = false;
+    for (std::size_t slab = 0; slab < maps.slabs.size(); ++slab) {
+        const int plane = maps.at(slab, x, y);
+        if (plane < 0)
+            continue;
+        any = true;
+        seen[std::size_t(plane)] = true;
+    }
+    return any;
+}
+
 /// Part of the pixels around which `reach` to each side show a plane; mean over planes. Pixels
 /// whose neighbourhood leaves the stack do not count.
-double share_found(const PlaneMap& map, int planes, int reach)
+double share_found(const PlaneMaps& maps, int planes, int reach)
 {
     std::size_t found = 0, pixels = 0;
-    for (int y = reach; y < map.side - reach; ++y)
-        for (int x = reach; x < map.side - reach; ++x) {
+    for (int y = reach; y < maps.side - reach; ++y)
+        for (int x = reach; x < maps.side - reach; ++x) {
             std::vector<bool> seen(std::size_t(planes), false);
             bool inside = true;
             for (int v = y - reach; v <= y + reach; ++v)
-                for (int u = x - reach; u <= x + reach; ++u) {
-                    const int plane = map.at(u, v);
-                    inside = inside && plane >= 0;
-                    if (plane >= 0)
-                        seen[std::size_t(plane)] = true;
-                }
+                for (int u = x - reach; u <= x + reach; ++u)
+                    inside = mark_planes(maps, u, v, seen) && inside;
             if (!inside)
                 continue;
             ++pixels;
@@ -91,7 +108,7 @@ double share_found(const PlaneMap& map, int planes, int reach)
     return double(found) / (double(pixels) * double(planes));
 }
 
-PlaneMap read_map(const IlluminationMaps& maps, const Lumels& lumels)
+PlaneMaps read_maps(const IlluminationMaps& maps, const Lumels& lumels)
 {
     std::vector<int> plane_of(std::size_t(lumels.width) * std::size_t(lumels.height), -1);
     for (const Lumel& lumel : lumels.lumels)
@@ -99,10 +116,17 @@ PlaneMap read_map(const IlluminationMaps& maps, const Lumels& lumels)
     const gpu::Target& image = maps.image();
     std::vector<glm::uvec2> pixels(std::size_t(image.width()) * image.height());
     image.download(pixels.data());
-    PlaneMap map{int(maps.layout().side), {}};
-    for (const glm::uvec2& pixel : pixels)  // one tile: the image is the map
-        map.planes.push_back(pixel.x == 0 ? -1 : plane_of[(pixel.x - 1) / 2]);
-    return map;
+    PlaneMaps read{int(maps.layout().side), {}};
+    for (std::uint32_t slab = 0; slab < maps.slabs(); ++slab) {
+        const gpu::Area area = tiles_of(maps.layout()).area(slab);
+        std::vector<int>& planes = read.slabs.emplace_back();
+        for (std::uint32_t y = area.y; y < area.y + area.height; ++y)
+            for (std::uint32_t x = area.x; x < area.x + area.width; ++x) {
+                const std::uint32_t surface = pixels[std::size_t(y) * image.width() + x].x;
+                planes.push_back(surface == 0 ? -1 : plane_of[(surface - 1) / 2]);
+            }
+    }
+    return read;
 }
 
 /// Views straight down on the planes, turned and shifted by chance.
@@ -120,48 +144,59 @@ std::vector<ParallelView> views_from_above(const World& world, int side, int cou
     return views;
 }
 
-/// For each reach, the share found in maps of so many planes.
-std::vector<double> measure_chances(const LayersSettings& settings, const gpu::Device& device,
-                                    int planes)
+struct Chances {
+    double overdraw = 0.0;      ///< K as it is measured, see Overdraw
+    std::vector<double> found;  ///< for each reach, the share of the planes
+};
+
+/// In maps of so many planes.
+Chances measure_chances(const LayersSettings& settings, const gpu::Device& device, int planes,
+                        int slabs)
 {
     const Prepared world(stack_of(planes), AtlasOptions{.size = kStackAtlas});
     const World resident(device, world.scene, world.lumels, &world.atlas);
     IlluminationMaps maps(device, resident, Layers::stochastic,
                           std::uint32_t(settings.shared.solver.map_side), 1,
-                          std::uint32_t(world.lumels.width), std::uint32_t(world.lumels.height));
+                          std::uint32_t(world.lumels.width), std::uint32_t(world.lumels.height),
+                          std::uint32_t(slabs));
     const std::vector<ParallelView> poses = views_from_above(
         resident, settings.shared.solver.map_side, settings.views, settings.shared.solver.seed);
     const gpu::Array<ParallelView> views(device, std::span<const ParallelView>(poses));
     gpu::Pacer pacer(device);
-    std::vector<double> shares(std::size(kReaches), 0.0);
+    Chances chances{.found = std::vector<double>(std::size(kReaches), 0.0)};
     for (std::uint32_t i = 0; i < std::uint32_t(poses.size()); ++i) {
         maps.look_along(pacer, views, i, 1);
         pacer.finish();
-        const PlaneMap map = read_map(maps, world.lumels);
-        for (std::size_t r = 0; r < shares.size(); ++r)
-            shares[r] += share_found(map, planes, kReaches[r]) / double(poses.size());
+        const PlaneMaps read = read_maps(maps, world.lumels);
+        for (std::size_t r = 0; r < chances.found.size(); ++r)
+            chances.found[r] += share_found(read, planes, kReaches[r]) / double(poses.size());
+        chances.overdraw += maps.overdraw(1) / double(poses.size());
     }
-    return shares;
+    return chances;
 }
 
-/// C_n(K), [TN11] section 6.
-double expected_chance(int planes, int reach)
+/// C_n(K), where planes are shared out evenly among slabs.
+double expected_chance(double planes, int reach)
 {
-    const double lookups = std::pow(2.0 * reach + 1.0, 2.0);
-    return 1.0 - std::pow(1.0 - 1.0 / planes, lookups);
+    return chance_found(planes, (2 * reach + 1) * (2 * reach + 1));
 }
 
 void print_chances(const LayersSettings& settings, const gpu::Device& device)
 {
-    fmt::print("| K | 9 lookups, found % | 1 − (1 − 1/K)⁹, % | 25 lookups, found % "
-               "| 1 − (1 − 1/K)²⁵, % |\n|---|---|---|---|---|\n");
-    for (const int planes : settings.overdraws) {
-        const std::vector<double> shares = measure_chances(settings, device, planes);
-        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", planes, 100.0 * shares[0],
-                   100.0 * expected_chance(planes, kReaches[0]), 100.0 * shares[1],
-                   100.0 * expected_chance(planes, kReaches[1]));
-        std::fflush(stdout);
-    }
+    fmt::print("| planes | slabs | K measured | 9 lookups, found % | 1 − (1 − 1/K)⁹, % "
+               "| 25 lookups, found % | 1 − (1 − 1/K)²⁵, % |\n|---|---|---|---|---|---|---|\n");
+    for (const int slabs : settings.slabs)
+        for (const int planes : settings.overdraws) {
+            if (planes % slabs != 0)
+                continue;
+            const Chances chances = measure_chances(settings, device, planes, slabs);
+            const double shared = double(planes) / double(slabs);
+            fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", planes, slabs,
+                       chances.overdraw, 100.0 * chances.found[0],
+                       100.0 * expected_chance(shared, kReaches[0]), 100.0 * chances.found[1],
+                       100.0 * expected_chance(shared, kReaches[1]));
+            std::fflush(stdout);
+        }
 }
 
 /// What the plane on top receives on one side: by how much the red exceeds the green, as a part
@@ -188,6 +223,7 @@ void print_red(const LayersSettings& settings, const gpu::Device& device, const 
         SolverOptions options = papers_iteration(settings.shared.solver);
         options.layers = variant.layers;
         options.lookups = variant.lookups;
+        options.slabs = variant.slabs;
         const auto solver =
             make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
         solver->step();

@@ -121,6 +121,7 @@ void add_layers(CLI::App& app, LayersSettings& settings)
                "of the illumination map [pixels]");
     add_number(figure, "--directions", settings.directions, "that light is gathered from");
     add_list(figure, "--overdraw", settings.overdraws, "planes behind one another");
+    add_list(figure, "--slabs", settings.slabs, "that they are cut into");
     add_number(figure, "--views", settings.views, "that the chance is taken from");
     figure->callback([&settings] { measure_layers(settings); });
 }
@@ -135,6 +136,12 @@ void add_directions(CLI::App& app, DirectionsSettings& settings)
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
     add_number(figure, "--map-side", settings.shared.solver.map_side,
                "of the illumination map [pixels]");
+    settings.shared.solver.slabs = 1;  // as the paper
+    figure
+        ->add_option("--slabs", settings.shared.solver.slabs,
+                     "that directions are cut into; 0: as needed")
+        ->check(CLI::Range(0u, kMostSlabs))
+        ->capture_default_str();
     add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
     figure->add_option("--sky", settings.sky, "file; else a clear sky");
     figure->add_option("-o,--out", settings.folder, "folder for the picture");

@@ -97,6 +97,7 @@ Settings settings_of(const BakeOptions& options)
             {"batch", std::to_string(solver.batch)},
             {"layers", text_of(solver.layers)},
             {"lookups", std::to_string(solver.lookups)},
+            {"slabs", solver.slabs > 0 ? std::to_string(solver.slabs) : "auto"},
             {"map-side", std::to_string(solver.map_side)},
             {"sky-directions", std::to_string(options.sky_directions)},
             {"projection", text_of(solver.projection)},

@@ -5,6 +5,7 @@
 //     repeat
 //         for K directions d over the sphere:
 //             draw the scene along d, every surface with a random depth      look_along, Figure 4
+//             (in slabs along d, and by ordinary depth what lies beyond each: section 6)
 //         for all lumels i:                                                  gather, Figure 5
 //             H_i += 4 B_j max(n_i · d, 0),   j nearest of the lookups around i      Eq. (2)
 //         now and then:  B ← E + ρ H from the running average                Figure 6
@@ -19,6 +20,8 @@
 // - Layers::list keeps every surface of a pixel, and Layers::peel has one after the other
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
 //   in every batch, to read back one word: whether the last layer showed any lumel something new.
+// - Regions are slabs along d, whose surfaces compete only among themselves (illumination_maps.h).
+//   As many as the measured overdraw asks for (slabs.cpp).
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 
@@ -31,6 +34,7 @@
 #include "core/sphere.h"
 #include "reference/samples.h"
 #include "solve/lumel_arrays.h"
+#include "solve/slabs.h"
 
 namespace lumel {
 namespace {
@@ -63,9 +67,9 @@ std::uint32_t map_side(const gpu::Device& device, const World& world, const Lume
                : parallel_side(lumels, world.diagonal(), kPixelsPerLumel, device.max_image_side());
 }
 
-std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side)
+std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side, std::uint32_t slabs)
 {
-    const std::uint64_t fit = kMostPixels / (std::uint64_t(side) * side);
+    const std::uint64_t fit = kMostPixels / (std::uint64_t(side) * side * maps_of_slabs(slabs));
     return std::uint32_t(
         std::clamp<std::uint64_t>(fit, 1, std::uint64_t(std::max(options.batch, 1))));
 }
@@ -74,13 +78,15 @@ IlluminationMaps maps_for(const gpu::Device& device, const World& world, const L
                           const SolverOptions& options)
 {
     const std::uint32_t side = map_side(device, world, lumels, options);
+    const std::uint32_t slabs = suitable_slabs(device, world, side, options);
     return {device,
             world,
             options.layers,
             side,
-            wanted_batch(options, side),
+            wanted_batch(options, side, slabs),
             std::uint32_t(lumels.width),
-            std::uint32_t(lumels.height)};
+            std::uint32_t(lumels.height),
+            slabs};
 }
 
 }  // namespace
@@ -200,7 +206,9 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                         .with_emission = options_.scheme == Scheme::paper ? 0u : 1u,
                         .with_source = iteration_.sends_reflected() ? 1u : 0u,
                         .layer = layer,
-                        .keep = keep ? 1u : 0u};
+                        .keep = keep ? 1u : 0u,
+                        .slabs = maps_.slabs(),
+                        .maps = maps_of_slabs(maps_.slabs())};
                     commands.dispatch(gather_,
                                       {world_->lumels(),
                                        world_->pieces(),

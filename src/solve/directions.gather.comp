@@ -12,10 +12,12 @@
 // gathered apart in one go.
 //
 // Of stochastic layers, (2 neighbours + 1)² pixels are looked up, what lies below the receiver's
-// plane is rejected, and the nearest of the rest is taken. A list holds every surface on the ray
-// through a pixel's centre, so there the receiving point is moved to where such a ray meets the
-// lumel (first_met.glsl), and what is seen is exact. So it is of peeled layers: they come nearer to
-// the lumel one by one, and the last one above it is kept.
+// plane is rejected, and the nearest of the rest is taken. Among slabs, this is done in the map of
+// the receiver's own; what comes first beyond it is known for certain, and one lookup is enough.
+//
+// A list holds every surface on the ray through a pixel's centre, so there the receiving point is
+// moved to where such a ray meets the lumel (first_met.glsl), and what is seen is exact. So it is
+// of peeled layers: they come nearer to the lumel one by one, and the last one above it is kept.
 //
 // Among coloured glass directions take the colour channels in turn.
 
@@ -58,33 +60,55 @@ struct Seen {
     float weight;  // 0: nothing is known
 };
 
-Seen see_by_chance(ParallelView view, uint tile, LumelPoint point)
+// A receiving point in a view.
+struct InView {
+    vec2 at;         // [pixels]
+    float nearness;
+    // Heights above the receiver's plane, per pixel and per nearness [pixels' widths].
+    vec2 per_pixel;
+    float per_nearness;
+};
+
+InView in_view(ParallelView view, LumelPoint point)
 {
-    const vec2 at = place_in(view, point.position), here = floor(at);
-    const float nearness = nearness_in(view, point.position);
     const float pixels_per_metre = length(view.right), nearness_per_metre = length(view.toward);
     const vec3 normal = normalize(point.facing);
-    // Heights above the plane, per pixel and per nearness [pixels' widths].
-    const vec2 per_pixel = vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre;
-    const float per_nearness = dot(normal, view.toward) * pixels_per_metre /
-                               (nearness_per_metre * nearness_per_metre);
+    return InView(place_in(view, point.position), nearness_in(view, point.position),
+                  vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre,
+                  dot(normal, view.toward) * pixels_per_metre /
+                      (nearness_per_metre * nearness_per_metre));
+}
+
+// The nearest that a map shows so many pixels around the point, or `before`.
+uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
+{
     const ivec2 corner = ivec2(tile_corner(p.layout_, tile));
-    const int reach = int(p.neighbours), last = int(p.layout_.side) - 1;
-    Seen seen = Seen(0u, 1.0);
-    float first = 2.0;  // nearness of the nearest; all are below 1
+    const int last = int(p.layout_.side) - 1;
+    uvec2 nearest = before;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
-            const ivec2 pixel = clamp(ivec2(here) + ivec2(x, y), ivec2(0), ivec2(last));
+            const ivec2 pixel = clamp(ivec2(floor(point.at)) + ivec2(x, y), ivec2(0), ivec2(last));
             const uvec2 fragment = texelFetch(illumination_map, corner + pixel, 0).xy;
             const float there = uintBitsToFloat(fragment.y);
-            const float height = dot(per_pixel, vec2(pixel) + 0.5 - at) +
-                                 per_nearness * (there - nearness);
-            if (fragment.x != 0u && height > kAbovePlane && there > nearness && there < first) {
-                first = there;
-                seen.surface = fragment.x;
-            }
+            const float height = dot(point.per_pixel, vec2(pixel) + 0.5 - point.at) +
+                                 point.per_nearness * (there - point.nearness);
+            if (fragment.x != 0u && height > kAbovePlane && there > point.nearness &&
+                there < uintBitsToFloat(nearest.y))
+                nearest = fragment;
         }
-    return seen;
+    return nearest;
+}
+
+Seen see_by_chance(ParallelView view, uint k, LumelPoint receiver)
+{
+    const InView point = in_view(view, receiver);
+    const uint slab = min(uint(max(point.nearness, 0.0) * float(p.slabs)), p.slabs - 1u);
+    const uint tile = k * p.maps + slab;
+    uvec2 nearest = uvec2(0u, floatBitsToUint(2.0));  // the sky: all that is nearer is below 1
+    nearest = nearest_around(point, tile, int(p.neighbours), nearest);
+    if (slab + 1u < p.slabs)
+        nearest = nearest_around(point, tile + p.slabs, 0, nearest);
+    return Seen(nearest.x, 1.0);
 }
 
 uint nearest_listed(PieceInView piece, RayMet ray, uint tile)

@@ -24,6 +24,7 @@ public:
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
+    std::uint32_t slabs() const { return maps_.slabs(); }  ///< that each direction is cut into
 
 private:
     /// Directions of one half-solution that are ready on the device.

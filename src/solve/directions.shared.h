@@ -36,6 +36,8 @@ struct GatherParams {
     uint with_source;    ///< 0: the source is still 0
     uint layer;          ///< peeled: how many layers are in front of the map's
     uint keep;           ///< peeled: 1: only keep what the layer shows; 0: add what was kept
+    uint slabs;          ///< S, see IlluminationMaps
+    uint maps;           ///< of a direction
 };
 
 LUMEL_SHARED_END

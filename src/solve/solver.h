@@ -30,6 +30,9 @@ class LobeParticles;
 inline constexpr std::uint32_t kFewestPatches = 8, kMostPatches = 16384;
 inline constexpr std::uint32_t kMostBounces = 1'000'000;
 
+/// Of "directions": a direction has twice as many maps.
+inline constexpr std::uint32_t kMostSlabs = 64;
+
 enum class Scheme {
     phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
     paper,   ///< the papers' iteration: random shooters, running average, no near field
@@ -49,6 +52,9 @@ struct SolverOptions {
     int hemicube = 256;            ///< side of the front face [pixels], see EyeViews
     Layers layers = Layers::list;  ///< of illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
+    /// With Layers::stochastic: that a direction is cut into, 1 to kMostSlabs; 0: as many as the
+    /// overdraw asks for, see IlluminationMaps.
+    std::uint32_t slabs = 0;
     int map_side = 0;              ///< of an illumination map [pixels], 0: as suits the lumels
     bool sky = true;               ///< of "directions" with Scheme::paper: gathers the world's sky
     std::uint32_t patches = 2048;  ///< of "matrix": n at most

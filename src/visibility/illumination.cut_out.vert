@@ -1,6 +1,7 @@
 #version 460
 #include "visibility/illumination_maps.shared.h"
 #include "visibility/parallel.glsl"
+#include "visibility/illumination.depth.glsl"
 
 // illumination.vert for surfaces with alpha: also hands on where the texture is read.
 
@@ -15,6 +16,7 @@ layout(location = 1) out vec3 look;
 void main()
 {
     gl_Position = through_parallel(views[p.view], p.layout_, position);
+    gl_Position.z = depth_of(p, gl_Position.z);
     place = place_in_;
     look = look_in;
 }

@@ -2,6 +2,7 @@
 #include "visibility/illumination_maps.shared.h"
 #include "core/hash.glsl"
 #include "visibility/alpha.glsl"
+#include "visibility/illumination.depth.glsl"
 #include "visibility/illumination.glsl"
 #include "visibility/illumination.stochastic.glsl"
 
@@ -17,11 +18,12 @@ layout(location = 0) out uvec2 fragment;
 void main()
 {
     const ParallelView view = views[p.view];
-    const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy,
-                             gl_FragCoord.z, view.random);
+    const float nearness = nearness_at(p, gl_FragCoord.z);
+    const Meeting met = meet(p.passage, base_color, look, view.channel, gl_FragCoord.xy, nearness,
+                             view.random);
     if (!met.blocked)
         discard;
     const uint surface = met.there ? surface_at(p, place) : kAbsorbing;
-    fragment = uvec2(surface, floatBitsToUint(gl_FragCoord.z));
-    gl_FragDepth = random_depth(fragment, view.random);
+    fragment = uvec2(surface, floatBitsToUint(nearness));
+    gl_FragDepth = deciding_depth(p, fragment, view.random);
 }

@@ -1,11 +1,13 @@
 #version 460
 #include "visibility/illumination_maps.shared.h"
 #include "core/hash.glsl"
+#include "visibility/illumination.depth.glsl"
 #include "visibility/illumination.glsl"
 #include "visibility/illumination.stochastic.glsl"
 
 // A pixel of an illumination map with stochastic depths, [TN11] Figure 4: of all surfaces
-// on the pixel's ray the one with the largest random number stays.
+// on the pixel's ray the one with the largest random number stays. With ordinary depths it is the
+// nearest beyond a region.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
@@ -14,6 +16,6 @@ layout(location = 0) out uvec2 fragment;
 
 void main()
 {
-    fragment = uvec2(surface_at(p, place), floatBitsToUint(gl_FragCoord.z));
-    gl_FragDepth = random_depth(fragment, views[p.view].random);
+    fragment = uvec2(surface_at(p, place), floatBitsToUint(nearness_at(p, gl_FragCoord.z)));
+    gl_FragDepth = deciding_depth(p, fragment, views[p.view].random);
 }

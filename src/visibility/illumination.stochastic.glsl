@@ -1,4 +1,4 @@
-// Stochastic depths [TN11]. Needs core/hash.glsl.
+// Stochastic depths [TN11]. Needs core/hash.glsl and illumination_maps.shared.h.
 
 // A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the
 // depth, which is behind everything.
@@ -7,4 +7,10 @@ float random_depth(uvec2 fragment, uint random)
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
     const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
     return 1.0 - unit_float(hash(here ^ random));
+}
+
+// The depth that decides whether the fragment stays: random within a region, ordinary beyond it.
+float deciding_depth(IlluminationParams p, uvec2 fragment, uint random)
+{
+    return p.ordinary != 0u ? gl_FragCoord.z : random_depth(fragment, random);
 }

@@ -1,6 +1,7 @@
 #version 460
 #include "visibility/illumination_maps.shared.h"
 #include "visibility/parallel.glsl"
+#include "visibility/illumination.depth.glsl"
 
 // One vertex as it is seen along a direction, with its place in the atlas.
 
@@ -13,5 +14,6 @@ layout(location = 0) out vec2 place;
 void main()
 {
     gl_Position = through_parallel(views[p.view], p.layout_, position);
+    gl_Position.z = depth_of(p, gl_Position.z);
     place = place_in_;
 }

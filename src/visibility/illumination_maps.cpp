@@ -1,7 +1,11 @@
 #include "visibility/illumination_maps.h"
 
 #include <algorithm>
+#include <cassert>
+#include <string>
 #include <vector>
+
+#include "visibility/overdraw.h"
 
 namespace lumel {
 namespace {
@@ -104,24 +108,59 @@ FragmentCount room_for(const gpu::Device& device, Layers layers, const ParallelL
                          device.max_array_bytes() / std::uint64_t(sizeof(Fragment))))};
 }
 
+ParallelLayout layout_for(const gpu::Device& device, Layers layers, std::uint32_t side,
+                          std::uint32_t capacity, std::uint32_t slabs)
+{
+    return tile_layout(device, side,
+                       listable(device, layers, side, capacity) * maps_of_slabs(slabs));
+}
+
+/// Directions whose maps fit the device's images.
+std::uint32_t fitting(const gpu::Device& device, Layers layers, const ParallelLayout& layout,
+                      std::uint32_t capacity, std::uint32_t slabs)
+{
+    const std::uint32_t maps = maps_of_slabs(slabs);
+    const std::uint32_t directions =
+        tiles_of(layout).fitting(listable(device, layers, layout.side, capacity) * maps,
+                                 device.max_image_side()) /
+        maps;
+    if (directions == 0)
+        throw Error(ErrorKind::device, device.info().name,
+                    "has no images large enough for " + std::to_string(maps) + " maps of " +
+                        std::to_string(layout.side) + "²; use a smaller --slabs or --map-side");
+    return directions;
+}
+
+/// How a tile shows its part of what lies along the direction; see IlluminationMaps. `map`: which
+/// of the direction's tiles it is.
+IlluminationParams part_shown(std::uint32_t map, std::uint32_t slabs)
+{
+    const auto all = float(slabs);
+    if (map < slabs)
+        return {.depth_scale = all, .depth_shift = -float(map)};
+    // From the end of the slab on: the less near, the sooner it is met, and the larger its depth.
+    const float scale = all / (all - float(map - slabs + 1));
+    return {.depth_scale = -scale, .depth_shift = scale, .ordinary = 1};
+}
+
 }  // namespace
 
 IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
                                    std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
-                                   std::uint32_t height)
+                                   std::uint32_t height, std::uint32_t slabs)
     : world_(&world),
       layers_(layers),
-      layout_(tile_layout(device, side, listable(device, layers, side, capacity))),
-      capacity_(tiles_of(layout_).fitting(listable(device, layers, side, capacity),
-                                          device.max_image_side())),
+      layout_(layout_for(device, layers, side, capacity, slabs)),
+      slabs_(slabs),
+      capacity_(fitting(device, layers, layout_, capacity, slabs)),
       width_(width),
       height_(height),
       image_(device, gpu::Pixel::rg32u, lists() ? 1 : tiles_of(layout_).image_width(),
-             lists() ? 1 : tiles_of(layout_).image_height(capacity_)),
+             lists() ? 1 : tiles_of(layout_).image_height(capacity_ * maps_of_slabs(slabs))),
       odd_image_(device, gpu::Pixel::rg32u, peels() ? image_.width() : 1,
                  peels() ? image_.height() : 1),
       depth_(device, gpu::Pixel::depth, tiles_of(layout_).image_width(),
-             tiles_of(layout_).image_height(capacity_)),
+             tiles_of(layout_).image_height(capacity_ * maps_of_slabs(slabs))),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
       heads_(device, lists() ? std::size_t(side) * side * capacity_ : 0),
       fragments_(device, room_for(device, layers, layout_, capacity_).capacity),
@@ -130,6 +169,7 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
       opaque_(make_raster(device, layers, false)),
       cut_out_(make_raster(device, layers, true))
 {
+    assert(slabs == 1 || layers == Layers::stochastic);
 }
 
 void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
@@ -178,17 +218,33 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
             commands.fill(heads_.buffer(), kEndOfList);
             commands.copy(none_.buffer(), count_.buffer(), sizeof(FragmentCount::count));
         });
-    pacer.work("look along", count, 1,
+    const std::uint32_t maps = maps_of_slabs(slabs_);
+    pacer.work("look along", count * maps, 1,
                [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
-                   for (std::uint32_t tile = begin; tile < end; ++tile)
-                       draw(commands, views,
-                            {.layout_ = layout_,
-                             .view = first + tile,
-                             .tile = tile,
-                             .width = width_,
-                             .height = height_,
-                             .layer = layer});
+                   for (std::uint32_t tile = begin; tile < end; ++tile) {
+                       IlluminationParams params = part_shown(tile % maps, slabs_);
+                       params.layout_ = layout_;
+                       params.view = first + tile / maps;
+                       params.tile = tile;
+                       params.width = width_;
+                       params.height = height_;
+                       params.layer = layer;
+                       draw(commands, views, params);
+                   }
                });
+}
+
+double IlluminationMaps::overdraw(std::uint32_t count) const
+{
+    assert(layers_ == Layers::stochastic);
+    std::vector<float> depths(std::size_t(depth_.width()) * depth_.height());
+    depth_.download(depths.data());
+    const std::uint32_t maps = maps_of_slabs(slabs_);
+    Overdraw overdraw;
+    for (std::uint32_t tile = 0; tile < count * maps; ++tile)
+        if (tile % maps < slabs_)
+            overdraw.add(depths, depth_.width(), tiles_of(layout_).area(tile));
+    return overdraw.mean();
 }
 
 double IlluminationMaps::kept() const

@@ -18,18 +18,33 @@ enum class Layers : std::uint32_t {
     peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
 };
 
+/// Maps that a direction has if what lies along it is cut into so many slabs: one of each slab, and
+/// one of what lies beyond each but the nearest to the light.
+constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
+{
+    return 2 * slabs - 1;
+}
+
 /// Maps of `capacity` directions, side by side. Fragments name lumels, by side and texel, not
 /// colours: so one map serves emitted and reflected light.
+///
+/// Regions after [TN11] section 6 are slabs of equal thickness along the direction. Slab s of S
+/// holds nearness s/S to (s + 1)/S, and has a map in which only its own surfaces compete by chance.
+/// Beyond it ordinary depth tells what comes first, in a map of its own: in one with the slab's,
+/// the surfaces of the slab would hide what lies beyond it from one another. A direction has
+/// maps_of_slabs(S) tiles: those of slabs 0, 1, … S - 1, and those beyond slabs 0, 1, … S - 2.
 class IlluminationMaps {
 public:
     /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must know.
-    /// The capacity given is what fits the device and is at most the one asked for.
-    /// Throws Error{device} if the device cannot keep lists.
+    /// slabs: 1 unless layers are stochastic. The capacity given is what fits the device and is at
+    /// most the one asked for. Throws Error{device} if the device cannot keep lists, or the maps of
+    /// one direction do not fit its images.
     IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
                      std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
-                     std::uint32_t height);
+                     std::uint32_t height, std::uint32_t slabs = 1);
 
-    std::uint32_t capacity() const { return capacity_; }
+    std::uint32_t capacity() const { return capacity_; }  ///< directions
+    std::uint32_t slabs() const { return slabs_; }
     const ParallelLayout& layout() const { return layout_; }
     /// Stochastic: (surface, nearness). Peeled: of that layer, or of the one two before.
     const gpu::Target& image(std::uint32_t layer = 0) const
@@ -40,7 +55,7 @@ public:
     const gpu::Array<std::uint32_t>& heads() const { return heads_; }     ///< of lists
     const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< of lists
 
-    /// Draws views [first, first + count) into tiles 0, 1, … With Layers::peel: what lies behind
+    /// Draws views [first, first + count), each into its tiles. With Layers::peel: what lies behind
     /// the layer before, which was the last to be drawn; layer 0 is what the direction's light
     /// meets first.
     void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
@@ -49,6 +64,11 @@ public:
     /// Share of its fragments that lists had room for in the worst of all calls so far. Waits for
     /// the device.
     double kept() const;
+
+    /// Layers::stochastic: K, the surfaces that compete for a covered pixel, mean over the slabs'
+    /// maps of the first `count` directions as they were last drawn; 0 if nothing is covered. Waits
+    /// for the device, whose work must have been submitted.
+    double overdraw(std::uint32_t count) const;
 
 private:
     void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
@@ -59,7 +79,7 @@ private:
     const World* world_;
     Layers layers_;
     ParallelLayout layout_;
-    std::uint32_t capacity_, width_, height_;
+    std::uint32_t slabs_, capacity_, width_, height_;
     gpu::Target image_, odd_image_, depth_;
     gpu::Sampler sampler_;
     gpu::Array<std::uint32_t> heads_;

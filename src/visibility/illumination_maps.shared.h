@@ -32,8 +32,11 @@ struct IlluminationParams {
     uint tile;   ///< that it is drawn into
     uint width;  ///< of the atlas [texels]
     uint height;
-    uint layer;       ///< peeled: how many surfaces of a pixel are taken off
-    Passage passage;  ///< of cut-outs
+    uint layer;         ///< peeled: how many surfaces of a pixel are taken off
+    float depth_scale;  ///< a surface's depth is depth_scale · nearness + depth_shift;
+    float depth_shift;  ///< what is not in 0…1 is not drawn
+    uint ordinary;      ///< stochastic: 1: the surface of the largest depth stays, not a random one
+    Passage passage;    ///< of cut-outs
 };
 
 LUMEL_SHARED_END

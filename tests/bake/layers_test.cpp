@@ -1,6 +1,8 @@
 // What global directions see through layers of surfaces.
 
+#include "../support/box_lumels.h"
 #include "scene/light_options.h"
+#include "solve/directions.h"
 #include "solved.h"
 
 namespace lumel {
@@ -20,7 +22,8 @@ const Prepared& planes()
     return instance;
 }
 
-std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookups = 1)
+std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookups = 1,
+                                std::uint32_t slabs = 1)
 {
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
@@ -28,6 +31,7 @@ std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookup
                                 .scheme = Scheme::paper,
                                 .layers = layers,
                                 .lookups = lookups,
+                                .slabs = slabs,
                                 .map_side = 128,
                                 .max_shots = 1024,
                                 .target_error = 0.0};
@@ -44,9 +48,10 @@ bool is_top(const Lumel& lumel)
 }
 
 /// How much more red than green the plane on top receives on both sides, as a part of the green.
-double red_on_top(Layers layers, int lookups)
+double red_on_top(int lookups, std::uint32_t slabs = 1)
 {
-    const std::vector<glm::vec3> irradiance = gathered(planes(), layers, lookups);
+    const std::vector<glm::vec3> irradiance =
+        gathered(planes(), Layers::stochastic, lookups, slabs);
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < irradiance.size(); ++i)
         if (is_top(planes().lumels.lumels[i]))
@@ -86,12 +91,41 @@ TEST(Layers, PeeledAreThoseListed)
 
 TEST(Layers, MoreLookupsLeakLess)
 {
-    const double one = red_on_top(Layers::stochastic, 1);
-    const double three = red_on_top(Layers::stochastic, 3);
-    const double five = red_on_top(Layers::stochastic, 5);
+    const double one = red_on_top(1);
+    const double three = red_on_top(3);
+    const double five = red_on_top(5);
     EXPECT_GT(five, 0.0);
     EXPECT_LT(five, 0.5 * three);
     EXPECT_LT(three, 0.5 * one);
+}
+
+TEST(Layers, MoreSlabsLeakLess)
+{
+    EXPECT_LT(red_on_top(3, 2), 0.5 * red_on_top(3, 1));
+    EXPECT_LT(red_on_top(1, 8), 0.1 * red_on_top(1, 1));
+}
+
+/// How the solver cuts the directions of a scene.
+std::uint32_t slabs_of(const Prepared& world, int lookups)
+{
+    const gpu::Device device;
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    const GlobalDirections solver(device, resident, world.lumels,
+                                  {.method = "directions",
+                                   .layers = Layers::stochastic,
+                                   .lookups = lookups,
+                                   .map_side = 128});
+    EXPECT_EQ(device.validation_messages(), "");
+    return solver.slabs();
+}
+
+TEST(Layers, AreCutAsTheirOverdrawAsksFor)
+{
+    EXPECT_GT(slabs_of(planes(), 1), slabs_of(planes(), 3));
+    EXPECT_GT(slabs_of(planes(), 3), 1u);
+    const Prepared plane(support::make_quads({{.double_sided = true}}).scene,
+                         AtlasOptions{.size = 32});
+    EXPECT_EQ(slabs_of(plane, 1), 1u);
 }
 
 }  // namespace
