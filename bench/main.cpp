@@ -61,6 +61,10 @@ int main(int argc, char** argv)
                    "with stochastic layers: that directions are cut into; 0: as needed")
         ->capture_default_str()
         ->check(CLI::Range(0u, kMostSlabs));
+    app.add_option("--leak", settings.solver.leak,
+                   "with --scheme paper: part of the solution that each shot replaces; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1.0));
     app.add_option("--map-side", settings.solver.map_side,
                    "of illumination maps [pixels]; 0: as suits the lumels")
         ->capture_default_str();

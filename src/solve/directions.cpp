@@ -14,8 +14,8 @@
 //
 // Differs from the paper:
 // - K directions per iteration, from a scrambled Sobol sequence over the sphere.
-// - A running average instead of leaky integration, in phases (iteration.cpp): a baked map is to
-//   converge. With Scheme::paper the source follows the average after every batch.
+// - A running average in phases (iteration.cpp): a baked map is to converge. With Scheme::paper the
+//   source follows the average after every batch, which SolverOptions::leak makes the paper's.
 // - Maps name lumels, not colours, so that emission and reflected light are gathered apart.
 // - Layers::list keeps every surface of a pixel, and Layers::peel has one after the other
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
@@ -157,7 +157,7 @@ const GlobalDirections::Chunk& GlobalDirections::chunk_of(std::uint32_t half, st
 
 void GlobalDirections::step()
 {
-    iteration_.take_figures(pacer_);
+    iteration_.begin_batch(pacer_);
     const Chunk& chunk = chunk_of(iteration_.half(), iteration_.emission_index());
     const std::uint32_t first = iteration_.emission_index() - chunk.first;
     if (options_.layers == Layers::peel)
@@ -227,6 +227,14 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                                        heard_},
                                       params, last - first);
                 });
+}
+
+void GlobalDirections::relight(const Lumels& lumels)
+{
+    iteration_.relight(pacer_, lumels);
+    pacer_.finish();
+    for (std::deque<Chunk>& chunks : chunks_)
+        chunks.clear();  // they hold the sky
 }
 
 std::vector<glm::vec3> GlobalDirections::irradiance()

@@ -20,6 +20,9 @@ public:
                      const SolverOptions& options, std::span<const glm::vec3> known = {});
 
     void step() override;
+    /// From now on lumels emit what `lumels` says, and the sky is as it is now. For SolverOptions
+    /// with a leak. Waits for the device. Throws Error{input} without one.
+    void relight(const Lumels& lumels);
     SolverState state() const override { return iteration_.state(); }
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return pacer_.times(); }

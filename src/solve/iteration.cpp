@@ -3,11 +3,14 @@
 //   [BJ04]  A. Barsi, G. Jakab. Stream Processing in Global Illumination. CESCG 2004.
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on
 //           the GPU. 2005.
+//   [TN11]  A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 //
 // Solves  B = E + ρ T B  where T is known through a random T* with E[T* B] = T B.
 //
 // `Scheme::paper`: T* acts on the running average, [BJ04] Eq. (2); the average is kept in two
-// halves for the error estimate.
+// halves for the error estimate. SolverOptions::leak makes it the leaky integration of [TN11]
+// Figure 6, where a shot counts less with every one after it: light that changes is followed, and
+// noise remains.
 //
 // `Scheme::phased` differs:
 // - Emission and reflected light are averaged apart: E never changes, so its mean is over all
@@ -38,6 +41,9 @@ constexpr std::uint32_t kAdvanceSpirv[] = {
 constexpr std::uint32_t kPolishSpirv[] = {
 #include "solve/iteration.polish.comp.inc"
 };
+constexpr std::uint32_t kFadeSpirv[] = {
+#include "solve/iteration.fade.comp.inc"
+};
 
 /// Shots of the first phase, all from E.
 constexpr std::uint32_t kFirstPhaseShots = 64;
@@ -58,6 +64,17 @@ constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
 constexpr int kPolishSweeps = 1;
 
+/// What a batch leaves of the sums before it: each shot what the leak does not replace.
+double kept_by_batch(const SolverOptions& options, std::uint32_t batch)
+{
+    if (options.leak == 0.0)
+        return 1.0;
+    if (!(options.leak > 0.0) || options.leak >= 1.0 || options.scheme != Scheme::paper)
+        throw Error(ErrorKind::input, "a leak of " + std::to_string(options.leak),
+                    "must be from 0 to below 1, and needs the papers' scheme");
+    return std::pow(1.0 - options.leak, double(batch));
+}
+
 }  // namespace
 
 Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const NearField& near,
@@ -66,6 +83,7 @@ Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const Near
     : count_(std::uint32_t(lumels.lumels.size())),
       batch_(batch),
       paper_(options.scheme == Scheme::paper),
+      kept_(kept_by_batch(options, batch)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       known_sum_(irradiance_sum(known)),
       balance_(device, "iteration.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
@@ -73,6 +91,7 @@ Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const Near
       advance_(device, "iteration.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams),
                kIterationGroup),
       polish_(device, "iteration.polish", kPolishSpirv, 6, sizeof(PolishParams), kIterationGroup),
+      fade_(device, "iteration.fade", kFadeSpirv, 2, sizeof(FadeParams), kIterationGroup),
       surface_(device, view(surfaces_of(lumels))),
       emission_(device, view(emission_of(lumels))),
       known_(device, count_),
@@ -113,9 +132,11 @@ void Iteration::begin(gpu::Pacer& pacer)
 Averages Iteration::averages() const
 {
     Averages a{};
+    // In the mean of both halves a batch then counts 1 - kept, whichever it is in.
+    const auto leaky = float(0.5 * double(batch_) / (1.0 - kept_));
     for (int h = 0; h < 2; ++h) {
-        a.emission_shots[h] = float(emission_index_[h]);
-        a.source_shots[h] = phase_source_shots_[h];
+        a.emission_shots[h] = leaks() ? leaky : float(emission_index_[h]);
+        a.source_shots[h] = leaks() ? leaky : phase_source_shots_[h];
         a.earlier_weight[h] = earlier_weight_[h];
     }
     a.balance = paper_ ? 0u : 1u;
@@ -185,6 +206,28 @@ void Iteration::end_phase()
     if (phase_ > 0)
         phase_length_ *= 2;
     ++phase_;
+}
+
+void Iteration::begin_batch(gpu::Pacer& pacer)
+{
+    take_figures(pacer);
+    if (leaks())
+        pacer.work("fade", [&](gpu::Commands& commands) {
+            commands.dispatch(fade_, {direct_, indirect_}, FadeParams{2 * count_, float(kept_)},
+                              2 * count_);
+        });
+}
+
+void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
+{
+    if (!leaks())
+        throw Error(ErrorKind::input, "light that changes",
+                    "needs a leak: a mean of all shots keeps the light of before");
+    pacer.finish();
+    const std::vector<glm::vec3> emission = emission_of(lumels);
+    emission_.upload(emission);
+    emitted_power_ = emitted_power(lumels, emission);
+    advance(pacer);
 }
 
 void Iteration::take_figures(gpu::Pacer& pacer)

@@ -27,11 +27,14 @@ public:
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
-    /// Hears figures that are due. Before each batch.
-    void take_figures(gpu::Pacer& pacer);
+    /// Before each batch: hears figures that are due, and lets leaky sums fade.
+    void begin_batch(gpu::Pacer& pacer);
     /// Ends a batch: so many shots went into direct() and into indirect(). Returns true if X is
     /// new.
     bool finish_batch(gpu::Pacer& pacer, std::uint32_t emission_shots, std::uint32_t source_shots);
+    /// E is that of `lumels` from now on. Waits for the device. Throws Error{input} unless the sums
+    /// are leaky: others would keep the light of before.
+    void relight(gpu::Pacer& pacer, const Lumels& lumels);
     /// H [N] [lx] so far. Waits for the device.
     std::vector<glm::vec3> irradiance(gpu::Pacer& pacer);
 
@@ -52,6 +55,8 @@ public:
     const gpu::Array<glm::vec3>& indirect() const { return indirect_; }  ///< [2][N] sums
 
 private:
+    bool leaks() const { return kept_ < 1.0; }
+    void take_figures(gpu::Pacer& pacer);
     void evaluate(gpu::Commands& commands);
     void advance(gpu::Pacer& pacer);
     void end_phase();
@@ -60,10 +65,11 @@ private:
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;
     bool paper_;
+    double kept_;           ///< part of the sums that a batch leaves of those before it
     double emitted_power_;  ///< Σ A 𝓛(E) [lm]
     double known_sum_;      ///< Σ of `known` [lx]
 
-    gpu::Kernel balance_, evaluate_, advance_, polish_;
+    gpu::Kernel balance_, evaluate_, advance_, polish_, fade_;
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission_;  ///< E
     gpu::Array<glm::vec3> known_;     ///< H that is received beside what is found here

@@ -10,6 +10,12 @@ struct PolishParams {
     uint count;  ///< N
 };
 
+/// Push constants of iteration.fade.comp.
+struct FadeParams {
+    uint count;  ///< 2 N
+    float kept;  ///< part of the sums that stays
+};
+
 /// How far the running averages are. Per half-solution h = 0, 1.
 struct Averages {
     float emission_shots[2];  ///< shots in direct[h]

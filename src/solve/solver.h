@@ -55,8 +55,12 @@ struct SolverOptions {
     /// With Layers::stochastic: that a direction is cut into, 1 to kMostSlabs; 0: as many as the
     /// overdraw asks for, see IlluminationMaps.
     std::uint32_t slabs = 0;
-    int map_side = 0;              ///< of an illumination map [pixels], 0: as suits the lumels
-    bool sky = true;               ///< of "directions" with Scheme::paper: gathers the world's sky
+    int map_side = 0;  ///< of an illumination map [pixels], 0: as suits the lumels
+    bool sky = true;   ///< of "directions" with Scheme::paper: gathers the world's sky
+    /// Of "stochastic" and "directions" with Scheme::paper: the part of the solution that each shot
+    /// replaces, [TN11] section 5 (0.01), so that light that changes is followed. 0: the mean of
+    /// all shots, which converges.
+    double leak = 0.0;
     std::uint32_t patches = 2048;  ///< of "matrix": n at most
     std::uint32_t bounces = 0;     ///< of "matrix": k, reflections that count, 0: all
     std::uint64_t max_shots = 0;   ///< 0: no limit

@@ -94,7 +94,7 @@ void StochasticRadiosity::build_source_pyramid()
 
 void StochasticRadiosity::step()
 {
-    iteration_.take_figures(pacer_);
+    iteration_.begin_batch(pacer_);
     const std::uint32_t emission_shots = emission_shots_of_batch();
     select(emission_shots);
     views_.look_from(pacer_, eyes_, batch_);
