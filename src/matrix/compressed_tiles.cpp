@@ -22,181 +22,36 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "matrix/balanced.h"
-#include "matrix/blas.h"
 #include "matrix/clusters.h"
 #include "matrix/half.h"
+#include "matrix/local_bases.h"
 
 namespace lumel {
 namespace {
 
-constexpr std::array<glm::vec3, 3> kAxes = {kGrayAxis, kRedBlueAxis, kGreenAxis};
-constexpr std::size_t kTexels = std::size_t(kTile) * kTile;
-constexpr std::size_t kBasis = std::size_t(kCluster) * kCluster;
 constexpr std::size_t kTileRowsPerTask = 16;
 constexpr int kSearchSteps = 40;  // halvings of λ's logarithm
 
 /// The estimate of an error by `expected_light` is so much of what real direct light shows, by
 /// `lumel-papers matrix`.
 constexpr double kEstimateOfError = 0.55;
-constexpr std::array<float, kPrecisions> kCodes = {kCodes4, kCodes8, kCodes16};
 constexpr int kDropped = kPrecisions;  // the precision of tiles that are not stored
-
-using Tile = std::array<float, kTexels>;
 
 double tile_bytes(int precision)
 {
     constexpr double place_bytes = 4.0;
     return precision == kDropped
                ? 0.0
-               : place_bytes + double(kTexels * kTileBits[std::size_t(precision)]) / 8.0;
+               : place_bytes + double(kTileTexels * kTileBits[std::size_t(precision)]) / 8.0;
 }
 
-/// Matrices of one side, filled up to whole clusters.
-struct Coefficients {
-    std::size_t side = 0;
-    std::array<std::vector<float>, 3> axis;  ///< [side][side]
-
-    Tile tile(int a, std::size_t row, std::size_t column) const
-    {
-        Tile tile;
-        for (std::size_t i = 0; i < kTexels; ++i)
-            tile[i] = axis[a][(row * kTile + i / kTile) * side + column * kTile + i % kTile];
-        return tile;
-    }
-    std::size_t tile_rows() const { return side / kTile; }
-};
-
-std::size_t filled(std::size_t n)
+Tile tile_of(const Coefficients& matrix, int axis, std::size_t row, std::size_t column)
 {
-    return (n + kCluster - 1) / kCluster * kCluster;
-}
-
-/// K in clusters' order, by axes.
-Coefficients by_axes(const ColorMatrix& balanced, std::span<const std::uint32_t> order)
-{
-    const std::size_t n = order.size();
-    Coefficients result{filled(n), {}};
-    for (int a = 0; a < 3; ++a) {
-        result.axis[a].assign(result.side * result.side, 0.0f);
-        parallel_for(n, kTileRowsPerTask, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i)
-                for (std::size_t j = 0; j < n; ++j)
-                    for (int c = 0; c < 3; ++c)
-                        result.axis[a][i * result.side + j] +=
-                            kAxes[a][c] * balanced.channel[c].at(order[i], order[j]);
-        });
-    }
-    return result;
-}
-
-/// Rows of a basis in 8 bits.
-struct CodedBasis {
-    std::vector<std::int8_t> codes;  ///< [rows][kCluster]
-    std::vector<float> units;        ///< [rows]
-
-    std::size_t rows() const { return units.size(); }
-    float at(std::size_t row, std::size_t column) const
-    {
-        return float(codes[row * kCluster + column]) * units[row] / kCodes8;
-    }
-};
-
-void append_rows(CodedBasis& basis, std::span<const float> values)
-{
-    for (std::size_t first = 0; first < values.size(); first += kCluster) {
-        const auto row = values.subspan(first, kCluster);
-        float unit = 0.0f;
-        for (const float value : row)
-            unit = std::max(unit, std::abs(value));
-        basis.units.push_back(unit);
-        for (const float value : row)
-            basis.codes.push_back(unit > 0.0f ? std::int8_t(std::lround(value / unit * kCodes8))
-                                              : std::int8_t(0));
-    }
-}
-
-/// For each cluster [coefficient][place], the coefficient of most energy first.
-std::vector<float> find_bases(const Coefficients& matrix)
-{
-    std::vector<float> bases(matrix.side / kCluster * kBasis);
-    for (std::size_t b = 0; b < matrix.side / kCluster; ++b) {
-        const std::span<const float> rows(&matrix.axis[0][b * kCluster * matrix.side],
-                                          kCluster * matrix.side);
-        const auto basis = std::span(bases).subspan(b * kBasis, kBasis);
-        const auto width = std::uint32_t(matrix.side);
-        blas::product({rows, kCluster, width}, blas::transposed(rows, kCluster, width), basis);
-        blas::eigenvectors(basis, kCluster);
-    }
-    return bases;
-}
-
-/// Q^-T for each cluster, Q as it is stored: T = Q^-T K Q^-1.
-std::vector<float> duals(const CodedBasis& bases)
-{
-    std::vector<float> result(bases.codes.size());
-    for (std::size_t b = 0; b < result.size() / kBasis; ++b) {
-        std::vector<float> transposed(kBasis);
-        const auto dual = std::span(result).subspan(b * kBasis, kBasis);
-        for (std::size_t i = 0; i < kCluster; ++i) {
-            dual[i * kCluster + i] = 1.0f;
-            for (std::size_t j = 0; j < kCluster; ++j)
-                transposed[j * kCluster + i] = bases.at(b * kCluster + i, j);
-        }
-        if (!blas::solve_from_right(transposed, dual, kCluster))
-            throw Error(ErrorKind::input, "form-factor matrix",
-                        "has patches of which nothing can be told apart; use fewer patches");
-    }
-    return result;
-}
-
-/// row [side] ← Q row, cluster by cluster; or ← Q^T row.
-void transform(std::span<const float> bases, std::span<float> row, bool back)
-{
-    std::array<float, kCluster> sum;
-    for (std::size_t b = 0; b < row.size() / kCluster; ++b) {
-        const auto part = row.subspan(b * kCluster, kCluster);
-        const auto basis = bases.subspan(b * kBasis, kBasis);
-        sum.fill(0.0f);
-        for (std::size_t i = 0; i < kCluster; ++i)
-            for (std::size_t j = 0; j < kCluster; ++j)
-                if (back)
-                    sum[j] += part[i] * basis[i * kCluster + j];
-                else
-                    sum[i] += part[j] * basis[i * kCluster + j];
-        std::copy(sum.begin(), sum.end(), part.begin());
-    }
-}
-
-void transpose(std::vector<float>& values, std::size_t side)
-{
-    for (std::size_t i = 0; i < side; ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            std::swap(values[i * side + j], values[j * side + i]);
-}
-
-/// Q K Q^T, or Q^T T Q, in place.
-void transform(std::span<const float> bases, Coefficients& matrix, bool back)
-{
-    for (std::vector<float>& values : matrix.axis)
-        for (int side = 0; side < 2; ++side) {
-            parallel_for(matrix.side, kTileRowsPerTask, [&](std::size_t first, std::size_t last) {
-                for (std::size_t i = first; i < last; ++i)
-                    transform(bases, std::span(values).subspan(i * matrix.side, matrix.side), back);
-            });
-            transpose(values, matrix.side);
-        }
-}
-
-/// Makes K symmetric, which rounding left it nearly.
-void symmetrise(Coefficients& matrix)
-{
-    for (std::vector<float>& values : matrix.axis)
-        for (std::size_t i = 0; i < matrix.side; ++i)
-            for (std::size_t j = 0; j < i; ++j) {
-                float& below = values[i * matrix.side + j];
-                float& above = values[j * matrix.side + i];
-                below = above = 0.5f * (below + above);
-            }
+    Tile tile;
+    for (std::size_t i = 0; i < kTileTexels; ++i)
+        tile[i] =
+            matrix.axis[axis][(row * kTile + i / kTile) * matrix.side + column * kTile + i % kTile];
+    return tile;
 }
 
 /// Weight of the error at a coefficient of what T is multiplied by.
@@ -212,40 +67,6 @@ std::vector<float> expected_light(const Coefficients& matrix)
         weight[i] = std::sqrt(energy);
     }
     return weight;
-}
-
-float largest_of(const Tile& tile)
-{
-    float largest = 0.0f;
-    for (const float value : tile)
-        largest = std::max(largest, std::abs(value));
-    return largest;
-}
-
-/// A tile's codes and what the largest means.
-struct CodedTile {
-    std::uint16_t scale = 0;  ///< half float, in units
-    std::array<int, kTexels> code{};
-};
-
-CodedTile code_tile(const Tile& tile, float unit, float codes)
-{
-    CodedTile coded{.scale = to_half(largest_of(tile) / unit)};
-    const float scale = from_half(coded.scale) * unit;
-    if (scale > 0.0f)
-        for (std::size_t i = 0; i < kTexels; ++i)
-            coded.code[i] = int(std::lround(std::clamp(tile[i] / scale, -1.0f, 1.0f) * codes));
-    return coded;
-}
-
-/// What becomes of a tile.
-Tile decoded(const CodedTile& coded, float unit, float codes)
-{
-    Tile tile;
-    const float step = from_half(coded.scale) * unit / codes;
-    for (std::size_t i = 0; i < kTexels; ++i)
-        tile[i] = float(coded.code[i]) * step;
-    return tile;
 }
 
 /// Distortion of one tile by precision, kDropped the last.
@@ -266,18 +87,16 @@ int choose_precision(const Loss& loss, double lambda)
 std::vector<Loss> losses(const Coefficients& matrix, float unit)
 {
     const std::vector<float> light = expected_light(matrix);
-    const std::size_t rows = matrix.tile_rows();
+    const std::size_t rows = matrix.side / kTile;
     std::vector<Loss> result(3 * rows * rows);
     parallel_for(3 * rows, kTileRowsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t row = first; row < last; ++row)
             for (std::size_t column = 0; column <= row % rows; ++column) {
-                const Tile tile = matrix.tile(int(row / rows), row % rows, column);
+                const Tile tile = tile_of(matrix, int(row / rows), row % rows, column);
                 for (std::size_t kind = 0; kind <= kPrecisions; ++kind) {
                     const Tile stored =
-                        kind < kPrecisions
-                            ? decoded(code_tile(tile, unit, kCodes[kind]), unit, kCodes[kind])
-                            : Tile{};
-                    for (std::size_t i = 0; i < kTexels; ++i) {
+                        kind < kPrecisions ? decode(encode(tile, unit, kind), unit, kind) : Tile{};
+                    for (std::size_t i = 0; i < kTileTexels; ++i) {
                         const float weight = light[column * kTile + i % kTile] +
                                              light[row % rows * kTile + i / kTile];
                         result[row * rows + column][kind] +=
@@ -310,18 +129,6 @@ double find_lambda(std::span<const Loss> losses, float error)
     return largest * std::exp2(low);
 }
 
-void append(TileRows& rows, const CodedTile& tile, std::size_t column, std::uint32_t bits)
-{
-    rows.place.push_back(std::uint32_t(tile.scale) << 16 | std::uint32_t(column));
-    const std::size_t per_word = 32 / bits;
-    for (std::size_t i = 0; i < kTexels; i += per_word) {
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < per_word; ++k)
-            word |= (std::uint32_t(tile.code[i + k]) & ((1u << bits) - 1u)) << (k * bits);
-        rows.codes.push_back(word);
-    }
-}
-
 void begin_row(TiledMatrix& tiled, std::size_t axis)
 {
     for (std::array<TileRows, 3>& axes : tiled.tiles)
@@ -331,7 +138,7 @@ void begin_row(TiledMatrix& tiled, std::size_t axis)
 void store(TiledMatrix& tiled, const Coefficients& matrix, std::span<const Loss> losses,
            double lambda)
 {
-    const std::size_t rows = matrix.tile_rows();
+    const std::size_t rows = matrix.side / kTile;
     std::vector<std::uint32_t> used(rows / (kCluster / kTile));
     const auto use = [&](std::size_t tile_row) {
         std::uint32_t& most = used[tile_row * kTile / kCluster];
@@ -348,10 +155,9 @@ void store(TiledMatrix& tiled, const Coefficients& matrix, std::span<const Loss>
                 use(row);
                 use(column);
                 const auto precision = std::size_t(kind);
-                append(
-                    tiled.tiles[precision][axis],
-                    code_tile(matrix.tile(int(axis), row, column), tiled.unit, kCodes[precision]),
-                    column, kTileBits[precision]);
+                append(tiled.tiles[precision][axis],
+                       encode(tile_of(matrix, int(axis), row, column), tiled.unit, precision),
+                       column, precision);
             }
         }
         begin_row(tiled, axis);  // where the last one ends
@@ -371,13 +177,6 @@ void store_bases(TiledMatrix& tiled, const CodedBasis& bases)
         }
 }
 
-int code_at(const TileRows& tiles, std::size_t tile, std::size_t texel, std::uint32_t bits)
-{
-    const std::size_t per_word = 32 / bits, at = tile * kTexels + texel;
-    const auto shift = 32 - bits * std::uint32_t(at % per_word + 1);
-    return int(tiles.codes[at / per_word] << shift) >> (32 - bits);  // with its sign
-}
-
 /// Adds the tiles to one axis of T.
 void load(const TileRows& tiles, float unit, std::size_t precision, std::size_t side,
           std::vector<float>& values)
@@ -385,13 +184,10 @@ void load(const TileRows& tiles, float unit, std::size_t precision, std::size_t 
     for (std::size_t row = 0; row + 1 < tiles.first.size(); ++row)
         for (std::size_t tile = tiles.first[row]; tile < tiles.first[row + 1]; ++tile) {
             const std::size_t column = tiles.place[tile] & 0xffffu;
-            const float step =
-                from_half(std::uint16_t(tiles.place[tile] >> 16)) * unit / kCodes[precision];
-            for (std::size_t i = 0; i < kTexels; ++i) {
+            const Tile entries = decode(tile_at(tiles, tile, precision), unit, precision);
+            for (std::size_t i = 0; i < kTileTexels; ++i) {
                 const std::size_t r = row * kTile + i / kTile, c = column * kTile + i % kTile;
-                const float value = float(code_at(tiles, tile, i, kTileBits[precision])) * step;
-                values[r * side + c] = value;
-                values[c * side + r] = value;
+                values[r * side + c] = values[c * side + r] = entries[i];
             }
         }
 }
@@ -406,36 +202,6 @@ std::vector<float> load_bases(const TiledMatrix& tiled)
             for (std::size_t column = 0; column < kCluster; ++column)
                 bases[b * kBasis + row * kCluster + column] = coded.at(from, column);
     return bases;
-}
-
-/// [axis] A tile's mirror image belongs into row `column`.
-TileRows with_mirror_images(const TileRows& below, std::uint32_t bits)
-{
-    struct Source {
-        std::uint32_t column, tile;
-        bool mirrored;
-    };
-    std::vector<std::vector<Source>> rows(below.first.empty() ? 0 : below.first.size() - 1);
-    for (std::uint32_t row = 0; row < rows.size(); ++row)
-        for (std::uint32_t tile = below.first[row]; tile < below.first[row + 1]; ++tile) {
-            const std::uint32_t column = below.place[tile] & 0xffffu;
-            rows[row].push_back({column, tile, false});
-            if (column != row)
-                rows[column].push_back({row, tile, true});
-        }
-    TileRows all;
-    for (const std::vector<Source>& row : rows) {
-        all.first.push_back(std::uint32_t(all.place.size()));
-        for (const Source& source : row) {
-            CodedTile tile{.scale = std::uint16_t(below.place[source.tile] >> 16)};
-            for (std::size_t i = 0; i < kTexels; ++i)
-                tile.code[source.mirrored ? i % kTile * kTile + i / kTile : i] =
-                    code_at(below, source.tile, i, bits);
-            append(all, tile, source.column, bits);
-        }
-    }
-    all.first.push_back(std::uint32_t(all.place.size()));
-    return all;
 }
 
 }  // namespace
@@ -455,7 +221,7 @@ std::size_t TiledMatrix::bytes() const
 TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
                            const TileOptions& options)
 {
-    if (filled(matrix.size()) / kTile > 0x10000u)
+    if (whole_clusters(matrix.size()) / kTile > 0x10000u)
         throw Error(ErrorKind::input, "form-factor matrix", "is too large; use fewer patches");
     TiledMatrix tiled{.size = matrix.size()};
     const ColorMatrix balance = balanced(matrix, elements);
@@ -464,8 +230,7 @@ TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
     tiled.root_area = root_areas(elements);
     Coefficients coefficients = by_axes(balance, tiled.order);
     symmetrise(coefficients);
-    CodedBasis bases;
-    append_rows(bases, find_bases(coefficients));
+    const CodedBasis bases = find_bases(coefficients);
     transform(duals(bases), coefficients, false);
     tiled.unit = half_unit(coefficients.axis[0]);
     for (const std::vector<float>& axis : coefficients.axis)
@@ -479,7 +244,7 @@ TiledMatrix compress_tiles(const ColorMatrix& matrix, const Elements& elements,
 ColorMatrix decompress(const TiledMatrix& tiled)
 {
     const std::size_t n = tiled.size;
-    Coefficients coefficients{filled(n), {}};
+    Coefficients coefficients{whole_clusters(n), {}};
     for (int a = 0; a < 3; ++a) {
         coefficients.axis[a].assign(coefficients.side * coefficients.side, 0.0f);
         for (std::size_t precision = 0; precision < kPrecisions; ++precision)
@@ -494,7 +259,7 @@ ColorMatrix decompress(const TiledMatrix& tiled)
             for (std::size_t j = 0; j < n; ++j)
                 for (int a = 0; a < 3; ++a)
                     result.channel[c].values[std::size_t(tiled.order[i]) * n + tiled.order[j]] +=
-                        kAxes[a][c] * coefficients.axis[a][i * coefficients.side + j];
+                        kColorAxes[a][c] * coefficients.axis[a][i * coefficients.side + j];
     }
     return unbalanced(result, tiled.color, tiled.root_area);
 }
@@ -504,8 +269,7 @@ std::array<std::array<TileRows, 3>, kPrecisions> both_halves(const TiledMatrix& 
     std::array<std::array<TileRows, 3>, kPrecisions> all;
     for (std::size_t precision = 0; precision < kPrecisions; ++precision)
         for (std::size_t axis = 0; axis < 3; ++axis)
-            all[precision][axis] =
-                with_mirror_images(tiled.tiles[precision][axis], kTileBits[precision]);
+            all[precision][axis] = with_mirror_images(tiled.tiles[precision][axis], precision);
     return all;
 }
 

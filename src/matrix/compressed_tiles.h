@@ -9,23 +9,13 @@
 
 #include "matrix/color_matrix.h"
 #include "matrix/elements.h"
-#include "matrix/tiles.shared.h"
+#include "matrix/tiles.h"
 
 namespace lumel {
 
 struct TileOptions {
     /// Relative error to aim at, of indirect light where direct light comes from anywhere.
     float error = 0.01f;
-};
-
-inline constexpr std::array<std::uint32_t, kPrecisions> kTileBits = {4, 8, 16};
-
-/// Tiles of one precision, row by row.
-struct TileRows {
-    std::vector<std::uint32_t> first;  ///< [tile rows + 1]
-    /// Upper 16 bits: half float, what the largest code means; lower: the tile's column.
-    std::vector<std::uint32_t> place;
-    std::vector<std::uint32_t> codes;  ///< per tile: 16 of kTileBits each, row by row
 };
 
 /// M = D^-1 Q^T T Q D C: colours C, D = √area, a basis Q for each cluster of patches, and T made of
