@@ -34,7 +34,7 @@ constexpr int kSearchSteps = 40;  // halvings of λ's logarithm
 
 /// The estimate of an error by `expected_light` is so much of what real direct light shows, by
 /// `lumel-papers matrix`.
-constexpr double kEstimateOfError = 0.55;
+constexpr double kEstimateOfError = 0.6;
 constexpr int kDropped = kPrecisions;  // the precision of tiles that are not stored
 
 double tile_bytes(int precision)

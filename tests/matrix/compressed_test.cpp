@@ -24,8 +24,9 @@ TestRoom box_room(std::uint32_t side)
         for (const float wall : {0.0f, 1.0f})
             for (std::uint32_t i = 0; i < side * side; ++i) {
                 glm::vec3 place(wall), normal(0.0f);
-                place[(axis + 1) % 3] = (float(i % side) + 0.5f) / float(side);
-                place[(axis + 2) % 3] = (float(i / side) + 0.5f) / float(side);
+                const std::uint32_t column = i % side, row = i / side;
+                place[(axis + 1) % 3] = (float(column) + 0.5f) / float(side);
+                place[(axis + 2) % 3] = (float(row) + 0.5f) / float(side);
                 normal[axis] = 1.0f - 2.0f * wall;
                 e.place.push_back(place);
                 e.normal.push_back(normal);
