@@ -362,6 +362,24 @@ CLI::App& add_update(CLI::App& app, UpdateArguments& update)
     return command;
 }
 
+CLI::App& add_relight(CLI::App& app, RelightArguments& relight)
+{
+    CLI::App& command = *app.add_subcommand(
+        "relight", "Light a bake of --solver matrix anew: any states of its lights, at once");
+    command.add_option("folder", relight.folder, "What lumel bake --solver matrix wrote")
+        ->required()
+        ->type_name("FOLDER");
+    command
+        .add_option("states", relight.states,
+                    "JSON: {\"states\": [{\"name\": \"evening\", \"others\": 0, \"lights\": "
+                    "{\"lamp\": 0.5, \"sky\": [0.2, 0.3, 0.6]}}]}")
+        ->required()
+        ->type_name("FILE");
+    add_device_option(command, relight.options.device);
+    add_talk_options(command, relight.talk);
+    return command;
+}
+
 /// Who looks, and how finely.
 void add_picture_options(CLI::App& app, int& camera, int& width)
 {
@@ -577,6 +595,7 @@ Arguments parse_arguments(int count, char** values)
 
     BakeArguments bake;
     UpdateArguments update;
+    RelightArguments relight;
     RenderArguments render;
     PlayArguments play;
     ReferenceArguments reference;
@@ -585,6 +604,7 @@ Arguments parse_arguments(int count, char** values)
     DevicesArguments devices;
     const CLI::App& bake_command = add_bake(app, bake);
     const CLI::App& update_command = add_update(app, update);
+    const CLI::App& relight_command = add_relight(app, relight);
     const CLI::App& render_command = add_render(app, render);
     const CLI::App& play_command = add_play(app, play);
     const CLI::App& reference_command = add_reference(app, reference);
@@ -610,6 +630,8 @@ Arguments parse_arguments(int count, char** values)
     }
     if (update_command.parsed())
         return update;
+    if (relight_command.parsed())
+        return relight;
     if (render_command.parsed())
         return render;
     if (play_command.parsed())

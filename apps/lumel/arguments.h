@@ -7,6 +7,7 @@
 
 #include "bake/bake.h"
 #include "bake/play.h"
+#include "bake/relight.h"
 #include "bake/render.h"
 #include "bake/update.h"
 
@@ -56,6 +57,13 @@ struct UpdateArguments {
     Talk talk;
 };
 
+struct RelightArguments {
+    std::string folder;  ///< of a finished bake
+    std::string states;  ///< JSON file
+    RelightOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -81,8 +89,8 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, UpdateArguments, RenderArguments, PlayArguments,
-                               ReferenceArguments, InfoArguments, CompareArguments,
+using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, RenderArguments,
+                               PlayArguments, ReferenceArguments, InfoArguments, CompareArguments,
                                DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.

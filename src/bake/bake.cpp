@@ -4,9 +4,11 @@
 
 #include "bake/lighting.h"
 #include "bake/outputs.h"
+#include "bake/sources.h"
 #include "core/log.h"
 #include "lights/direct_light.h"
 #include "output/folder.h"
+#include "relight/matrix_file.h"
 #include "solve/solver.h"
 
 namespace lumel {
@@ -41,7 +43,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);
-    const std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
+    const std::unique_ptr<Solution> solution = keeps_sources_apart(options)
+                                                   ? solve_sources(device, setting, options, stages)
+                                                   : solve_light(device, setting, options, stages);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
 
@@ -65,8 +69,11 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                           .interrupted = stopped,
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
+                          .relightable = solution->relightable.has_value(),
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
+    if (solution->relightable)
+        write_relightable(output.path(kMatrixFile), *solution->relightable);
     return write_bake(output, options, setting.world, device, *solution->solver,
                       solution->irradiance, results, stages);
 }

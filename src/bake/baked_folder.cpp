@@ -32,26 +32,13 @@ double number_in(const BakedFolder& baked, const std::string& name)
     throw Error(ErrorKind::input, folder, what);
 }
 
-void check_kind(const std::string& folder, const BakedFolder& baked)
-{
-    const auto differs = [&](const char* name, const std::string& plain) {
-        const std::string value = setting(baked, name);
-        return !value.empty() && value != plain;
-    };
-    if (method_of(baked.method).materials == MaterialModel::glossy)
-        refuse(folder, "was baked with gloss, which cannot be corrected yet; bake it again");
-    if (differs("directional", "none"))
-        refuse(folder, "has directional layers, which cannot be corrected yet; bake it again");
-    if (differs("only", "all"))
-        refuse(folder, "holds a part of the light, which cannot be corrected; bake it again");
-}
-
 void read_report(const std::string& path, BakedFolder& baked)
 {
     const Bytes bytes = read_file(path, path);
     const Json report = Json::parse(bytes.begin(), bytes.end());
     for (const auto& [name, value] : report.at("settings").items())
         baked.settings.emplace_back(name, value.get<std::string>());
+    baked.scene_hash = report.at("scene").at("hash").get<std::string>();
     const Json& solution = report.at("solution");
     baked.method = solution.at("method").get<std::string>();
     baked.seed = solution.at("seed").get<std::uint32_t>();
@@ -78,13 +65,26 @@ BakedFolder read_baked_folder(const std::string& folder)
     } catch (const nlohmann::json::exception&) {
         refuse(report, "is not as lumel bake wrote it; bake it again");
     }
-    check_kind(folder, baked);
     baked.lights = light_options_of(baked.settings);
     baked.gutter = int(number_in(baked, "gutter"));
     baked.sky_directions = std::uint32_t(number_in(baked, "sky-directions"));
     baked.centre = setting(baked, "sampling") == "centre";
     baked.half = setting(baked, "half") == "true";
     return baked;
+}
+
+void check_correctable(const std::string& folder, const BakedFolder& baked)
+{
+    const auto differs = [&](const char* name, const std::string& plain) {
+        const std::string value = setting(baked, name);
+        return !value.empty() && value != plain;
+    };
+    if (method_of(baked.method).materials == MaterialModel::glossy)
+        refuse(folder, "was baked with gloss, which cannot be corrected yet; bake it again");
+    if (differs("directional", "none"))
+        refuse(folder, "has directional layers, which cannot be corrected yet; bake it again");
+    if (differs("only", "all"))
+        refuse(folder, "holds a part of the light, which cannot be corrected; bake it again");
 }
 
 }  // namespace lumel

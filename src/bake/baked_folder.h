@@ -1,5 +1,5 @@
 #pragma once
-// What report.json says of a bake that is to be corrected.
+// What report.json says of a finished bake.
 
 #include <cstdint>
 #include <string>
@@ -13,6 +13,7 @@ namespace lumel {
 struct BakedFolder {
     std::vector<std::pair<std::string, std::string>> settings;  ///< as Report::settings
     LightOptions lights;                                        ///< the settings among them
+    std::string scene_hash;                                     ///< Scene::hash of what was baked
     std::string method;                                         ///< id of the solver
     std::uint32_t seed = 1;
     std::uint64_t shots = 0, iterations = 0;
@@ -23,8 +24,11 @@ struct BakedFolder {
     bool centre = false, half = false;
 };
 
-/// Throws Error{input} if the folder is not a bake's, or one that cannot be corrected: of glossy
-/// surfaces, with directional layers, or of a part of the light.
+/// Throws Error{input} if the folder is not a bake's.
 BakedFolder read_baked_folder(const std::string& folder);
+
+/// Throws Error{input} for a bake that update() cannot correct: of glossy surfaces, with
+/// directional layers, or of a part of the light.
+void check_correctable(const std::string& folder, const BakedFolder& baked);
 
 }  // namespace lumel

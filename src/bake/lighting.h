@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/setting.h"
+#include "relight/relightable.h"
 
 namespace lumel {
 
@@ -30,7 +31,8 @@ struct Solution {
         lumels;  ///< the solver's, which it reads while it lives; none: the world's
     std::unique_ptr<Solver> solver;
     SolveRun run;
-    std::vector<glm::vec3> irradiance;  ///< [N] [lx] of the parts asked for
+    std::vector<glm::vec3> irradiance;       ///< [N] [lx] of the parts asked for
+    std::optional<Relightable> relightable;  ///< where sources were kept apart to the end
 };
 
 /// Solves for the parts of the light that options.parts asks for. Emissive surfaces' direct light

@@ -15,6 +15,8 @@
 namespace lumel {
 namespace {
 
+constexpr const char* kLightmap = "lightmap";
+
 /// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
 std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
 {
@@ -28,8 +30,10 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
     return radiance;
 }
 
-void write_maps(const OutputFolder& folder, const Image& map, bool half, const Prepared& world,
-                std::span<const Layer> directional)
+}  // namespace
+
+void write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
+               const Prepared& world, std::span<const Layer> directional)
 {
     std::map<std::string, std::string> metadata = {
         {"quantity", "irradiance"},        {"unit", "lx"},
@@ -37,12 +41,10 @@ void write_maps(const OutputFolder& folder, const Image& map, bool half, const P
         {"sceneHash", world.scene.hash},   {"software", "lumel " LUMEL_VERSION}};
     if (!directional.empty())
         metadata.merge(directional_metadata());
-    write_exr(folder.path("lightmap.exr"), map, half ? Precision::float16 : Precision::float32,
+    write_exr(folder.path(name + ".exr"), map, half ? Precision::float16 : Precision::float32,
               metadata, directional);
-    write_png(folder.path("lightmap.png"), tone_map(map));
+    write_png(folder.path(name + ".png"), tone_map(map));
 }
-
-}  // namespace
 
 void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
@@ -52,7 +54,7 @@ void write_light(const OutputFolder& folder, const BakeOptions& options, const P
     const Image& map = maps.light;
     const Image radiance =
         finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
-    write_maps(folder, map, options.half, world, maps.layers);
+    write_map(folder, kLightmap, map, options.half, world, maps.layers);
     write_solution(folder.path(kSolutionFile), world.lumels, irradiance, world.open);
     write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
     write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
@@ -86,8 +88,8 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const ReferenceOptions& reference, const Prepared& world,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
-    write_maps(folder, finish_map(world.scene, world.atlas, world.lumels, irradiance), options.half,
-               world, {});
+    write_map(folder, kLightmap, finish_map(world.scene, world.atlas, world.lumels, irradiance),
+              options.half, world);
     stages.end();
     const std::string report =
         to_json(reference_report(options.lights, reference, world, stopped, stages));

@@ -8,6 +8,7 @@
 #include "bake/prepare.h"
 #include "bake/stages.h"
 #include "gpu/device.h"
+#include "images/image_files.h"
 #include "output/folder.h"
 #include "output/report.h"
 
@@ -21,9 +22,14 @@ struct Results {
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;
+    bool relightable = false;      ///< scene.lumelmat was written
     DirectLight lamps;             ///< of sky and lamps
     DirectionalLight directional;  ///< empty if not asked for
 };
+
+/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking.
+void write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
+               const Prepared& world, std::span<const Layer> directional = {});
 
 /// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.
 /// device: for the preview, which is left out without one. irradiance [N] [lx], coefficients as of

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/usage.h"
+#include "relight/matrix_file.h"
 
 namespace lumel {
 namespace {
@@ -171,6 +172,8 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
     report.files = kBakedFiles;
     if (options.preview_width > 0)
         report.files.emplace_back("preview.png");
+    if (results.relightable)
+        report.files.emplace_back(kMatrixFile);
     return report;
 }
 

@@ -109,6 +109,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     Stages stages(progress);
     stages.begin("reading");
     BakedFolder baked = read_baked_folder(folder);
+    check_correctable(folder, baked);
     check_paths(folder, scene_path);
     if (settings_of(options.lights).empty())
         options.lights = baked.lights;

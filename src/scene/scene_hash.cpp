@@ -1,70 +1,12 @@
 #include "scene/scene_hash.h"
 
-#include <cstdio>
-#include <cstring>
-#include <type_traits>
+#include "core/fingerprint.h"
 
 namespace lumel {
 
 namespace {
 
-/// FNV-1a over 64-bit words. The fold carries high bits down, which whole words need.
-class Hash {
-public:
-    void add_bytes(const void* data, std::size_t size)
-    {
-        const auto* bytes = static_cast<const unsigned char*>(data);
-        add_word(size);
-        for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
-            std::uint64_t word = 0;
-            std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-            add_word(word);
-        }
-    }
-
-    template <typename T>
-    void add(const T& value)
-    {
-        static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, float>);
-        add_bytes(&value, sizeof value);
-    }
-
-    template <typename T>
-    void add(const std::vector<T>& values)
-    {
-        add_bytes(values.data(), values.size() * sizeof(T));
-    }
-
-    template <int N>
-    void add(const glm::vec<N, float>& v)
-    {
-        add_bytes(&v, sizeof v);
-    }
-    template <int N>
-    void add(const glm::mat<N, N, float>& m)
-    {
-        add_bytes(&m, sizeof m);
-    }
-
-    std::string hex() const
-    {
-        char text[17];
-        std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(state_));
-        return text;
-    }
-
-private:
-    void add_word(std::uint64_t word)
-    {
-        constexpr std::uint64_t kPrime = 0x100000001b3u;
-        state_ = (state_ ^ word) * kPrime;
-        state_ ^= state_ >> 32;
-    }
-
-    std::uint64_t state_ = 0xcbf29ce484222325u;
-};
-
-void add_texture_use(Hash& hash, const TextureUse& use)
+void add_texture_use(Fingerprint& hash, const TextureUse& use)
 {
     hash.add(use.texture);
     hash.add(use.texcoord);
@@ -73,7 +15,7 @@ void add_texture_use(Hash& hash, const TextureUse& use)
     hash.add(static_cast<int>(use.wrap_t));
 }
 
-void add_material(Hash& hash, const Material& material)
+void add_material(Fingerprint& hash, const Material& material)
 {
     hash.add(material.base_color);
     add_texture_use(hash, material.base_color_texture);
@@ -89,7 +31,7 @@ void add_material(Hash& hash, const Material& material)
     hash.add(static_cast<int>(material.double_sided));
 }
 
-void add_primitive(Hash& hash, const Primitive& primitive)
+void add_primitive(Fingerprint& hash, const Primitive& primitive)
 {
     hash.add(primitive.positions);
     hash.add(primitive.normals);
@@ -100,7 +42,7 @@ void add_primitive(Hash& hash, const Primitive& primitive)
     hash.add(primitive.material);
 }
 
-void add_light(Hash& hash, const PunctualLight& light)
+void add_light(Fingerprint& hash, const PunctualLight& light)
 {
     hash.add(static_cast<int>(light.kind));
     hash.add(light.color);
@@ -118,7 +60,7 @@ void add_light(Hash& hash, const PunctualLight& light)
 
 std::string hash_scene(const Scene& scene)
 {
-    Hash hash;
+    Fingerprint hash;
     for (const Texture& texture : scene.textures) {
         hash.add(texture.width);
         hash.add(texture.height);

@@ -214,10 +214,20 @@ VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
 std::vector<glm::vec3> VoxelPatches::means(const Lumels& lumels,
                                            std::span<const glm::vec3> values) const
 {
+    std::vector<float> area;
+    area.reserve(lumels.lumels.size());
+    for (const Lumel& lumel : lumels.lumels)
+        area.push_back(lumel.area);
+    return means(area, values);
+}
+
+std::vector<glm::vec3> VoxelPatches::means(std::span<const float> area,
+                                           std::span<const glm::vec3> values) const
+{
     std::vector<glm::vec3> sums(size(), glm::vec3(0.0f));
     for (std::size_t i = 0; i < values.size(); ++i)
         if (patch_of[i] != kPatchless)
-            sums[patch_of[i]] += lumels.lumels[i].area * values[i];
+            sums[patch_of[i]] += area[i] * values[i];
     for (std::size_t patch = 0; patch < size(); ++patch)
         sums[patch] /= patches[patch].area;
     return sums;

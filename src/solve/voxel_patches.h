@@ -30,6 +30,9 @@ struct VoxelPatches {
     std::size_t size() const { return patches.size(); }
     /// Means over patches, by area, of what lumels have: [N] to [n].
     std::vector<glm::vec3> means(const Lumels& lumels, std::span<const glm::vec3> values) const;
+    /// The same of lumels of which no more is known: area [N] [m²].
+    std::vector<glm::vec3> means(std::span<const float> area,
+                                 std::span<const glm::vec3> values) const;
 };
 
 /// Cuts charts by a grid of voxels, as fine as makes at most `most` patches, and where something

@@ -1,0 +1,38 @@
+// lumel relight: a bake under other states of its lights.
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "long_work.h"
+
+namespace lumel {
+namespace {
+
+/// A line for each state, then what it took in all.
+std::string table_of(const std::string& folder, const RelightSummary& summary)
+{
+    std::size_t width = 5;
+    for (const StateRow& row : summary.states)
+        width = std::max(width, row.name.size());
+    std::string table = fmt::format("{:<{}}  light [s]  files [s]\n", "state", width);
+    for (const StateRow& row : summary.states)
+        table += fmt::format("{:<{}}  {:>9.4f}  {:>9.4f}\n", row.name, width, row.light, row.files);
+    return table + fmt::format("{}/states: {} states in {:.1f} s", folder, summary.states.size(),
+                               summary.seconds);
+}
+
+}  // namespace
+
+int run(const RelightArguments& arguments)
+{
+    const auto work = [&](const ProgressFunction& progress) {
+        const RelightSummary summary =
+            relight(arguments.folder, arguments.states, arguments.options, progress);
+        return Conclusion{summary.report, table_of(arguments.folder, summary), summary.interrupted};
+    };
+    return do_long_work(arguments.talk, 0, work);
+}
+
+}  // namespace lumel

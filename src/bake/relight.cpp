@@ -1,0 +1,165 @@
+#include "bake/relight.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "bake/baked_folder.h"
+#include "bake/outputs.h"
+#include "bake/solution_file.h"
+#include "bake/stages.h"
+#include "bake/states_file.h"
+#include "core/usage.h"
+#include "finish/finish.h"
+#include "relight/matrix_file.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// States whose light is found together.
+constexpr std::size_t kStatesAtOnce = 16;
+/// Lumels at the rim of charts may be others in scene.glb, whose texture coordinates were rounded:
+/// this part of them at most.
+constexpr double kMostStrangers = 0.01;
+
+/// The matrix of a folder, if it is that of the bake in it.
+Relightable read_matrix(const std::string& folder, const BakedFolder& baked,
+                        const StoredSolution& solution)
+{
+    const std::string path = (fs::path(folder) / kMatrixFile).string();
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored))
+        throw Error(ErrorKind::input, folder,
+                    std::string("has no ") + kMatrixFile +
+                        "; bake the scene with --solver matrix to light it anew");
+    Relightable light = read_relightable(path);
+    if (light.scene_hash != baked.scene_hash || int(light.side) != solution.side)
+        throw Error(ErrorKind::input, path,
+                    "belongs to another scene or atlas than the bake in this folder; bake the "
+                    "scene with --solver matrix again");
+    return light;
+}
+
+Prepared read_world(const std::string& folder, const BakedFolder& baked,
+                    const StoredSolution& solution)
+{
+    Scene scene = read_scene((fs::path(folder) / "scene.glb").string(), MaterialModel::diffuse, {});
+    scene.hash = baked.scene_hash;  // its vertices are split, its light is the same
+    return Prepared(std::move(scene), [&](const Scene& read) {
+        return written_atlas(read, solution.side, float(baked.texels_per_metre), solution.charts);
+    });
+}
+
+/// [N of the world] Number of each lumel among those of the matrix, kNoLumel where it is not there.
+std::vector<std::uint32_t> numbers_in(const Relightable& light, const Lumels& lumels,
+                                      const std::string& folder)
+{
+    std::vector<std::uint32_t> at(2 * std::size_t(light.side) * light.side, kNoLumel);
+    for (std::uint32_t i = 0; i < light.size(); ++i)
+        at[light.place[i]] = i;
+    std::vector<std::uint32_t> numbers;
+    std::size_t strangers = 0;
+    for (const Lumel& lumel : lumels.lumels) {
+        numbers.push_back(at[place_of(lumel.texel, (lumel.flags & kLumelBack) != 0)]);
+        strangers += numbers.back() == kNoLumel;
+    }
+    if (double(strangers) > kMostStrangers * double(numbers.size()))
+        throw Error(ErrorKind::input, (fs::path(folder) / kMatrixFile).string(),
+                    "was made for another atlas; bake the scene with --solver matrix again");
+    return numbers;
+}
+
+std::vector<glm::vec3> in_order(std::span<const glm::vec3> light,
+                                const std::vector<std::uint32_t>& numbers)
+{
+    std::vector<glm::vec3> result;
+    result.reserve(numbers.size());
+    for (const std::uint32_t number : numbers)
+        result.push_back(number == kNoLumel ? glm::vec3(0.0f) : light[number]);
+    return result;
+}
+
+void check_states(const RelightSession& session, const std::vector<NamedState>& states,
+                  const std::string& path)
+{
+    for (const NamedState& state : states)
+        try {
+            session.check(state.light);
+        } catch (const Error& error) {
+            throw Error(error.kind(), path + ": state \"" + state.name + "\"", error.what());
+        }
+}
+
+std::string report_of(const RelightSummary& summary, const RelightSession& session,
+                      const gpu::Device& device)
+{
+    nlohmann::ordered_json json;
+    json["lumel"] = LUMEL_VERSION;
+    json["device"] = device.info().name;
+    json["matrix"] = {{"scene_hash", session.light().scene_hash},
+                      {"lumels", session.size()},
+                      {"patches", session.light().patches.size()},
+                      {"bytes", bytes_of(session.light().matrix)},
+                      {"sources", session.names()}};
+    json["seconds"] = summary.seconds;
+    json["states"] = nlohmann::ordered_json::array();
+    for (const StateRow& row : summary.states)
+        json["states"].push_back({{"name", row.name},
+                                  {"light_seconds", row.light},
+                                  {"files_seconds", row.files},
+                                  {"files", {row.name + ".exr", row.name + ".png"}}});
+    return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+RelightSummary relight(const std::string& folder, const std::string& states_path,
+                       const RelightOptions& options, const ProgressFunction& progress)
+{
+    Stages stages(progress);
+    stages.begin("reading");
+    const BakedFolder baked = read_baked_folder(folder);
+    const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
+    Relightable light = read_matrix(folder, baked, solution);
+    const std::vector<NamedState> states = read_states(states_path);
+    const Prepared world = read_world(folder, baked, solution);
+    const std::vector<std::uint32_t> numbers = numbers_in(light, world.lumels, folder);
+    const gpu::Device device(options.device);
+    RelightSession session(device, std::move(light));
+    check_states(session, states, states_path);
+    OutputFolder output((fs::path(folder) / "states").string());
+
+    stages.begin("states");
+    RelightSummary summary;
+    for (std::size_t first = 0; first < states.size() && !stages.stopped();
+         first += kStatesAtOnce) {
+        const std::size_t count = std::min(kStatesAtOnce, states.size() - first);
+        std::vector<LightState> some;
+        for (std::size_t i = first; i < first + count; ++i)
+            some.push_back(states[i].light);
+        const double start = wall_seconds();
+        const std::vector<std::vector<glm::vec3>> maps = session.irradiance(some);
+        const double each = (wall_seconds() - start) / double(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!stages.tell(double(first + i) / double(states.size())))
+                break;
+            const double begin = wall_seconds();
+            const Image map =
+                finish_map(world.scene, world.atlas, world.lumels, in_order(maps[i], numbers));
+            write_map(output, states[first + i].name, map, baked.half, world);
+            summary.states.push_back({states[first + i].name, each, wall_seconds() - begin});
+        }
+    }
+    stages.end();
+    device.check_validation();
+    output.commit();
+    summary.seconds = stages.seconds();
+    summary.interrupted = stages.stopped();
+    summary.report = report_of(summary, session, device);
+    return summary;
+}
+
+}  // namespace lumel

@@ -1,0 +1,34 @@
+#pragma once
+// lumel relight: the maps of a finished bake under other states of its lights.
+
+#include <string>
+#include <vector>
+
+#include "bake/bake.h"
+
+namespace lumel {
+
+struct RelightOptions {
+    std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
+};
+
+/// What a state has taken [s].
+struct StateRow {
+    std::string name;
+    double light = 0.0;  ///< to find its light; states found together share it alike
+    double files = 0.0;  ///< to finish its map and to write it
+};
+
+struct RelightSummary {
+    std::vector<StateRow> states;  ///< that were written
+    double seconds = 0.0;          ///< in all
+    bool interrupted = false;
+    std::string report;  ///< JSON
+};
+
+/// Lights what `lumel bake --solver matrix` wrote into `folder` anew, as the file at `states` says
+/// (see read_states()): states/NAME.exr, irradiance [lx], and states/NAME.png. Throws Error.
+RelightSummary relight(const std::string& folder, const std::string& states,
+                       const RelightOptions& options, const ProgressFunction& progress = {});
+
+}  // namespace lumel

@@ -1,0 +1,61 @@
+#include "bake/sources.h"
+
+#include "relight/relight_solver.h"
+
+namespace lumel {
+namespace {
+
+/// The sources, each with what its sky and lamps send straight to the lumels.
+std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting& setting,
+                                       const BakeOptions& options, DirectLight& told,
+                                       Stages& stages)
+{
+    const Prepared& world = setting.world;
+    if (has_lights(world.scene))
+        stages.begin("sky and lamps");
+    std::vector<KnownSource> sources;
+    for (LightSource& source : light_sources(world.scene, world.lumels)) {
+        KnownSource& known = sources.emplace_back(KnownSource{std::move(source), {}});
+        const Scene lamps = lamps_of(world.scene, known.source);
+        if (!has_lights(lamps))
+            continue;
+        DirectLight light =
+            direct_light(device, setting.resident, lamps, world.lumels,
+                         direct_light_options(options.solver, options.sky_directions),
+                         [&](double fraction) { return stages.tell(fraction); });
+        known.direct = std::move(light.irradiance);
+        told.finished = told.finished && light.finished;
+        for (const auto& [stage, ms] : light.times)
+            told.times[stage] += ms;
+    }
+    return sources;
+}
+
+}  // namespace
+
+bool keeps_sources_apart(const BakeOptions& options)
+{
+    return options.solver.method == "matrix" && options.parts == Parts::all;
+}
+
+std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,
+                                        const BakeOptions& options, Stages& stages)
+{
+    auto solution = std::make_unique<Solution>();
+    const Prepared& world = setting.world;
+    std::vector<KnownSource> sources =
+        known_sources(device, setting, options, solution->lamps, stages);
+    stages.begin("solving");
+    auto solver = std::make_unique<RelightSolver>(device, setting.resident, world.lumels,
+                                                  setting.near, options.solver, std::move(sources));
+    while (!solver->done() && stages.tell(solver->fraction(), solver->state().shots))
+        solver->step();
+    solution->run.finished = solver->done();
+    solution->irradiance = solver->irradiance();
+    if (solver->done() && solution->lamps.finished)
+        solution->relightable = solver->relightable(world.scene.hash);
+    solution->solver = std::move(solver);
+    return solution;
+}
+
+}  // namespace lumel

@@ -1,0 +1,15 @@
+#pragma once
+// A scene's light with its sources apart, for lumel relight.
+
+#include "bake/lighting.h"
+
+namespace lumel {
+
+/// True if these options ask for a solution that can be lit anew.
+bool keeps_sources_apart(const BakeOptions& options);
+
+/// Solves for all light, source by source. Solution::relightable is there if nothing stopped it.
+std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,
+                                        const BakeOptions& options, Stages& stages);
+
+}  // namespace lumel

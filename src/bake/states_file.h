@@ -1,0 +1,21 @@
+#pragma once
+// states.json: lights as they are to be turned.
+
+#include <string>
+#include <vector>
+
+#include "relight/relight_session.h"
+
+namespace lumel {
+
+struct NamedState {
+    std::string name;  ///< that files can have, unlike all others
+    LightState light;
+};
+
+/// {"states": [{"name": …, "others": factor, "lights": {NAME: factor, …}}, …]}, a factor being a
+/// number or [r, g, b], from 0. Names of lights are not looked up. Throws Error{input} with the
+/// place of what is wrong.
+std::vector<NamedState> read_states(const std::string& path);
+
+}  // namespace lumel

@@ -1,0 +1,291 @@
+// A head of four numbers, then the contents, all little-endian:
+//
+//     8 bytes   "lumelmat"
+//     8 bytes   version
+//     8 bytes   bytes of the contents
+//     8 bytes   their Fingerprint
+//     contents  in the order of fields(); a list is its length in 8 bytes, then its elements
+//
+// Contents that the fingerprint vouches for are checked again before anything is indexed by them.
+
+#include "relight/matrix_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "core/error.h"
+#include "core/fingerprint.h"
+#include "images/write_bytes.h"
+#include "matrix/half.h"
+#include "scene/gltf_files.h"
+
+namespace lumel {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'm', 'a', 't'};
+constexpr std::uint64_t kVersion = 1;
+
+struct Head {
+    std::array<char, 8> magic = kMagic;
+    std::uint64_t version = kVersion;
+    std::uint64_t bytes = 0;
+    std::uint64_t fingerprint = 0;
+};
+
+std::uint64_t fingerprint_of(const void* bytes, std::size_t count)
+{
+    Fingerprint fingerprint;
+    fingerprint.add_bytes(bytes, count);
+    return fingerprint.value();
+}
+
+/// Numbers of a colour, one after the other.
+std::span<const float> numbers_of(const std::vector<glm::vec3>& colors)
+{
+    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+    return {colors.empty() ? nullptr : &colors.front().x, 3 * colors.size()};
+}
+
+class Writer {
+public:
+    template <class T>
+    void value(const T& value)
+    {
+        static_assert(std::is_trivially_copyable_v<T>);
+        append(&value, sizeof value);
+    }
+    template <class T>
+    void list(const std::vector<T>& values)
+    {
+        static_assert(std::is_trivially_copyable_v<T>);
+        value(std::uint64_t(values.size()));
+        append(values.data(), values.size() * sizeof(T));
+    }
+    void text(const std::string& text) { list(std::vector<char>(text.begin(), text.end())); }
+    /// What one half stands for, then all numbers.
+    void halves(const std::vector<glm::vec3>& colors)
+    {
+        const std::span<const float> numbers = numbers_of(colors);
+        const float unit = half_unit(numbers);
+        std::vector<std::uint16_t> halves;
+        halves.reserve(numbers.size());
+        for (const float number : numbers)
+            halves.push_back(to_half(number / unit));
+        value(unit);
+        list(halves);
+    }
+    template <class T, class Each>
+    void each(const std::vector<T>& values, const Each& write)
+    {
+        value(std::uint64_t(values.size()));
+        for (const T& value : values)
+            write(value);
+    }
+
+    std::vector<std::byte> bytes = std::vector<std::byte>(sizeof(Head));  ///< room for the head
+
+private:
+    void append(const void* data, std::size_t count)
+    {
+        const auto* first = static_cast<const std::byte*>(data);
+        bytes.insert(bytes.end(), first, first + count);
+    }
+};
+
+class Reader {
+public:
+    Reader(const std::string& path, std::span<const std::uint8_t> bytes)
+        : path_(&path),
+          bytes_(bytes)
+    {
+    }
+
+    [[noreturn]] void fail() const
+    {
+        throw Error(ErrorKind::input, *path_, "is damaged; bake the scene again");
+    }
+    template <class T>
+    void value(T& value)
+    {
+        take(&value, sizeof value);
+    }
+    template <class T>
+    void list(std::vector<T>& values)
+    {
+        values.resize(count(sizeof(T)));
+        take(values.data(), values.size() * sizeof(T));
+    }
+    void text(std::string& text)
+    {
+        std::vector<char> letters;
+        list(letters);
+        text.assign(letters.begin(), letters.end());
+    }
+    void halves(std::vector<glm::vec3>& colors)
+    {
+        float unit = 0.0f;
+        std::vector<std::uint16_t> halves;
+        value(unit);
+        list(halves);
+        if (halves.size() % 3 != 0)
+            fail();
+        for (std::size_t i = 0; i < halves.size(); i += 3)
+            colors.push_back(unit * glm::vec3(from_half(halves[i]), from_half(halves[i + 1]),
+                                              from_half(halves[i + 2])));
+    }
+    template <class T, class Each>
+    void each(std::vector<T>& values, const Each& read)
+    {
+        values.resize(count(1));
+        for (T& value : values)
+            read(value);
+    }
+    bool ended() const { return bytes_.empty(); }
+
+private:
+    /// The length of a list whose elements take so many bytes or more.
+    std::size_t count(std::size_t least)
+    {
+        std::uint64_t count = 0;
+        value(count);
+        if (count > bytes_.size() / least)
+            fail();
+        return std::size_t(count);
+    }
+    void take(void* to, std::size_t count)
+    {
+        if (count > bytes_.size())
+            fail();
+        if (count > 0)
+            std::memcpy(to, bytes_.data(), count);
+        bytes_ = bytes_.subspan(count);
+    }
+
+    const std::string* path_;
+    std::span<const std::uint8_t> bytes_;
+};
+
+/// All of the contents, in order; `light` and `matrix` are read from or written to `archive`.
+template <class Archive, class Light, class Matrix>
+void fields(Archive& archive, Light& light, Matrix& matrix)
+{
+    archive.text(light.scene_hash);
+    archive.value(light.side);
+    archive.list(light.place);
+    archive.list(light.area);
+    archive.each(light.sources, [&](auto& source) {
+        archive.text(source.name);
+        archive.each(source.materials, [&](auto& name) { archive.text(name); });
+        archive.halves(source.direct);
+    });
+    archive.value(light.patches.side);
+    archive.list(light.patches.patch_of);
+    archive.each(light.patches.patches, [&](auto& patch) {
+        archive.value(patch.area);
+        for (auto* vector : {&patch.centre, &patch.normal, &patch.color})
+            for (int c = 0; c < 3; ++c)
+                archive.value((*vector)[c]);
+    });
+    archive.list(light.transfer.patch);
+    archive.list(light.transfer.weight);
+    archive.value(matrix.size);
+    archive.value(matrix.largest);
+    for (auto& words : matrix.words)
+        archive.list(words);
+}
+
+bool all_finite(std::span<const float> values)
+{
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+bool all_below(const std::vector<std::uint32_t>& indices, std::uint64_t size)
+{
+    return std::all_of(indices.begin(), indices.end(), [&](std::uint32_t i) { return i < size; });
+}
+
+bool is_sound(const SourceLight& source, std::size_t lumels)
+{
+    return source.direct.size() == lumels && all_finite(numbers_of(source.direct));
+}
+
+/// Everything fits together, and every index has something behind it.
+bool is_sound(const Relightable& light, const CodedMatrix& matrix)
+{
+    const std::size_t lumels = light.size(), patches = light.patches.size();
+    const std::uint64_t texels = std::uint64_t(light.side) * light.side;
+    if (light.area.size() != lumels || !all_finite(light.area) ||
+        !all_below(light.place, 2 * texels))
+        return false;
+    for (const SourceLight& source : light.sources)
+        if (!is_sound(source, lumels))
+            return false;
+    if (patches == 0)
+        return matrix.size == 0;
+    const auto has_patch = [&](std::uint32_t p) { return p < patches || p == kPatchless; };
+    const std::vector<std::uint32_t>& patch_of = light.patches.patch_of;
+    const std::size_t side = filled_up(matrix.size);
+    return patch_of.size() == lumels && std::all_of(patch_of.begin(), patch_of.end(), has_patch) &&
+           std::all_of(light.patches.patches.begin(), light.patches.patches.end(),
+                       [](const VoxelPatch& patch) { return patch.area > 0.0f; }) &&
+           light.transfer.patch.size() == lumels * kTransferPatches &&
+           all_below(light.transfer.patch, patches) &&
+           light.transfer.weight.size() == lumels * kTransferPatches &&
+           all_finite(light.transfer.weight) && matrix.size == patches &&
+           all_finite(matrix.largest) &&
+           std::all_of(matrix.words.begin(), matrix.words.end(),
+                       [&](const auto& words) { return words.size() == side * side / 2; });
+}
+
+/// Throws unless the head says that the contents are ours and whole.
+void check_head(const std::string& path, const Bytes& bytes)
+{
+    Head head;
+    if (bytes.size() >= sizeof head)
+        std::memcpy(&head, bytes.data(), sizeof head);
+    if (bytes.size() < sizeof head || head.magic != kMagic)
+        throw Error(ErrorKind::input, path, "is no matrix that lumel bake --solver matrix wrote");
+    if (head.version != kVersion)
+        throw Error(ErrorKind::input, path,
+                    "was written by another version of lumel (its format is " +
+                        std::to_string(head.version) + ", this one reads " +
+                        std::to_string(kVersion) + "); bake the scene again");
+    if (head.bytes != bytes.size() - sizeof head ||
+        head.fingerprint != fingerprint_of(bytes.data() + sizeof head, bytes.size() - sizeof head))
+        throw Error(ErrorKind::input, path, "is cut short or damaged; bake the scene again");
+}
+
+}  // namespace
+
+void write_relightable(const std::string& path, const Relightable& light)
+{
+    Writer writer;
+    fields(writer, light, std::get<CodedMatrix>(light.matrix));
+    Head head;
+    head.bytes = writer.bytes.size() - sizeof head;
+    head.fingerprint = fingerprint_of(writer.bytes.data() + sizeof head, head.bytes);
+    std::memcpy(writer.bytes.data(), &head, sizeof head);
+    write_bytes(path, writer.bytes);
+}
+
+Relightable read_relightable(const std::string& path)
+{
+    const Bytes bytes = read_file(path, path);
+    check_head(path, bytes);
+    Reader reader(path, std::span(bytes).subspan(sizeof(Head)));
+    Relightable light;
+    CodedMatrix matrix{.code = Code::float16};
+    fields(reader, light, matrix);
+    if (!reader.ended() || !is_sound(light, matrix))
+        reader.fail();
+    light.matrix = std::move(matrix);
+    return light;
+}
+
+}  // namespace lumel

@@ -1,0 +1,74 @@
+#pragma once
+// A solution that keeps the light of every source apart. See relight_solver.cpp.
+
+#include <optional>
+#include <vector>
+
+#include "relight/light_sources.h"
+#include "relight/relightable.h"
+#include "solve/matrix.h"
+
+namespace lumel {
+
+/// A source with what its lamps and sky send straight to the lumels.
+struct KnownSource {
+    LightSource source;
+    std::vector<glm::vec3> direct;  ///< [N] lx, or empty: none
+};
+
+/// Finds a Transport, then the direct light of each source's surfaces, one after the other. Ends by
+/// itself: the options' error holds for each of these sources, their shots and time are shared.
+class RelightSolver final : public Solver {
+public:
+    /// All but the sources must outlive this.
+    RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
+                  const NearField& near, const SolverOptions& options,
+                  std::vector<KnownSource> sources);
+
+    void step() override;
+    bool done() const { return !builder_ && next_ == sources_.size(); }
+    double fraction() const;  ///< of the work, roughly, 0…1
+
+    /// The error is that of direct light, once all of it is found.
+    SolverState state() const override;
+    /// What is missing before done() is left out.
+    std::vector<glm::vec3> irradiance() override;
+    const gpu::StageTimes& times() const override { return times_; }
+    double longest_submission() const override { return longest_; }
+
+    /// Once done. hash: Scene::hash.
+    Relightable relightable(const std::string& hash) const;
+
+private:
+    /// The source at work.
+    struct Emitter {
+        Lumels lumels;  ///< black, only the source's shine
+        std::optional<StochasticRadiosity> solver;
+        double start = 0.0, seconds = 0.0;  ///< when it began, what it may take; 0: no limit
+    };
+
+    void begin_source();
+    std::size_t emitters_from(std::size_t first) const;
+    bool is_enough() const;
+    void end_source();
+    void finish_builder();
+    void add_times(const gpu::StageTimes& times);
+
+    const gpu::Device* device_;
+    const World* world_;
+    const Lumels* lumels_;
+    const NearField* near_;
+    SolverOptions options_;
+    double start_;
+    std::optional<TransportBuilder> builder_;
+    std::optional<Transport> transport_;
+    std::vector<KnownSource> sources_;
+    std::size_t next_ = 0;  ///< source whose surfaces are at work
+    std::optional<Emitter> emitter_;
+    std::uint64_t shots_ = 0, iterations_ = 0;  ///< of sources that are done
+    double square_error_ = 0.0;                 ///< Σ (error × mean H)² of these [lx²]
+    gpu::StageTimes times_;
+    double longest_ = 0.0;
+};
+
+}  // namespace lumel

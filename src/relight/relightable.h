@@ -1,0 +1,42 @@
+#pragma once
+// A scene's light as it answers at once to any change of its sources.
+//
+//   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "matrix/compressed.h"
+#include "solve/lumel_transfer.h"
+
+namespace lumel {
+
+/// What a source sends straight to the lumels.
+struct SourceLight {
+    std::string name;
+    std::vector<std::string> materials;  ///< further names: those that make it shine
+    std::vector<glm::vec3> direct;       ///< [N] lx
+};
+
+/// H = Σ_s f_s D_s + transfer(M mean(Σ_s f_s D_s)) for any factors f of the sources.
+struct Relightable {
+    std::string scene_hash;            ///< Scene::hash of what was baked
+    std::uint32_t side = 0;            ///< of the atlas [texels]
+    std::vector<std::uint32_t> place;  ///< [N] of lumels, see place_of()
+    std::vector<float> area;           ///< [N] m², 0: buried
+    std::vector<SourceLight> sources;
+    VoxelPatches patches;     ///< n of them; none where nothing reflects
+    LumelTransfer transfer;   ///< from patches to lumels
+    CompressedMatrix matrix;  ///< [n][n] M: entries in half floats
+
+    std::size_t size() const { return place.size(); }  ///< N
+};
+
+/// The place of a lumel of this texel and side.
+constexpr std::uint32_t place_of(std::uint32_t texel, bool back)
+{
+    return 2 * texel + (back ? 1 : 0);
+}
+
+}  // namespace lumel
