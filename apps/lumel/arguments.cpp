@@ -380,6 +380,53 @@ CLI::App& add_relight(CLI::App& app, RelightArguments& relight)
     return command;
 }
 
+/// A place in a lightmap, as two numbers with a comma.
+void add_place_options(CLI::App& app, WhyOptions& options)
+{
+    auto* lumel = app.add_option_function<std::vector<double>>(
+                         "--lumel",
+                         [&options](const std::vector<double>& uv) {
+                             options.place = {uv[0], uv[1]};
+                         },
+                         "Place in the lightmap as TEXCOORD_1 has it, from 0,0 at its top left "
+                         "corner to 1,1")
+                      ->type_name("U,V")
+                      ->delimiter(',')
+                      ->expected(2)
+                      ->check(between(0.0, 1.0));
+    auto* texel =
+        app.add_option_function<std::vector<int>>(
+               "--texel",
+               [&options](const std::vector<int>& at) { options.texel = glm::ivec2(at[0], at[1]); },
+               "The same as column and row of texels, from 0,0")
+            ->type_name("X,Y")
+            ->delimiter(',')
+            ->expected(2)
+            ->check(whole(0, kLargestAtlas - 1));
+    texel->excludes(lumel);
+    app.callback([&app] {
+        if (app.count("--lumel") + app.count("--texel") == 0)
+            throw Error(ErrorKind::input, "", "lumel why needs --lumel U,V or --texel X,Y");
+    });
+}
+
+CLI::App& add_why(CLI::App& app, WhyArguments& why)
+{
+    CLI::App& command = *app.add_subcommand(
+        "why", "Say what sends light to a place of a baked lightmap, and show it in why.png");
+    command.add_option("folder", why.folder, "What lumel bake wrote")
+        ->required()
+        ->type_name("FOLDER");
+    add_place_options(command, why.options);
+    command.add_option("--width", why.options.width, "Of why.png in pixels; 0: none")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kLargestAtlas));
+    add_device_option(command, why.options.device);
+    add_talk_options(command, why.talk);
+    return command;
+}
+
 /// Who looks, and how finely.
 void add_picture_options(CLI::App& app, int& camera, int& width)
 {
@@ -596,6 +643,7 @@ Arguments parse_arguments(int count, char** values)
     BakeArguments bake;
     UpdateArguments update;
     RelightArguments relight;
+    WhyArguments why;
     RenderArguments render;
     PlayArguments play;
     ReferenceArguments reference;
@@ -605,6 +653,7 @@ Arguments parse_arguments(int count, char** values)
     const CLI::App& bake_command = add_bake(app, bake);
     const CLI::App& update_command = add_update(app, update);
     const CLI::App& relight_command = add_relight(app, relight);
+    const CLI::App& why_command = add_why(app, why);
     const CLI::App& render_command = add_render(app, render);
     const CLI::App& play_command = add_play(app, play);
     const CLI::App& reference_command = add_reference(app, reference);
@@ -632,6 +681,8 @@ Arguments parse_arguments(int count, char** values)
         return update;
     if (relight_command.parsed())
         return relight;
+    if (why_command.parsed())
+        return why;
     if (render_command.parsed())
         return render;
     if (play_command.parsed())

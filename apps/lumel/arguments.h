@@ -10,6 +10,7 @@
 #include "bake/relight.h"
 #include "bake/render.h"
 #include "bake/update.h"
+#include "bake/why.h"
 
 namespace lumel {
 
@@ -64,6 +65,12 @@ struct RelightArguments {
     Talk talk;
 };
 
+struct WhyArguments {
+    std::string folder;  ///< of a finished bake
+    WhyOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -89,9 +96,9 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, RenderArguments,
-                               PlayArguments, ReferenceArguments, InfoArguments, CompareArguments,
-                               DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
+                               RenderArguments, PlayArguments, ReferenceArguments, InfoArguments,
+                               CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

@@ -15,6 +15,7 @@ inline constexpr int kExitOutput = 4;
 int run(const BakeArguments& arguments);
 int run(const UpdateArguments& arguments);
 int run(const RelightArguments& arguments);
+int run(const WhyArguments& arguments);
 int run(const RenderArguments& arguments);
 int run(const PlayArguments& arguments);
 int run(const ReferenceArguments& arguments);

@@ -44,7 +44,7 @@ private:
     struct Emitter {
         Lumels lumels;  ///< black, only the source's shine
         std::optional<StochasticRadiosity> solver;
-        double start = 0.0, seconds = 0.0;  ///< when it began, what it may take; 0: no limit
+        double start, seconds;  ///< when it began and what it may take, if there is a limit [s]
     };
 
     void begin_source();

@@ -1,0 +1,196 @@
+#include "bake/why.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bake/baked_folder.h"
+#include "bake/solution_file.h"
+#include "bake/stages.h"
+#include "bake/why_picture.h"
+#include "core/luminance.h"
+#include "finish/finish.h"
+#include "images/image_files.h"
+#include "output/folder.h"
+#include "relight/senders.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPicture = "why.png";
+
+/// [N] of the world
+std::vector<glm::vec3> irradiance_of(const StoredSolution& solution, const Lumels& lumels)
+{
+    std::vector<glm::vec3> irradiance;
+    for (const Lumel& lumel : lumels.lumels)
+        irradiance.push_back(solution.of(lumel));
+    return irradiance;
+}
+
+glm::ivec2 texel_of(const WhyOptions& options, int side)
+{
+    if (!options.texel)
+        return glm::min(glm::ivec2(options.place * double(side)), glm::ivec2(side - 1));
+    if (glm::any(glm::greaterThanEqual(*options.texel, glm::ivec2(side))))
+        throw Error(ErrorKind::input, "--texel",
+                    fmt::format("the lightmap has {} columns and rows, from 0", side));
+    return *options.texel;
+}
+
+/// The texel of `shown` that is nearest.
+glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm::ivec2& texel)
+{
+    glm::ivec2 best(0);
+    int least = -1;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const glm::ivec2 way = glm::ivec2(x, y) - texel;
+            const int far = way.x * way.x + way.y * way.y;
+            if (shown[std::size_t(y * side + x)] != kNoLumel && (least < 0 || far < least)) {
+                least = far;
+                best = {x, y};
+            }
+        }
+    return best;
+}
+
+std::uint32_t lumel_at(const glm::ivec2& texel, const Lumels& lumels,
+                       const std::vector<glm::vec3>& irradiance)
+{
+    std::vector<std::uint32_t> shown = shown_lumels(lumels, irradiance);
+    const std::size_t at = std::size_t(texel.y) * std::size_t(lumels.width) + std::size_t(texel.x);
+    const bool covered = shown[at] != kNoLumel;
+    for (std::uint32_t& lumel : shown)
+        if (lumel != kNoLumel && (lumels.lumels[lumel].flags & kLumelBuried))
+            lumel = kNoLumel;
+    if (shown[at] != kNoLumel)
+        return shown[at];
+    const glm::ivec2 other = nearest(shown, lumels.width, texel);
+    throw Error(ErrorKind::input, "",
+                fmt::format("{} column {}, row {} of the lightmap; the nearest place that light "
+                            "can reach is --texel {},{}",
+                            covered ? "other geometry lies on" : "no surface is at", texel.x,
+                            texel.y, other.x, other.y));
+}
+
+WhyRow row_of(const Scene& scene, const Sender& sender, double whole)
+{
+    WhyRow row{.share = luminance(sender.light) / whole,
+               .name = "sky",
+               .distance = double(sender.distance),
+               .light = sender.light};
+    if (sender.kind == Sender::Kind::surface) {
+        row.name = scene.instances[sender.index].name;
+        row.material = scene.materials[std::size_t(sender.material)].name;
+    } else if (sender.kind == Sender::Kind::lamp) {
+        row.name = scene.lights[sender.index].name;
+    }
+    if (sender.distance > 0.0f)
+        row.place = sender.place;
+    return row;
+}
+
+std::vector<std::pair<std::string, double>> sums_by_name(const std::vector<WhyRow>& rows)
+{
+    std::map<std::string, double> sums;
+    for (const WhyRow& row : rows)
+        sums[row.name] += row.share;
+    std::vector<std::pair<std::string, double>> list(sums.begin(), sums.end());
+    std::stable_sort(list.begin(), list.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    return list;
+}
+
+nlohmann::ordered_json numbers(const glm::vec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+std::string report_of(const WhySummary& summary)
+{
+    nlohmann::ordered_json json;
+    json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
+    json["lumel"] = {{"instance", summary.instance},
+                     {"texel", {summary.texel.x, summary.texel.y}},
+                     {"place", numbers(summary.place)},
+                     {"irradiance", numbers(summary.solved)},
+                     {"found", numbers(summary.found)}};
+    json["by_name"] = nlohmann::ordered_json::array();
+    for (const auto& [name, share] : summary.by_name)
+        json["by_name"].push_back({{"name", name}, {"share", share}});
+    json["senders"] = nlohmann::ordered_json::array();
+    for (const WhyRow& row : summary.rows) {
+        nlohmann::ordered_json sender = {{"share", row.share}, {"name", row.name}};
+        if (!row.material.empty())
+            sender["material"] = row.material;
+        if (row.place) {
+            sender["place"] = numbers(*row.place);
+            sender["distance"] = row.distance;
+        }
+        sender["light"] = numbers(row.light);
+        json["senders"].push_back(std::move(sender));
+    }
+    return json.dump(2) + "\n";
+}
+
+WhySummary summary_of(const Prepared& world, std::uint32_t lumel, const Senders& senders)
+{
+    const Lumel& there = world.lumels.lumels[lumel];
+    const Instance& instance = world.scene.instances[there.instance];
+    WhySummary summary{.instance = instance.name,
+                       .place = instance.transform * glm::vec4(there.position, 1.0f),
+                       .found = senders.light};
+    const double whole = luminance(senders.light);
+    for (const Sender& sender : senders.list)
+        summary.rows.push_back(row_of(world.scene, sender, whole));
+    summary.by_name = sums_by_name(summary.rows);
+    return summary;
+}
+
+}  // namespace
+
+WhySummary why(const std::string& folder, const WhyOptions& options,
+               const ProgressFunction& progress)
+{
+    Stages stages(progress);
+    stages.begin("reading");
+    const BakedFolder baked = read_baked_folder(folder);
+    const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
+    const Prepared world(read_scene((fs::path(folder) / "scene.glb").string(),
+                                    method_of(baked.method).materials, baked.lights),
+                         [&](const Scene& scene) {
+                             return written_atlas(scene, solution.side,
+                                                  float(baked.texels_per_metre), solution.charts);
+                         });
+    const std::vector<glm::vec3> irradiance = irradiance_of(solution, world.lumels);
+    const glm::ivec2 texel = texel_of(options, solution.side);
+    const std::uint32_t lumel = lumel_at(texel, world.lumels, irradiance);
+
+    stages.begin("rays");
+    const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
+                                         irradiance, lumel, {.seed = baked.seed});
+    WhySummary summary = summary_of(world, lumel, senders);
+    summary.texel = texel;
+    summary.solved = irradiance[lumel];
+    summary.report = report_of(summary);
+    if (options.width > 0) {
+        stages.begin("picture");
+        OutputFolder output(folder);
+        const gpu::Device device(options.device);
+        write_png(output.path(kPicture),
+                  why_picture(device, world, irradiance, senders.density, lumel, options.width));
+        device.check_validation();
+        output.commit();
+    }
+    stages.end();
+    return summary;
+}
+
+}  // namespace lumel
