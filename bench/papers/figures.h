@@ -64,6 +64,15 @@ struct LayersSettings {
 /// it is not.
 void measure_layers(const LayersSettings& settings);
 
+struct LeakSettings {
+    Settings shared;
+    double leak = 0.01;                                   ///< the paper's
+    std::vector<int> directions{50, 100, 200, 400, 800};  ///< before and after the light changes
+};
+
+/// [TN11] section 5: leaky integration beside the mean, and how it follows light that changes.
+void follow_light(const LeakSettings& settings);
+
 struct DirectionsSettings {
     Settings shared;     ///< the map's side is that of the lightmap
     int directions = 0;  ///< for each scene; 0: as many as the paper

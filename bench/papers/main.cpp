@@ -126,6 +126,21 @@ void add_layers(CLI::App& app, LayersSettings& settings)
     figure->callback([&settings] { measure_layers(settings); });
 }
 
+void add_leak(CLI::App& app, LeakSettings& settings)
+{
+    settings.shared.scene = "scenes/four-cubes.gltf";
+    settings.shared.size = 64;
+    CLI::App* figure = add_figure(app, "leak", "How leaky means follow light", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
+    add_number(figure, "--map-side", settings.shared.solver.map_side,
+               "of the illumination map [pixels]; 0: as suits the lumels", 0);
+    figure->add_option("--leak", settings.leak, "part of the solution that a direction replaces")
+        ->check(CLI::Range(1e-6, 0.5))
+        ->capture_default_str();
+    add_list(figure, "--directions", settings.directions, "at which the error is taken");
+    figure->callback([&settings] { follow_light(settings); });
+}
+
 void add_directions(CLI::App& app, DirectionsSettings& settings)
 {
     settings.shared.size = kPapersMap;
@@ -228,6 +243,7 @@ int run(int argc, char** argv)
     ConvergenceSettings convergence;
     AblationSettings ablation;
     LayersSettings layers;
+    LeakSettings leak;
     DirectionsSettings directions;
     DynamicSettings dynamic;
     DriftSettings drift;
@@ -240,6 +256,7 @@ int run(int argc, char** argv)
     add_convergence(app, convergence);
     add_ablation(app, ablation);
     add_layers(app, layers);
+    add_leak(app, leak);
     add_directions(app, directions);
     add_dynamic(app, dynamic);
     add_drift(app, drift);
