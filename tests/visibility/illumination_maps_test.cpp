@@ -1,5 +1,7 @@
 // What illumination maps show of planes that lie behind one another.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "../support/box_lumels.h"
@@ -13,7 +15,7 @@ constexpr std::uint32_t kSide = 128;  ///< of maps [pixels]
 
 /// Planes of 1 m above one another, of a lumel each.
 struct Stack {
-    explicit Stack(int planes)
+    Stack(int planes, float alpha)
     {
         std::vector<support::Quad> quads;
         for (int k = 0; k < planes; ++k)
@@ -22,6 +24,11 @@ struct Stack {
                              .edge_v = {1.0f, 0.0f, 0.0f},
                              .double_sided = true});
         made = support::make_quads(quads);
+        for (Material& material : made.scene.materials)
+            if (alpha < 1.0f) {
+                material.alpha_mode = AlphaMode::blend;
+                material.base_color.a = alpha;
+            }
         atlas = support::lay_out(made, quads);
     }
 
@@ -31,8 +38,8 @@ struct Stack {
 
 /// Illumination maps of a stack, seen from straight above.
 struct FromAbove {
-    FromAbove(int planes, std::uint32_t slabs)
-        : stack(planes),
+    FromAbove(int planes, std::uint32_t slabs, float alpha = 1.0f)
+        : stack(planes, alpha),
           world(device, stack.made.scene, stack.made.lumels, &stack.atlas),
           maps(device, world, Layers::stochastic, kSide, 1, std::uint32_t(stack.made.lumels.width),
                std::uint32_t(stack.made.lumels.height), slabs)
@@ -86,6 +93,22 @@ TEST(IlluminationMaps, OfSlabsWithAPlaneEachShowItAndTheNextBeyond)
     for (std::uint32_t slab = 0; slab + 1 < kPlanes; ++slab)
         for (const int plane : seen.planes_shown(kPlanes + slab))
             ASSERT_EQ(plane, int(slab) + 1);
+    EXPECT_EQ(seen.device.validation_messages(), "");
+}
+
+TEST(IlluminationMaps, OfSlabsOfHalfTransparentPlanesShowHalfOfWhatIsLeftOfEach)
+{
+    constexpr int kPlanes = 4;
+    const FromAbove seen(kPlanes, kPlanes, 0.5f);
+    const std::vector<int> first = seen.planes_shown(0), beyond = seen.planes_shown(kPlanes);
+    const auto share = [](const std::vector<int>& shown, int plane) {
+        return double(std::count(shown.begin(), shown.end(), plane)) / double(shown.size());
+    };
+    EXPECT_NEAR(share(first, 0), 0.5, 0.03);  // of 4096 pixels the spread is below 0.008
+    EXPECT_NEAR(share(first, -1), 0.5, 0.03);
+    EXPECT_NEAR(share(beyond, 1), 0.5, 0.03);
+    EXPECT_NEAR(share(beyond, 2), 0.25, 0.03);
+    EXPECT_NEAR(share(beyond, 3), 0.125, 0.03);
     EXPECT_EQ(seen.device.validation_messages(), "");
 }
 
