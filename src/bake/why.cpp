@@ -30,7 +30,7 @@ std::vector<glm::vec3> irradiance_of(const StoredSolution& solution, const Lumel
 {
     std::vector<glm::vec3> irradiance;
     for (const Lumel& lumel : lumels.lumels)
-        irradiance.push_back(solution.of(lumel));
+        irradiance.push_back(solution.irradiance(lumel, lumel.texel));
     return irradiance;
 }
 
