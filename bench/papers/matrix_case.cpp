@@ -62,18 +62,6 @@ std::vector<std::vector<glm::vec3>> light_patches(const Prepared& world,
     return lights;
 }
 
-Elements elements_of(const VoxelPatches& patches)
-{
-    Elements elements;
-    for (const VoxelPatch& patch : patches.patches) {
-        elements.color.push_back(patch.color);
-        elements.area.push_back(patch.area);
-        elements.place.push_back(patch.centre);
-        elements.normal.push_back(patch.normal);
-    }
-    return elements;
-}
-
 }  // namespace
 
 MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,

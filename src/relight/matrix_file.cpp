@@ -21,6 +21,7 @@
 #include "core/fingerprint.h"
 #include "images/write_bytes.h"
 #include "matrix/half.h"
+#include "matrix/stored.h"
 #include "scene/gltf_files.h"
 
 namespace lumel {
@@ -171,7 +172,8 @@ private:
     std::span<const std::uint8_t> bytes_;
 };
 
-/// All of the contents, in order; `light` and `matrix` are read from or written to `archive`.
+/// All of the contents, in order, read from or written to `archive`. matrix: its bytes, none if
+/// there are no patches.
 template <class Archive, class Light, class Matrix>
 void fields(Archive& archive, Light& light, Matrix& matrix)
 {
@@ -194,10 +196,7 @@ void fields(Archive& archive, Light& light, Matrix& matrix)
     });
     archive.list(light.transfer.patch);
     archive.list(light.transfer.weight);
-    archive.value(matrix.size);
-    archive.value(matrix.largest);
-    for (auto& words : matrix.words)
-        archive.list(words);
+    archive.list(matrix);
 }
 
 bool all_finite(std::span<const float> values)
@@ -215,8 +214,9 @@ bool is_sound(const SourceLight& source, std::size_t lumels)
     return source.direct.size() == lumels && all_finite(numbers_of(source.direct));
 }
 
-/// Everything fits together, and every index has something behind it.
-bool is_sound(const Relightable& light, const CodedMatrix& matrix)
+/// Everything fits together, and every index has something behind it; the matrix is sound in
+/// itself.
+bool is_sound(const Relightable& light)
 {
     const std::size_t lumels = light.size(), patches = light.patches.size();
     const std::uint64_t texels = std::uint64_t(light.side) * light.side;
@@ -227,20 +227,16 @@ bool is_sound(const Relightable& light, const CodedMatrix& matrix)
         if (!is_sound(source, lumels))
             return false;
     if (patches == 0)
-        return matrix.size == 0;
+        return true;
     const auto has_patch = [&](std::uint32_t p) { return p < patches || p == kPatchless; };
     const std::vector<std::uint32_t>& patch_of = light.patches.patch_of;
-    const std::size_t side = filled_up(matrix.size);
     return patch_of.size() == lumels && std::all_of(patch_of.begin(), patch_of.end(), has_patch) &&
            std::all_of(light.patches.patches.begin(), light.patches.patches.end(),
                        [](const VoxelPatch& patch) { return patch.area > 0.0f; }) &&
            light.transfer.patch.size() == lumels * kTransferPatches &&
            all_below(light.transfer.patch, patches) &&
            light.transfer.weight.size() == lumels * kTransferPatches &&
-           all_finite(light.transfer.weight) && matrix.size == patches &&
-           all_finite(matrix.largest) &&
-           std::all_of(matrix.words.begin(), matrix.words.end(),
-                       [&](const auto& words) { return words.size() == side * side / 2; });
+           all_finite(light.transfer.weight) && size_of(light.matrix) == patches;
 }
 
 /// Throws unless the head says that the contents are ours and whole.
@@ -261,12 +257,23 @@ void check_head(const std::string& path, const Bytes& bytes)
         throw Error(ErrorKind::input, path, "is cut short or damaged; bake the scene again");
 }
 
+CompressedMatrix matrix_of(const Reader& reader, const std::vector<std::byte>& bytes)
+{
+    try {
+        return from_bytes(bytes);
+    } catch (const Error&) {
+        reader.fail();  // which names the file
+    }
+}
+
 }  // namespace
 
 void write_relightable(const std::string& path, const Relightable& light)
 {
     Writer writer;
-    fields(writer, light, std::get<CodedMatrix>(light.matrix));
+    const std::vector<std::byte> matrix =
+        light.patches.size() > 0 ? to_bytes(light.matrix) : std::vector<std::byte>();
+    fields(writer, light, matrix);
     Head head;
     head.bytes = writer.bytes.size() - sizeof head;
     head.fingerprint = fingerprint_of(writer.bytes.data() + sizeof head, head.bytes);
@@ -280,11 +287,12 @@ Relightable read_relightable(const std::string& path)
     check_head(path, bytes);
     Reader reader(path, std::span(bytes).subspan(sizeof(Head)));
     Relightable light;
-    CodedMatrix matrix{.code = Code::float16};
+    std::vector<std::byte> matrix;
     fields(reader, light, matrix);
-    if (!reader.ended() || !is_sound(light, matrix))
+    if (light.patches.size() > 0)
+        light.matrix = matrix_of(reader, matrix);
+    if (!reader.ended() || !is_sound(light))
         reader.fail();
-    light.matrix = std::move(matrix);
     return light;
 }
 

@@ -28,7 +28,7 @@ struct Relightable {
     std::vector<SourceLight> sources;
     VoxelPatches patches;     ///< n of them; none where nothing reflects
     LumelTransfer transfer;   ///< from patches to lumels
-    CompressedMatrix matrix;  ///< [n][n] M: entries in half floats
+    CompressedMatrix matrix;  ///< [n][n] M
 
     std::size_t size() const { return place.size(); }  ///< N
 };

@@ -233,4 +233,16 @@ std::vector<glm::vec3> VoxelPatches::means(std::span<const float> area,
     return sums;
 }
 
+Elements elements_of(const VoxelPatches& patches)
+{
+    Elements elements;
+    for (const VoxelPatch& patch : patches.patches) {
+        elements.color.push_back(patch.color);
+        elements.area.push_back(patch.area);
+        elements.place.push_back(patch.centre);
+        elements.normal.push_back(patch.normal);
+    }
+    return elements;
+}
+
 }  // namespace lumel

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "matrix/elements.h"
 #include "nearfield/surroundings.h"
 #include "world/world.h"
 
@@ -42,5 +43,8 @@ struct VoxelPatches {
 /// Throws Error{input} if there are fewer than two to be had, or none so few.
 VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
                                 const Surroundings& around, std::uint32_t most);
+
+/// What the compressed forms of a matrix are told of the patches.
+Elements elements_of(const VoxelPatches& patches);
 
 }  // namespace lumel

@@ -6,6 +6,7 @@
 #include "bake/sources.h"
 #include "core/error.h"
 #include "core/fingerprint.h"
+#include "matrix/stored.h"
 #include "relight/matrix_file.h"
 #include "relight/relight_session.h"
 #include "solved.h"
@@ -70,7 +71,8 @@ std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::v
     return a;
 }
 
-constexpr float kHalfRounding = 1e-3f;  // of stored light and matrix
+constexpr float kHalfRounding = 1e-3f;  // of stored light
+constexpr float kMatrixError = 3e-3f;   // of the compressed matrix, which aims at 0.2 %
 constexpr float kCutBelow = 1e-3f;      // where a lumel's weights would make its light negative
 
 TEST(Relighting, IsTheSolutionAndLinearInItsFactors)
@@ -80,7 +82,7 @@ TEST(Relighting, IsTheSolutionAndLinearInItsFactors)
     RelightSession session(lit.device, *lit.solution->relightable);
     EXPECT_EQ(session.names(), (std::vector<std::string>{"sky", "lamp", "light"}));
     const std::vector<glm::vec3> all = session.irradiance();
-    expect_alike(all, lit.solution->irradiance, kHalfRounding);
+    expect_alike(all, lit.solution->irradiance, kMatrixError);
 
     session.set_light("sky", glm::vec3(0.0f));
     const std::vector<glm::vec3> rest = session.irradiance();
@@ -174,7 +176,7 @@ TEST(MatrixFile, ReadsBackWhatWasWritten)
     const Relightable read = read_relightable(file.path);
     EXPECT_EQ(read.scene_hash, lit.setting.world.scene.hash);
     EXPECT_EQ(read.place, light.place);
-    EXPECT_EQ(std::get<CodedMatrix>(read.matrix).words, std::get<CodedMatrix>(light.matrix).words);
+    EXPECT_EQ(to_bytes(read.matrix), to_bytes(light.matrix));
     ASSERT_EQ(read.sources.size(), light.sources.size());
     RelightSession from_file(lit.device, file.path), session(lit.device, light);
     expect_alike(from_file.irradiance(), session.irradiance(), kHalfRounding);

@@ -87,7 +87,7 @@ TEST(Relight, WithAllFactorsOneIsTheBake)
     EXPECT_TRUE(std::filesystem::exists(bake.place.path("out/states/as baked.png")));
     EXPECT_LT(Bake::apart(bake.place.path("out/states/as baked.exr"),
                           bake.place.path("out/lightmap.exr")),
-              0.001);  // half floats
+              0.003);  // of the compressed matrix, which aims at 0.2 %
 }
 
 TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
