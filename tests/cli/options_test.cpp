@@ -104,8 +104,8 @@ TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
 TEST(Options, ReadmeExplainsEveryOptionThatHelpLists)
 {
     const std::string readme = bytes_of(LUMEL_SOURCE_DIR "/README.md");
-    for (const char* command :
-         {"bake", "render", "play", "reference", "info", "compare", "devices", "methods"}) {
+    for (const char* command : {"bake", "update", "relight", "why", "render", "play", "reference",
+                                "info", "compare", "devices", "methods"}) {
         const std::string help = run_lumel({command, "--help"}).out;
         for (std::size_t at = help.find("--"); at != std::string::npos;
              at = help.find("--", at + 2)) {
