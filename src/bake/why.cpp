@@ -53,7 +53,8 @@ glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm:
         for (int x = 0; x < side; ++x) {
             const glm::ivec2 way = glm::ivec2(x, y) - texel;
             const int far = way.x * way.x + way.y * way.y;
-            if (shown[std::size_t(y * side + x)] != kNoLumel && (least < 0 || far < least)) {
+            if (shown[std::size_t(y) * std::size_t(side) + std::size_t(x)] != kNoLumel &&
+                (least < 0 || far < least)) {
                 least = far;
                 best = {x, y};
             }

@@ -6,9 +6,12 @@
 #include "bake/sources.h"
 #include "core/error.h"
 #include "core/fingerprint.h"
+#include "core/luminance.h"
 #include "matrix/stored.h"
+#include "relight/light_sources.h"
 #include "relight/matrix_file.h"
 #include "relight/relight_session.h"
+#include "relight/senders.h"
 #include "solved.h"
 
 namespace lumel {
@@ -138,6 +141,57 @@ TEST(Relighting, KnowsSurfacesByTheirMaterialAndRefusesOtherNames)
     EXPECT_THROW(session.set_light("moon", glm::vec3(1.0f)), Error);
     EXPECT_THROW(session.set_light("sky", glm::vec3(-1.0f)), Error);
     EXPECT_THROW(session.set_light("sky", glm::vec3(NAN)), Error);
+}
+
+// Each source costs a solve, so that a hall of many lamps has few.
+TEST(LightSources, OfManyInstancesAreTheirMaterials)
+{
+    Scene scene;
+    scene.materials = {{.name = "warm", .emitted = glm::vec3(2, 1, 1)},
+                       {.name = "cold", .emitted = glm::vec3(1, 1, 2)}};
+    Lumels lumels;
+    for (std::uint32_t i = 0; i <= kMostEmitters; ++i) {
+        scene.meshes.push_back({.primitives = {{.material = int(i % 2)}}});
+        scene.instances.push_back({.name = "lamp " + std::to_string(i), .mesh = int(i)});
+        lumels.lumels.push_back({.emission = scene.materials[i % 2].emitted, .instance = i});
+    }
+    const std::vector<LightSource> many = light_sources(scene, lumels);
+    ASSERT_EQ(many.size(), 2u);
+    EXPECT_EQ(many[0].name, "warm");
+    EXPECT_EQ(many[0].instances.size(), kMostEmitters / 2 + 1);
+    lumels.lumels.pop_back();
+    const std::vector<LightSource> few = light_sources(scene, lumels);
+    ASSERT_EQ(few.size(), kMostEmitters);
+    EXPECT_EQ(few[3].name, "lamp 3");
+    EXPECT_EQ(few[3].materials, std::vector<std::string>{"cold"});
+}
+
+TEST(Senders, AddUpToTheLightOfALumel)
+{
+    Lit lit;
+    const Prepared& world = lit.setting.world;
+    const std::vector<glm::vec3>& irradiance = lit.solution->irradiance;
+    double found = 0.0, solved = 0.0;
+    bool sky = false, lamp = false, surface = false;
+    for (std::uint32_t i = 0; i < irradiance.size(); i += 37) {
+        if (world.lumels.lumels[i].flags & kLumelBuried)
+            continue;
+        const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
+                                             irradiance, i, {.rays = 4096});
+        glm::vec3 sum(0.0f);
+        for (const Sender& sender : senders.list) {
+            sum += sender.light;
+            sky = sky || sender.kind == Sender::Kind::sky;
+            lamp = lamp || (sender.kind == Sender::Kind::lamp &&
+                            world.scene.lights[sender.index].name == "lamp");
+            surface = surface || sender.kind == Sender::Kind::surface;
+        }
+        EXPECT_NEAR(luminance(sum), luminance(senders.light), 1e-4 * luminance(sum));
+        found += luminance(senders.light);
+        solved += luminance(irradiance[i]);
+    }
+    EXPECT_TRUE(sky && lamp && surface);
+    EXPECT_NEAR(found / solved, 1.0, 0.03);
 }
 
 /// A file beside the test program, gone when it ends.
