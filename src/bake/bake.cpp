@@ -70,6 +70,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
                           .relightable = solution->relightable.has_value(),
+                          .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
     if (solution->relightable)

@@ -31,8 +31,9 @@ struct Solution {
         lumels;  ///< the solver's, which it reads while it lives; none: the world's
     std::unique_ptr<Solver> solver;
     SolveRun run;
-    std::vector<glm::vec3> irradiance;       ///< [N] [lx] of the parts asked for
-    std::optional<Relightable> relightable;  ///< where sources were kept apart to the end
+    std::vector<glm::vec3> irradiance;          ///< [N] [lx] of the parts asked for
+    std::optional<Relightable> relightable;     ///< where sources were kept apart to the end
+    std::optional<FormFactorRow> form_factors;  ///< the same
 };
 
 /// Solves for the parts of the light that options.parts asks for. Emissive surfaces' direct light

@@ -22,7 +22,8 @@ struct Results {
     bool interrupted = false;
     std::size_t near_pairs = 0;
     std::vector<ConvergencePoint> curve;
-    bool relightable = false;      ///< scene.lumelmat was written
+    bool relightable = false;  ///< scene.lumelmat was written
+    std::optional<FormFactorRow> form_factors;
     DirectLight lamps;             ///< of sky and lamps
     DirectionalLight directional;  ///< empty if not asked for
 };

@@ -100,6 +100,8 @@ Settings settings_of(const BakeOptions& options)
             {"lookups", std::to_string(solver.lookups)},
             {"slabs", solver.slabs > 0 ? std::to_string(solver.slabs) : "auto"},
             {"map-side", std::to_string(solver.map_side)},
+            {"patches", std::to_string(solver.patches)},
+            {"bounces", solver.bounces > 0 ? std::to_string(solver.bounces) : "all"},
             {"sky-directions", std::to_string(options.sky_directions)},
             {"projection", text_of(solver.projection)},
             {"hemicube", std::to_string(solver.hemicube)},
@@ -138,6 +140,7 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     report.estimated_error = results.error;
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
+    report.form_factors = results.form_factors;
     if (!results.lamps.finished)
         report.notes.emplace_back(
             "stopped before all light of sky and lamps was found; some of it is missing");

@@ -31,6 +31,16 @@ std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting&
     return sources;
 }
 
+FormFactorRow row_of(const Transport& transport)
+{
+    return {.patches = transport.patches.size(),
+            .closed = transport.check.closed,
+            .voxel = double(transport.patches.side),
+            .reciprocity = transport.check.reciprocity,
+            .row_sum = transport.check.row_sum,
+            .worst_row_sum = transport.check.worst_row_sum};
+}
+
 }  // namespace
 
 bool keeps_sources_apart(const BakeOptions& options)
@@ -54,6 +64,8 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     solution->irradiance = solver->irradiance();
     if (solver->done() && solution->lamps.finished)
         solution->relightable = solver->relightable(world.scene.hash);
+    if (const Transport* transport = solver->transport())
+        solution->form_factors = row_of(*transport);
     solution->solver = std::move(solver);
     return solution;
 }

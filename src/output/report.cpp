@@ -112,6 +112,16 @@ Json frames(const Report& report)
     return rows;
 }
 
+Json form_factors(const FormFactorRow& row)
+{
+    return {{"patches", row.patches},
+            {"voxel_metres", number(row.voxel)},
+            {"closed_rows", row.closed},
+            {"row_sum_error", number(row.row_sum)},
+            {"worst_row_sum_error", number(row.worst_row_sum)},
+            {"reciprocity_error", number(row.reciprocity)}};
+}
+
 Json update(const UpdateRow& row)
 {
     Json json = {{"moved", row.moved},
@@ -182,6 +192,8 @@ std::string to_json(const Report& report)
     json["solution"] = solution(report);
     if (!report.frames.empty())
         json["frames"] = frames(report);
+    if (report.form_factors)
+        json["form_factors"] = form_factors(*report.form_factors);
     if (report.update)
         json["update"] = update(*report.update);
     json["timings"] = timings(report);

@@ -34,6 +34,16 @@ struct FrameRow {
     bool at_rest = false;         ///< nothing was left to do
 };
 
+/// Form factors between patches, as they were found, before reciprocity and row sums were enforced.
+struct FormFactorRow {
+    std::uint64_t patches = 0;
+    std::uint64_t closed = 0;    ///< of them: those whose row has to add up to 1
+    double voxel = 0.0;          ///< side of the voxels that made the patches [m]
+    double reciprocity = 0.0;    ///< Σ |A_i F_ij - A_j F_ji| / Σ A_i F_ij
+    double row_sum = 0.0;        ///< root mean square of Σ_j F_ij - 1 of closed rows
+    double worst_row_sum = 0.0;  ///< the largest of these
+};
+
 /// What became of a bake whose scene was edited.
 struct UpdateRow {
     std::uint64_t moved = 0, appeared = 0, vanished = 0;  ///< instances
@@ -79,6 +89,7 @@ struct Report {
     bool interrupted = false;
     std::vector<ConvergencePoint> convergence;
     std::vector<FrameRow> frames;
+    std::optional<FormFactorRow> form_factors;
     std::optional<UpdateRow> update;
 
     double wall_seconds = 0.0;

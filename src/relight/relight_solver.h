@@ -36,6 +36,9 @@ public:
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return longest_; }
 
+    /// Null until the form factors are found, or if nothing reflects.
+    const Transport* transport() const { return transport_ ? &*transport_ : nullptr; }
+
     /// Once done. hash: Scene::hash.
     Relightable relightable(const std::string& hash) const;
 
