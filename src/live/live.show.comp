@@ -12,13 +12,14 @@ layout(binding = 1, scalar) readonly buffer Far { vec3 far[]; };
 layout(binding = 2, scalar) readonly buffer Near { vec3 near[]; };
 layout(binding = 3, scalar) writeonly buffer Shown { vec3 shown[]; };
 layout(binding = 4, scalar) writeonly buffer Texels { vec4 texels[]; };
+layout(binding = 5, scalar) readonly buffer Direct { vec3 direct[]; };
 
 void main()
 {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= p.count)
         return;
-    const vec3 irradiance = far[i] + near[i];
+    const vec3 irradiance = far[i] + near[i] + direct[i];
     shown[i] = irradiance;
     if ((lumels[i].flags & kLumelBack) == 0u)
         texels[lumels[i].texel] = vec4(irradiance, 1.0);

@@ -101,30 +101,35 @@ NearField joined(const NearField& still, const NearField& moving, const Lumels& 
 }  // namespace
 
 LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& options)
-    : options_(options),
+    : device_(&device),
+      options_(options),
       scene_(std::move(scene)),
       movers_(flags_of(scene_, options)),
       atlas_(make_atlas(scene_, options.atlas)),
       lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
       near_(first_near_field(scene_, lumels_, movers_, options)),
       world_(device, scene_, lumels_, &atlas_, movers_),
+      lamps_(scene_, options.lights),
       solver_(device, world_, lumels_, near_, progressive(options.solver)),
       asked_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      direct_(device, lumels_.lumels.size()),
       shown_(device, lumels_.lumels.size()),
       texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
       images_{image_of(device, atlas_), image_of(device, atlas_)},
-      show_(device, "live.show", kShowSpirv, 5, sizeof(ShowParams), kShowGroup)
+      show_(device, "live.show", kShowSpirv, 6, sizeof(ShowParams), kShowGroup)
 {
     solver_.pacer().work("prepare", 1, 1,
                          [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
                              commands.fill(texels_.buffer());
+                             commands.fill(direct_.buffer());
                          });
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, options.solver, open_meshes(scene_));
     else
         incremental_.emplace(device, world_, lumels_, solver_, options.solver.projection);
+    find_lamps();
     world_.show_movers(!cross_);
     show();
 }
@@ -148,8 +153,35 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
         throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
     factors[instance] = factor;
+    light_changes();
+}
+
+void LiveScene::light_changes()
+{
     surfaces_changed_ = true;
     state_.residual = 1.0;
+}
+
+void LiveScene::set_light(std::uint32_t light, const glm::vec3& factor)
+{
+    lamps_.set_light(light, factor);
+    light_changes();
+}
+
+void LiveScene::set_sky(const glm::vec3& factor)
+{
+    lamps_.set_sky(factor);
+    light_changes();
+}
+
+/// What lamps send with things where they are now.
+void LiveScene::find_lamps()
+{
+    if (lamps_.empty())
+        return;
+    world_.show_movers(true);
+    lamps_.find(*device_, world_, lumels_);
+    upload_surfaces();
 }
 
 void LiveScene::upload_surfaces()
@@ -161,6 +193,12 @@ void LiveScene::upload_surfaces()
             glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
     }
     solver_.pacer().finish();
+    // What surfaces reflect of direct light joins their emission: the solver knows of no lamps.
+    if (const std::vector<glm::vec3> direct = lamps_.irradiance(); !direct.empty()) {
+        for (std::size_t i = 0; i < direct.size(); ++i)
+            lumels.lumels[i].emission += lumels.lumels[i].albedo * direct[i];
+        direct_.upload(direct);
+    }
     solver_.light().emission.upload(emission_of(lumels));
     solver_.light().surface.upload(surfaces_of(lumels));
     surfaces_changed_ = false;
@@ -248,6 +286,8 @@ void LiveScene::end_move()
                                   near_field_options(progressive(options_.solver)), affected);
         solver_.set_near_field(near_);
     }
+    if (!move_.boxes.empty())
+        find_lamps();
     state_.residual = solver_.residual();
 }
 
@@ -308,7 +348,8 @@ void LiveScene::show()
     pacer.work("show", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
         const ShowParams params{std::uint32_t(lumels_.lumels.size())};
         commands.dispatch(
-            show_, {world_.lumels(), solver_.light().far, solver_.light().near, shown_, texels_},
+            show_,
+            {world_.lumels(), solver_.light().far, solver_.light().near, shown_, texels_, direct_},
             params, params.count);
         shown_image_ = 1 - shown_image_;
         commands.copy(texels_.buffer(), images_[shown_image_]);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "atlas/atlas.h"
+#include "live/live_lamps.h"
 #include "solve/cross.h"
 #include "solve/incremental.h"
 
@@ -27,7 +28,9 @@ struct LiveOptions {
     SolverOptions solver;
     std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
     bool still = false;                 ///< none may, whatever `movers` says
-    double residual = 0.002;            ///< light still to be shot, as a part of all, to rest at
+    /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
+    DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
+    double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at
 };
 
 /// Where a LiveScene stands.
@@ -56,6 +59,11 @@ public:
     /// Throws Error{input} if there is no such instance or a factor is negative.
     void set_emission(std::uint32_t instance, const glm::vec3& factor);
     void set_reflectance(std::uint32_t instance, const glm::vec3& factor);
+
+    /// What a light of Scene::lights, or the sky, sends is `factor` times what the scene says.
+    /// Throws Error{input} if there is no such light, no sky, or a factor is negative.
+    void set_light(std::uint32_t light, const glm::vec3& factor);
+    void set_sky(const glm::vec3& factor);
 
     /// Goes on for about so many milliseconds: with moves first, then with light that is not shot
     /// yet; one batch at least, and overruns by one batch at most. Returns early when at rest.
@@ -87,12 +95,15 @@ private:
     void shoot();
     void show();
     void upload_surfaces();
+    void find_lamps();
+    void light_changes();
     bool is_under_way() const;
     bool is_move_asked() const;
     bool is_at_rest() const;
     void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
                     const glm::vec3& factor);
 
+    const gpu::Device* device_;
     LiveOptions options_;
     Scene scene_;
     std::vector<char> movers_;  ///< [instances]
@@ -100,6 +111,7 @@ private:
     Lumels lumels_;
     NearField near_;  ///< with Redistribution::cross: among what stays
     World world_;
+    LiveLamps lamps_;
     ProgressiveRadiosity solver_;
     std::optional<IncrementalRedistribution> incremental_;
     std::optional<CrossRedistribution> cross_;
@@ -110,7 +122,8 @@ private:
     int batches_ = 0;       ///< shot since the last look at how much light is still to be shot
     bool crossed_ = false;  ///< what movers do is known for all that is shot
     bool knows_crossing_pairs_ = false;
-    bool surfaces_changed_ = false;  ///< emission or reflectance, since the last update()
+    bool surfaces_changed_ = false;  ///< emission, reflectance or lamps, since the last update()
+    gpu::Array<glm::vec3> direct_;   ///< [N] H of sky, sun and lamps
     gpu::Array<glm::vec3> shown_;    ///< [N] H after the last whole move
     gpu::Array<glm::vec4> texels_;   ///< [height][width] of the image
     std::array<gpu::Target, 2> images_;

@@ -213,6 +213,61 @@ TEST_P(LiveScenes, BrighterAndDarkerSurfacesAreLitAsIfTheyAlwaysWereSo)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+/// The room lit by a bulb beside the box alone.
+Scene room_with_a_bulb()
+{
+    Scene scene = room_with_a_box();
+    PunctualLight bulb;
+    bulb.intensity = 10.0f;
+    bulb.radius = 0.05f;
+    bulb.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.3f, 1.4f, 1.2f));
+    scene.lights.push_back(bulb);
+    for (Material& material : scene.materials)
+        material.emitted = glm::vec3(0.0f);
+    return scene;
+}
+
+TEST_P(LiveScenes, ABulbLightsAMovedSceneAsOneThatAlwaysStoodSo)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_bulb();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = kSmallSide;
+    LiveScene moved(device, scene, options);
+    moved.settle();
+    const auto first = moved.irradiance();
+    moved.move(options.movers[0], shifted(scene, 0.2f, 0.5f));
+    moved.settle();
+    LiveScene fresh(device, scene, options);
+    fresh.move(options.movers[0], shifted(scene, 0.2f, 0.5f));
+    fresh.settle();
+    EXPECT_GT(apart(fresh, first, fresh.irradiance()), 0.03);
+    EXPECT_LE(apart(fresh, moved.irradiance(), fresh.irradiance()), 0.02);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST_P(LiveScenes, LampsTwiceAsBrightLightTwiceAsMuchAndNoneNothing)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_bulb();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = kSmallSide;
+    LiveScene live(device, scene, options);
+    live.set_light(0, glm::vec3(0.0f));
+    live.settle();
+    for (const glm::vec3& h : live.irradiance())
+        EXPECT_EQ(h, glm::vec3(0.0f));
+    live.set_light(0, glm::vec3(1.0f));
+    live.settle();
+    auto doubled = live.irradiance();
+    for (glm::vec3& h : doubled)
+        h *= 2.0f;
+    live.set_light(0, glm::vec3(2.0f));
+    live.settle();
+    EXPECT_LE(apart(live, live.irradiance(), doubled), 0.005);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 TEST(LiveScene, RefusesWhatItCannotDo)
 {
     const gpu::Device device;
@@ -225,6 +280,8 @@ TEST(LiveScene, RefusesWhatItCannotDo)
     EXPECT_THROW(live.move(options.movers[0], glm::scale(here, glm::vec3(2.0f))), Error);
     EXPECT_THROW(live.set_emission(99, glm::vec3(1.0f)), Error);
     EXPECT_THROW(live.set_reflectance(0, glm::vec3(-1.0f)), Error);
+    EXPECT_THROW(live.set_light(0, glm::vec3(1.0f)), Error);
+    EXPECT_THROW(live.set_sky(glm::vec3(1.0f)), Error);
     options.movers = {99};
     EXPECT_THROW(LiveScene(device, scene, options), Error);
 }

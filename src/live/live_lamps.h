@@ -1,0 +1,42 @@
+#pragma once
+// What sky, sun and lamps send straight to the lumels of a scene in which things move.
+
+#include <span>
+#include <vector>
+
+#include "lights/direct_light.h"
+
+namespace lumel {
+
+class LiveLamps {
+public:
+    /// The scene's sky and lights are looked at here only.
+    LiveLamps(const Scene& scene, const DirectLightOptions& options);
+
+    /// True if there are none.
+    bool empty() const { return sources_.empty(); }
+    /// What a light, or the sky, sends is `factor` times what the scene says. Throws Error{input}
+    /// if there is no such light, no sky, or a factor is negative.
+    void set_light(std::uint32_t light, const glm::vec3& factor);
+    void set_sky(const glm::vec3& factor);
+
+    /// Finds it anew, with things where the world has them.
+    void find(const gpu::Device& device, const World& world, const Lumels& lumels);
+    /// [N] lx as found last, with the factors as they are now; empty if there are no lamps.
+    std::vector<glm::vec3> irradiance() const;
+
+private:
+    struct Source {
+        Scene scene;          ///< of one light, or of the sky, without geometry
+        std::uint32_t light;  ///< index into Scene::lights, or kSky
+        glm::vec3 factor{1.0f};
+        std::vector<glm::vec3> irradiance;  ///< [N] lx where the factor is 1
+    };
+
+    void set(std::uint32_t light, const glm::vec3& factor, const std::string& name);
+
+    DirectLightOptions options_;
+    std::vector<Source> sources_;
+};
+
+}  // namespace lumel
