@@ -58,6 +58,8 @@ def lit(scene, state):
 def main():
     given = arguments()
     scene = json.loads(given.scene.read_text())
+    for material in emissive(scene):
+        material["name"] = "emissive " + material["name"]  # unlike any other source
     states = random_states(scene, given.states)
 
     def lumel(*words):
@@ -75,7 +77,8 @@ def main():
 
     with tempfile.TemporaryDirectory() as name:
         work = pathlib.Path(name)
-        seconds = bake(given.scene, work / "out", SKY, "--solver", "matrix")
+        (work / "lit.gltf").write_text(json.dumps(scene))
+        seconds = bake(work / "lit.gltf", work / "out", SKY, "--solver", "matrix")
         (work / "states.json").write_text(json.dumps({"states": states}))
         whole, report = lumel("relight", work / "out", work / "states.json", "--json")
         report = json.loads(report)
