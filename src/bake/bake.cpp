@@ -73,6 +73,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                           .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
+    output.outdate(kMatrixFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
     return write_bake(output, options, setting.world, device, *solution->solver,

@@ -14,7 +14,6 @@
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "images/write_bytes.h"
-#include "lights/direct_light.h"
 #include "live/still_part.h"
 #include "output/folder.h"
 #include "output/movie.h"
@@ -233,10 +232,6 @@ Scene read_start(const std::string& path, const Animation& animation, const Play
     check_camera(scene, options.camera);
     scene.warnings.insert(scene.warnings.end(), animation.warnings.begin(),
                           animation.warnings.end());
-    if (has_lights(scene))
-        scene.warnings.emplace_back(
-            "point, spot and directional lights and the sky are left out: what is played is lit "
-            "by its emissive surfaces alone");
     pose(scene, animation, 0.0);
     return scene;
 }

@@ -13,6 +13,7 @@
 #include "bake/setting.h"
 #include "images/write_bytes.h"
 #include "output/folder.h"
+#include "relight/matrix_file.h"
 
 namespace lumel {
 namespace {
@@ -135,6 +136,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         BakeOptions files;
         files.half = baked.half;
         files.preview_width = options.preview_width;
+        output.outdate(kMatrixFile);
         write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {}, stages);
     }
     stages.end();

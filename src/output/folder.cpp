@@ -99,6 +99,9 @@ void OutputFolder::commit()
             if (fs::is_directory(fs::path(target_) / file))
                 throw Error(ErrorKind::output, (fs::path(target_) / file).string(),
                             "is a folder where a result must go; move it away");
+        for (const std::string& name : outdated_)
+            if (fs::is_regular_file(fs::path(target_) / name))
+                fs::remove(fs::path(target_) / name);
         for (const fs::path& file : files) {
             fs::rename(fs::path(staging_) / file, fs::path(target_) / file);
             made_.clear();  // the target now holds a result

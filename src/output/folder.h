@@ -19,6 +19,9 @@ public:
 
     /// Where to write the file that will be called `name` in the target.
     std::string path(const std::string& name) const;
+    /// A file of that name which is in the target already goes at commit(), even if none takes its
+    /// place: it would not fit the others.
+    void outdate(const std::string& name) { outdated_.push_back(name); }
     /// Puts every file written so far in place, each in one step; older ones are replaced.
     /// Call once.
     void commit();
@@ -27,6 +30,7 @@ private:
     void clean_up() noexcept;
 
     std::string target_, staging_;
+    std::vector<std::string> outdated_;
     std::vector<std::string> made_;  // folders made for this, parents first
 };
 

@@ -83,6 +83,22 @@ TEST(OutputFolder, OlderResultsAreReplacedAndOtherFilesKept)
     EXPECT_EQ(entries(place.path()), 2u);
 }
 
+TEST(OutputFolder, OutdatedResultsGoAtCommitUnlessWrittenAnew)
+{
+    const test::TemporaryFolder place;
+    write(place / "stale.txt", "old");
+    write(place / "fresh.txt", "old");
+    OutputFolder out(place.path().string());
+    out.outdate("stale.txt");
+    out.outdate("fresh.txt");
+    out.outdate("never there.txt");
+    write(out.path("fresh.txt"), "new");
+    EXPECT_TRUE(fs::exists(place / "stale.txt"));
+    out.commit();
+    EXPECT_FALSE(fs::exists(place / "stale.txt"));
+    EXPECT_EQ(text_of(place / "fresh.txt"), "new");
+}
+
 TEST(OutputFolder, AFolderInAResultsPlaceStopsAllOfThem)
 {
     const test::TemporaryFolder place;
