@@ -136,7 +136,7 @@ void RelightSolver::add_times(const gpu::StageTimes& times)
 double RelightSolver::fraction() const
 {
     const double parts = double(sources_.size()) + 1.0;  // the matrix is one
-    return builder_ ? 0.0 : (1.0 + double(next_)) / parts;
+    return (builder_ ? builder_->fraction() : 1.0 + double(next_)) / parts;
 }
 
 SolverState RelightSolver::state() const

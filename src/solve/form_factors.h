@@ -40,6 +40,7 @@ public:
                 const NearField& near, const VoxelPatches& patches, const SolverOptions& options);
 
     bool done() const { return next_ == blocks_.size(); }
+    double fraction() const { return double(next_) / double(blocks_.size()); }  ///< done, 0…1
     /// Shoots the next batch, and hands over the patches that it completes.
     void step(const Column& take);
 

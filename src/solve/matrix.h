@@ -30,6 +30,7 @@ public:
                      const NearField& near, const SolverOptions& options);
 
     bool done() const { return factors_.done(); }
+    double fraction() const { return factors_.fraction(); }  ///< done, 0…1
     void step();
     /// Once done: balances, multiplies, fits. May be called once.
     Transport finish();
