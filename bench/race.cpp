@@ -15,6 +15,7 @@
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
 #include "reference/metrics.h"
+#include "solve/lumel_arrays.h"
 
 namespace lumel::bench {
 namespace {

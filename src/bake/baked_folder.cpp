@@ -22,6 +22,13 @@ std::string setting(const BakedFolder& baked, const std::string& name)
     return {};
 }
 
+/// Was a setting another than `plain`, which old reports leave out?
+bool differs(const BakedFolder& baked, const char* name, const std::string& plain)
+{
+    const std::string value = setting(baked, name);
+    return !value.empty() && value != plain;
+}
+
 double number_in(const BakedFolder& baked, const std::string& name)
 {
     return number_of(setting(baked, name)).value_or(0.0);
@@ -73,18 +80,20 @@ BakedFolder read_baked_folder(const std::string& folder)
     return baked;
 }
 
+void check_whole(const std::string& folder, const BakedFolder& baked)
+{
+    if (differs(baked, "only", "all"))
+        refuse(folder, "holds a part of the light, of which no more can be told; bake it again "
+                       "without --only");
+}
+
 void check_correctable(const std::string& folder, const BakedFolder& baked)
 {
-    const auto differs = [&](const char* name, const std::string& plain) {
-        const std::string value = setting(baked, name);
-        return !value.empty() && value != plain;
-    };
     if (method_of(baked.method).materials == MaterialModel::glossy)
         refuse(folder, "was baked with gloss, which cannot be corrected yet; bake it again");
-    if (differs("directional", "none"))
+    if (differs(baked, "directional", "none"))
         refuse(folder, "has directional layers, which cannot be corrected yet; bake it again");
-    if (differs("only", "all"))
-        refuse(folder, "holds a part of the light, which cannot be corrected; bake it again");
+    check_whole(folder, baked);
 }
 
 }  // namespace lumel

@@ -27,6 +27,9 @@ struct BakedFolder {
 /// Throws Error{input} if the folder is not a bake's.
 BakedFolder read_baked_folder(const std::string& folder);
 
+/// Throws Error{input} for a bake of a part of the light.
+void check_whole(const std::string& folder, const BakedFolder& baked);
+
 /// Throws Error{input} for a bake that update() cannot correct: of glossy surfaces, with
 /// directional layers, or of a part of the light.
 void check_correctable(const std::string& folder, const BakedFolder& baked);

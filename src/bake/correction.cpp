@@ -17,6 +17,7 @@
 #include "bake/lighting.h"
 #include "core/luminance.h"
 #include "nearfield/world_lumels.h"
+#include "solve/lumel_arrays.h"
 
 namespace lumel {
 namespace {

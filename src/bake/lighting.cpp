@@ -79,12 +79,6 @@ std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>
     return result;
 }
 
-void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more)
-{
-    for (std::size_t i = 0; i < more.size(); ++i)
-        sum[i] += more[i];
-}
-
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
                                       const BakeOptions& options, Stages& stages)
 {

@@ -21,9 +21,6 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
 /// is empty: then they stay as they are.
 std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light);
 
-/// Adds `more` [N] [lx] to `sum`; nothing if it is empty.
-void add_light(std::vector<glm::vec3>& sum, const std::vector<glm::vec3>& more);
-
 /// A solver that has run, and what came of it.
 struct Solution {
     DirectLight lamps;  ///< of sky and lamps

@@ -16,6 +16,7 @@
 #include "preview/view.h"
 #include "reference/reference_image.h"
 #include "solve/glossy.h"
+#include "solve/lumel_arrays.h"
 
 namespace lumel {
 namespace {

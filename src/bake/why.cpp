@@ -163,6 +163,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     Stages stages(progress);
     stages.begin("reading");
     const BakedFolder baked = read_baked_folder(folder);
+    check_whole(folder, baked);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     const Prepared world(read_scene((fs::path(folder) / "scene.glb").string(),
                                     method_of(baked.method).materials, baked.lights),

@@ -15,4 +15,12 @@ inline glm::mat3 frame_about(const glm::vec3& axis)
     return {t, glm::cross(axis, t), axis};
 }
 
+/// The side of a cube that a direction leads out of: 0 to 5 for +x, -x, +y, -y, +z, -z.
+inline int cube_side(const glm::vec3& direction)
+{
+    const glm::vec3 size = glm::abs(direction);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return 2 * axis + (direction[axis] < 0.0f ? 1 : 0);
+}
+
 }  // namespace lumel

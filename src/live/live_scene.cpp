@@ -120,11 +120,10 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       images_{image_of(device, atlas_), image_of(device, atlas_)},
       show_(device, "live.show", kShowSpirv, 6, sizeof(ShowParams), kShowGroup)
 {
-    solver_.pacer().work("prepare", 1, 1,
-                         [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-                             commands.fill(texels_.buffer());
-                             commands.fill(direct_.buffer());
-                         });
+    solver_.pacer().work("prepare", [&](gpu::Commands& commands) {
+        commands.fill(texels_.buffer());
+        commands.fill(direct_.buffer());
+    });
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, options.solver, open_meshes(scene_));
     else
@@ -345,7 +344,7 @@ LiveState LiveScene::settle()
 void LiveScene::show()
 {
     gpu::Pacer& pacer = solver_.pacer();
-    pacer.work("show", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer.work("show", [&](gpu::Commands& commands) {
         const ShowParams params{std::uint32_t(lumels_.lumels.size())};
         commands.dispatch(
             show_,

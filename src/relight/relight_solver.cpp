@@ -26,12 +26,6 @@ double mean_of(std::span<const glm::vec3> irradiance)
     return irradiance_sum(irradiance) / (3.0 * double(std::max<std::size_t>(irradiance.size(), 1)));
 }
 
-void add(std::vector<glm::vec3>& sum, std::span<const glm::vec3> more)
-{
-    for (std::size_t i = 0; i < more.size(); ++i)
-        sum[i] += more[i];
-}
-
 }  // namespace
 
 RelightSolver::RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
@@ -120,7 +114,7 @@ void RelightSolver::end_source()
     iterations_ += state.iterations;
     const double error = std::max(state.error, 0.0) * mean_of(light);
     square_error_ += error * error;
-    add(sources_[next_].direct, light);
+    add_light(sources_[next_].direct, light);
     add_times(emitter_->solver->times());
     longest_ = std::max(longest_, emitter_->solver->longest_submission());
     ++next_;
@@ -158,11 +152,11 @@ std::vector<glm::vec3> RelightSolver::irradiance()
 {
     std::vector<glm::vec3> light(lumels_->lumels.size(), glm::vec3(0.0f));
     for (const KnownSource& source : sources_)
-        add(light, source.direct);
+        add_light(light, source.direct);
     if (emitter_)
-        add(light, emitter_->solver->irradiance());
+        add_light(light, emitter_->solver->irradiance());
     if (transport_)
-        add(light, transport_->indirect(*lumels_, light));
+        add_light(light, transport_->indirect(*lumels_, light));
     return light;
 }
 

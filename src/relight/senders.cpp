@@ -14,6 +14,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/frame.h"
 #include "core/luminance.h"
 #include "nearfield/hit_lumels.h"
 #include "nearfield/world_lumels.h"
@@ -104,10 +105,8 @@ private:
     Place place_of(std::uint32_t instance, const glm::vec3& at, const glm::vec3& normal) const
     {
         const glm::vec3 cell = glm::floor((at - rays_.low()) / cell_);
-        const glm::vec3 size = glm::abs(normal);
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         return {instance, std::int64_t(cell.x), std::int64_t(cell.y), std::int64_t(cell.z),
-                2 * axis + (normal[axis] < 0.0f ? 1 : 0)};
+                cube_side(normal)};
     }
 
     glm::vec3 sent_by(std::uint32_t i) const

@@ -159,7 +159,8 @@ FormFactors::FormFactors(const gpu::Device& device, const World& world, const Lu
       views_(device, world, options.projection, std::uint32_t(options.hemicube),
              std::uint32_t(options.batch)),
       block_array_(device, view(blocks_)),
-      columns_(device, view(columns_of_blocks())),
+      column_of_(columns_of_blocks()),
+      columns_(device, view(column_of_)),
       eyes_(device, views_.capacity()),
       shots_(device, views_.capacity()),
       sending_(device, count_),
@@ -167,9 +168,8 @@ FormFactors::FormFactors(const gpu::Device& device, const World& world, const Lu
       open_column_(count_, 0.0f),
       pacer_(device)
 {
-    pacer_.work("prepare", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
-        commands.fill(sending_.buffer(), kOne);
-    });
+    pacer_.work("prepare",
+                [&](gpu::Commands& commands) { commands.fill(sending_.buffer(), kOne); });
 }
 
 /// Block behind the last of the batch that begins at next_.
@@ -216,7 +216,7 @@ FormFactors::NearColumns FormFactors::near_columns(const NearField& near) const
 void FormFactors::shoot(std::uint32_t last)
 {
     const std::uint32_t shots = last - next_;
-    pacer_.work("select", 1, 1, [&](gpu::Commands& commands, std::uint32_t, std::uint32_t) {
+    pacer_.work("select", [&](gpu::Commands& commands) {
         commands.fill(received_.buffer());
         commands.dispatch(look_, {world_->lumels(), world_->pieces(), block_array_, eyes_, shots_},
                           BlockParams{next_, shots}, shots);
@@ -252,7 +252,9 @@ void FormFactors::step(const Column& take)
     const auto patch_of_block = [&](std::uint32_t block) {
         return patches_->patch_of[blocks_[block].first];
     };
-    const std::vector<float> received = received_.download();
+    const std::size_t columns = column_of_[last - 1] + 1;
+    std::vector<float> received(columns * count_);
+    received_.buffer().download(received.data(), received.size() * sizeof(float));
     std::size_t column = 0;
     for (std::uint32_t first = next_, end = first; first < last; first = end, ++column) {
         const std::uint32_t patch = patch_of_block(first);

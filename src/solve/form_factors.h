@@ -78,13 +78,14 @@ private:
     gpu::Kernel look_, receive_;
     EyeViews views_;
     gpu::Array<Patch> block_array_;
-    gpu::Array<std::uint32_t> columns_;  ///< [blocks] of `received_`
-    gpu::Array<Eye> eyes_;               ///< [K]
-    gpu::Array<PatchShot> shots_;        ///< [K]
-    gpu::Array<glm::vec3> sending_;      ///< [N] 1
-    gpu::Array<float> received_;         ///< [K][N]
-    std::vector<float> open_column_;     ///< [N] of the patch that the batch before left unfinished
-    gpu::Pacer pacer_;                   ///< after all that its work uses: it waits when it ends
+    std::vector<std::uint32_t> column_of_;  ///< [blocks] of `received_`
+    gpu::Array<std::uint32_t> columns_;     ///< the same
+    gpu::Array<Eye> eyes_;                  ///< [K]
+    gpu::Array<PatchShot> shots_;           ///< [K]
+    gpu::Array<glm::vec3> sending_;         ///< [N] 1
+    gpu::Array<float> received_;            ///< [K][N]
+    std::vector<float> open_column_;  ///< [N] of the patch that the batch before left unfinished
+    gpu::Pacer pacer_;                ///< after all that its work uses: it waits when it ends
 };
 
 }  // namespace lumel

@@ -55,4 +55,10 @@ double irradiance_sum(std::span<const glm::vec3> irradiance)
     return sum;
 }
 
+void add_light(std::vector<glm::vec3>& sum, std::span<const glm::vec3> more)
+{
+    for (std::size_t i = 0; i < more.size(); ++i)
+        sum[i] += more[i];
+}
+
 }  // namespace lumel

@@ -32,6 +32,9 @@ std::span<const T> view(const std::vector<T>& values)
     return values;
 }
 
+/// Adds `more` [N] [lx] to `sum`; nothing if it is empty.
+void add_light(std::vector<glm::vec3>& sum, std::span<const glm::vec3> more);
+
 /// Σ H over lumels and channels [lx].
 double irradiance_sum(std::span<const glm::vec3> irradiance);
 

@@ -124,11 +124,7 @@ LumelTransferFit::LumelTransferFit(const World& world, const Lumels& lumels,
             const std::uint32_t own = patches.patch_of[i];
             if (own == kPatchless)
                 continue;
-            const Lumel& lumel = lumels.lumels[i];
-            const glm::mat4& place = world.placements()[lumel.instance].now;
-            const glm::vec3 position(place * glm::vec4(lumel.position, 1.0f));
-            const glm::vec3 normal =
-                glm::normalize(glm::transpose(glm::inverse(glm::mat3(place))) * lumel.normal);
+            const auto [position, normal] = placed(world, lumels.lumels[i]);
             const auto found = nearest(patches, position, normal, own);
             float sum = 0.0f;
             for (std::size_t k = 0; k < kTransferPatches; ++k) {

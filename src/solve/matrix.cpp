@@ -128,12 +128,15 @@ void MatrixRadiosity::step()
 {
     if (!builder_) {
         direct_.step();
+        times_ = factor_times_;
+        for (const auto& [stage, ms] : direct_.times())
+            times_[stage] += ms;
         return;
     }
     builder_->step();
     if (builder_->done()) {
         transport_ = builder_->finish();
-        times_ = builder_->factors().times();
+        times_ = factor_times_ = builder_->factors().times();
         longest_ = builder_->factors().longest_submission();
         builder_.reset();
     }
@@ -147,12 +150,9 @@ SolverState MatrixRadiosity::state() const
 std::vector<glm::vec3> MatrixRadiosity::irradiance()
 {
     std::vector<glm::vec3> light = direct_.irradiance();
-    if (transport_) {
-        // `known` light is reflected by the lumels' emission already.
-        const std::vector<glm::vec3> onward = transport_->indirect(*lumels_, light);
-        for (std::size_t i = 0; i < light.size(); ++i)
-            light[i] += onward[i];
-    }
+    // `known` light is reflected by the lumels' emission already.
+    if (transport_)
+        add_light(light, transport_->indirect(*lumels_, light));
     return light;
 }
 

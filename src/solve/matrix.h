@@ -69,7 +69,7 @@ private:
     std::optional<TransportBuilder> builder_;
     std::optional<Transport> transport_;
     StochasticRadiosity direct_;
-    gpu::StageTimes times_;
+    gpu::StageTimes factor_times_, times_;
     double longest_ = 0.0;
 };
 

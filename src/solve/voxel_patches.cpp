@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/frame.h"
 
 namespace lumel {
 namespace {
@@ -31,24 +32,14 @@ struct Place {
     glm::vec3 normal;
 };
 
-/// The side of a cube that a normal leads out of, 0 to 5.
-std::int32_t facing_of(const glm::vec3& normal)
-{
-    const glm::vec3 size = glm::abs(normal);
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return 2 * axis + (normal[axis] < 0.0f ? 1 : 0);
-}
-
 std::vector<Place> places_of(const World& world, const Lumels& lumels)
 {
     std::vector<Place> places;
     places.reserve(lumels.lumels.size());
     for (const Lumel& lumel : lumels.lumels) {
-        const glm::mat4& transform = world.placements()[lumel.instance].now;
-        const glm::mat3 normals = glm::transpose(glm::inverse(glm::mat3(transform)));
-        const glm::vec3 normal = glm::normalize(normals * lumel.normal);
+        const auto [position, normal] = placed(world, lumel);
         const bool back = (lumel.flags & kLumelBack) != 0;
-        places.push_back({glm::vec3(transform * glm::vec4(lumel.position, 1.0f)), facing_of(normal),
+        places.push_back({position, cube_side(normal),
                           std::int32_t(2 * lumel.chart + (back ? 1 : 0)),
                           (lumel.flags & kLumelBuried) ? 0.0f : lumel.area, normal});
     }
@@ -188,6 +179,14 @@ void finish(VoxelPatch& patch)
 }
 
 }  // namespace
+
+PlacedLumel placed(const World& world, const Lumel& lumel)
+{
+    const glm::mat4& place = world.placements()[lumel.instance].now;
+    const glm::mat3 normals = glm::transpose(glm::inverse(glm::mat3(place)));
+    return {glm::vec3(place * glm::vec4(lumel.position, 1.0f)),
+            glm::normalize(normals * lumel.normal)};
+}
 
 VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
                                 const Surroundings& around, std::uint32_t most)

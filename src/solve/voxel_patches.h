@@ -36,6 +36,12 @@ struct VoxelPatches {
                                  std::span<const glm::vec3> values) const;
 };
 
+/// A lumel's place and unit normal in the world.
+struct PlacedLumel {
+    glm::vec3 position, normal;
+};
+PlacedLumel placed(const World& world, const Lumel& lumel);
+
 /// Cuts charts by a grid of voxels, as fine as makes at most `most` patches, and where something
 /// stands between lumels: light on one side of a wall is none on the other. What is smaller than a
 /// voxel's face shares its patch with what lies in the same voxel and faces the same way. The same

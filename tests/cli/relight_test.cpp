@@ -205,5 +205,16 @@ TEST(Why, PaintsAPictureAndRefusesWhatIsNoPlace)
                         {"solution.exr"});
 }
 
+TEST(Why, RefusesABakeOfAPartOfTheLight)
+{
+    const Workplace place;
+    const std::string folder = place.path("out");
+    const Outcome baked =
+        run_lumel({"bake", own_scene("cornell-box.gltf"), folder, "--size", "32", "--shots", "16",
+                   "--only", "indirect", "--preview-width", "0"});
+    ASSERT_EQ(baked.code, 0) << baked.err;
+    expect_one_sentence(run_lumel({"why", folder, "--lumel", "0.5,0.5"}), 2, {"--only"});
+}
+
 }  // namespace
 }  // namespace lumel::test
