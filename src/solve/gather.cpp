@@ -122,7 +122,7 @@ std::vector<std::uint32_t> nearest_lumels_by_side(const Lumels& lumels)
 float pixel_form_factor(std::uint32_t face, double right0, double right1, double up0, double up1)
 {
     const auto corner = [&](double right, double up) {
-        return face == 0 ? glm::vec3(right, up, 1.0) : glm::vec3(-right, 1.0, up);
+        return face == 0 ? glm::vec3(-right, up, 1.0) : glm::vec3(right, 1.0, up);
     };
     const glm::vec3 corners[] = {corner(right0, up0), corner(right1, up0), corner(right1, up1),
                                  corner(right0, up1)};
