@@ -1,18 +1,6 @@
 # lumel_room(<name> SOURCES … USES <room or target> …): one folder of src as one static library.
 # A room sees only the rooms it names, so a wrong include does not compile into a program.
 
-function(lumel_flags target)
-    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-                                             -Wno-missing-field-initializers)
-    target_compile_definitions(${target} PUBLIC GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
-    if(LUMEL_SANITIZE)
-        target_compile_options(${target} PUBLIC -fsanitize=${LUMEL_SANITIZE} -fno-omit-frame-pointer
-                                                -fno-sanitize-recover=all)
-        target_link_options(${target} PUBLIC -fsanitize=${LUMEL_SANITIZE})
-    endif()
-endfunction()
-
 function(lumel_room name)
     cmake_parse_arguments(ROOM "" "" "SOURCES;USES;SYSTEM" ${ARGN})
     add_library(lumel_${name} STATIC ${ROOM_SOURCES})
@@ -28,12 +16,11 @@ endfunction()
 function(lumel_test name)
     cmake_parse_arguments(TEST "TOGETHER" "" "SOURCES;USES;SYSTEM" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
-    lumel_flags(${name})
+    lumel_flags(${name} HEADERS lumel_test_headers)
     foreach(used ${TEST_USES})
         target_link_libraries(${name} PRIVATE lumel_${used})
     endforeach()
-    target_link_libraries(${name} PRIVATE ${TEST_SYSTEM} GTest::gtest GTest::gtest_main)
-    target_compile_definitions(${name} PRIVATE LUMEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_link_libraries(${name} PRIVATE ${TEST_SYSTEM} lumel_test_support GTest::gtest GTest::gtest_main)
     if(TEST_TOGETHER)
         add_test(NAME ${name} COMMAND ${name})
         # The longest test begins first, or a processor idles while it ends.

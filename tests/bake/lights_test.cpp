@@ -4,6 +4,7 @@
 #include "bake/lighting.h"
 #include "lights/direct_light.h"
 #include "scene/clear_sky.h"
+#include "solve/lumel_arrays.h"
 #include "solved.h"
 
 namespace lumel {
