@@ -1,14 +1,31 @@
-# lumel_room(<name> SOURCES … USES <room or target> …): one folder of src as one static library.
-# A room sees only the rooms it names, so a wrong include does not compile into a program.
+# The rooms and who may use whom, ground floor first; tools/lint holds every #include to the same table.
+set(LUMEL_ROOM_TABLE ${PROJECT_SOURCE_DIR}/src/rooms.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LUMEL_ROOM_TABLE})
 
+# lumel_rooms(<result>): the rooms of src.
+function(lumel_rooms result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} rooms REGEX "^src/[a-z]+:")
+    list(TRANSFORM rooms REPLACE "^src/([a-z]+):.*" "\\1")
+    set(${result} ${rooms} PARENT_SCOPE)
+endfunction()
+
+# lumel_uses(<room> <result>): what the room or a file of it may use.
+function(lumel_uses room result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} uses REGEX "^src/${room}[/:]")
+    list(TRANSFORM uses REPLACE "^[^:]*: *" "")
+    list(JOIN uses " " uses)
+    separate_arguments(uses)
+    set(${result} ${uses} PARENT_SCOPE)
+endfunction()
+
+# lumel_room(<name> SOURCES … SYSTEM <library> …): one folder of src as one static library.
 function(lumel_room name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;SYSTEM" ${ARGN})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;SYSTEM" ${ARGN})
     add_library(lumel_${name} STATIC ${ROOM_SOURCES})
     lumel_flags(lumel_${name})
-    foreach(used ${ROOM_USES})
-        target_link_libraries(lumel_${name} PUBLIC lumel_${used})
-    endforeach()
-    target_link_libraries(lumel_${name} PRIVATE ${ROOM_SYSTEM})
+    lumel_uses(${name} used)
+    list(TRANSFORM used PREPEND lumel_)
+    target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${ROOM_SYSTEM})
 endfunction()
 
 # lumel_test(<name> [TOGETHER] SOURCES … USES <room> …): one GoogleTest program under tests/. Each of its
