@@ -28,21 +28,39 @@ function(lumel_room name)
     target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${ROOM_SYSTEM})
 endfunction()
 
-# lumel_test(<name> [TOGETHER] SOURCES … USES <room> …): one GoogleTest program under tests/. Each of its
-# tests is a process of its own; TOGETHER: one for all, where they share what takes long to make.
+# lumel_test(<name> [LABEL <label>] SOURCES … USES <room> … [PARTS "<part> <label> <filter>" …]):
+# one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
+# (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
+# Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
-    cmake_parse_arguments(TEST "TOGETHER" "" "SOURCES;USES;SYSTEM" ${ARGN})
+    cmake_parse_arguments(TEST "" "LABEL" "SOURCES;USES;SYSTEM;PARTS" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
     lumel_flags(${name} HEADERS lumel_test_headers)
-    foreach(used ${TEST_USES})
-        target_link_libraries(${name} PRIVATE lumel_${used})
+    list(TRANSFORM TEST_USES PREPEND lumel_)
+    target_link_libraries(${name} PRIVATE ${TEST_USES} ${TEST_SYSTEM} lumel_test_support
+                                          GTest::gtest GTest::gtest_main)
+    set(rest "*-")
+    foreach(part ${TEST_PARTS})
+        string(REGEX MATCH "^([^ ]+) ([a-z]+) (.+)$" matched "${part}")
+        set(filter ${CMAKE_MATCH_3})
+        lumel_test_entry(${name}.${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${name} --gtest_filter=${filter})
+        string(APPEND rest ":${filter}")
     endforeach()
-    target_link_libraries(${name} PRIVATE ${TEST_SYSTEM} lumel_test_support GTest::gtest GTest::gtest_main)
-    if(TEST_TOGETHER)
-        add_test(NAME ${name} COMMAND ${name})
-        # The longest test begins first, or a processor idles while it ends.
-        set_tests_properties(${name} PROPERTIES TIMEOUT 1500 COST 1500)
-    else()
-        gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+    if(NOT TEST_LABEL)
+        set(TEST_LABEL normal)
     endif()
+    if(NOT TEST_LABEL STREQUAL none)
+        lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest})
+    endif()
+    list(TRANSFORM TEST_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+    list(JOIN sources " " sources)
+    set_property(GLOBAL APPEND PROPERTY LUMEL_TEST_PROGRAMS "${name} $<TARGET_FILE:${name}> ${sources}")
+endfunction()
+
+# lumel_test_entry(<name> <label> <command> …): what ctest runs. ./test limits processor time; the limit here,
+# by the clock, is for what hangs.
+function(lumel_test_entry name label)
+    add_test(NAME ${name} COMMAND ${ARGN})
+    set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 7200
+                         FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endfunction()
