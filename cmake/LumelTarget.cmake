@@ -49,18 +49,19 @@ function(lumel_test name)
     if(NOT TEST_LABEL)
         set(TEST_LABEL normal)
     endif()
-    if(NOT TEST_LABEL STREQUAL none)
-        lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest})
-    endif()
+    lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest})
     list(TRANSFORM TEST_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
     list(JOIN sources " " sources)
     set_property(GLOBAL APPEND PROPERTY LUMEL_TEST_PROGRAMS "${name} $<TARGET_FILE:${name}> ${sources}")
 endfunction()
 
-# lumel_test_entry(<name> <label> <command> …): what ctest runs. ./test limits processor time; the limit here,
-# by the clock, is for what hangs.
-function(lumel_test_entry name label)
-    add_test(NAME ${name} COMMAND ${ARGN})
+# lumel_test_entry(<name> <label> <program> <argument> …): what ctest runs. ./test limits processor time;
+# the limit here, by the clock, is for what hangs.
+function(lumel_test_entry name label program)
+    add_test(NAME ${name} COMMAND ${program} ${ARGN})
     set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 7200
                          FAIL_REGULAR_EXPRESSION "Running 0 tests")
+    if(label STREQUAL quick)
+        add_dependencies(quick_tests ${program})
+    endif()
 endfunction()
