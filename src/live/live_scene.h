@@ -25,8 +25,8 @@ struct LiveOptions {
     Redistribution redistribution = Redistribution::incremental;
     ProgressiveOptions solver;
     double target_error = SolverOptions{}.target_error;  ///< of the near field alone
-    std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
-    bool still = false;                 ///< none may, whatever `movers` says
+    std::vector<std::uint32_t> movers;                   ///< instances that may move; empty: all
+    bool still = false;                                  ///< none may, whatever `movers` says
     /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at

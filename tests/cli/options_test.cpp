@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -103,7 +104,7 @@ TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
 
 TEST(Options, ReadmeExplainsEveryOptionThatHelpLists)
 {
-    const std::string readme = bytes_of(LUMEL_SOURCE_DIR "/README.md");
+    const std::string readme = bytes_of(support::source_path("README.md"));
     for (const char* command : {"bake", "update", "relight", "why", "render", "play", "reference",
                                 "info", "compare", "devices", "methods"}) {
         const std::string help = run_lumel({command, "--help"}).out;
