@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <type_traits>
 
 namespace lumel::gpu {
 
@@ -71,6 +72,18 @@ void load_vulkan()
                     "Vulkan, or Mesa's software Vulkan (package mesa-vulkan-drivers)");
 }
 
+/// Names and labels are of use without the layers too: to debuggers that look on.
+bool has_debug_utils()
+{
+    std::uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
+    });
+}
+
 VkInstance make_instance(bool validation)
 {
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -81,7 +94,8 @@ VkInstance make_instance(bool validation)
                                     .pApplicationInfo = &application,
                                     .enabledLayerCount = validation ? 1u : 0u,
                                     .ppEnabledLayerNames = &kValidationLayer,
-                                    .enabledExtensionCount = validation ? 1u : 0u,
+                                    .enabledExtensionCount =
+                                        validation || has_debug_utils() ? 1u : 0u,
                                     .ppEnabledExtensionNames = &extension};
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
@@ -319,6 +333,7 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    load_debug_utils();
     learn_limits();
 }
 
@@ -342,7 +357,20 @@ Device::Device(const HostDevice& host)
     info_ = describe(physical_);
     if (!info_.usable)
         throw Error(ErrorKind::device, info_.name, info_.reason);
+    load_debug_utils();
     learn_limits();
+}
+
+void Device::load_debug_utils()
+{
+    // Of this instance: volk's globals may be those of another, and a host may lack the extension.
+    const auto load = [&](auto& function, const char* name) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+            vkGetInstanceProcAddr(instance_, name));
+    };
+    load(debug_utils_.set_name, "vkSetDebugUtilsObjectNameEXT");
+    load(debug_utils_.begin_region, "vkCmdBeginDebugUtilsLabelEXT");
+    load(debug_utils_.end_region, "vkCmdEndDebugUtilsLabelEXT");
 }
 
 void Device::learn_limits()

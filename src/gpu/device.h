@@ -43,6 +43,13 @@ struct HostDevice {
     bool block_textures = false;   ///< the feature textureCompressionBC is on
 };
 
+/// Entry points of VK_EXT_debug_utils, null where the instance lacks it.
+struct DebugUtils {
+    PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_region = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_region = nullptr;
+};
+
 /// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
 /// made from it holds a reference and must not outlive it.
 class Device {
@@ -92,6 +99,7 @@ public:
     VkDevice handle() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
+    const DebugUtils& debug_utils() const { return debug_utils_; }  ///< see names.h
 
     /// Device memory that fits `requirements`; host_visible memory is mapped to *mapped.
     VkDeviceMemory allocate(const VkMemoryRequirements& requirements, bool host_visible,
@@ -99,12 +107,14 @@ public:
     void free(VkDeviceMemory memory, std::uint64_t bytes) const;
 
 private:
+    void load_debug_utils();
     void learn_limits();
 
     struct Validation;
     std::unique_ptr<Validation> validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    DebugUtils debug_utils_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
