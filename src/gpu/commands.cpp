@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gpu/names.h"
+
 namespace lumel::gpu {
 namespace {
 
@@ -25,10 +27,11 @@ VkImageMemoryBarrier2 to_general(const Target& target)
                                  .layerCount = 1}};
 }
 
-VkBufferImageCopy whole_level(const Target& target)
+VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32_t count)
 {
     return {.imageSubresource = {.aspectMask = aspect_of(target.pixel()), .layerCount = 1},
-            .imageExtent = {target.width(), target.height(), 1}};
+            .imageOffset = {0, int(first), 0},
+            .imageExtent = {target.width(), count, 1}};
 }
 
 }  // namespace
@@ -86,12 +89,20 @@ void Commands::stage(const char* name)
     begin();
     if (stages_.size() + 1 >= kMaxTimestamps || (!stages_.empty() && stages_.back() == name))
         return;
+    end_stage();
+    begin_region(*device_, buffer_, name);
     vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
                          std::uint32_t(stages_.size()));
     stages_.emplace_back(name);
     // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may be
     // after the work that follows.
     barrier();
+}
+
+void Commands::end_stage()
+{
+    if (!stages_.empty())
+        end_region(*device_, buffer_);
 }
 
 // Everything before happens before, and is visible to, everything after. One barrier for all
@@ -188,15 +199,22 @@ void Commands::copy_part(const Buffer& from, std::uint64_t from_byte, const Buff
 
 void Commands::copy(const Buffer& from, const Target& to)
 {
+    copy_rows(from, to, 0, to.height());
+    make_levels(to);
+}
+
+void Commands::copy_rows(const Buffer& from, const Target& to, std::uint32_t first,
+                         std::uint32_t count)
+{
     begin();
-    const VkBufferImageCopy region = whole_level(to);
+    const VkBufferImageCopy region = rows_of(to, first, count);
     vkCmdCopyBufferToImage(buffer_, from.handle(), to.image(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
     barrier();
-    make_levels(to);
 }
 
 void Commands::make_levels(const Target& target)
 {
+    begin();
     int width = int(target.width()), height = int(target.height());
     for (std::uint32_t level = 1; level < target.mip_levels(); ++level) {
         const int next_width = std::max(width / 2, 1), next_height = std::max(height / 2, 1);
@@ -212,10 +230,11 @@ void Commands::make_levels(const Target& target)
     }
 }
 
-void Commands::copy(const Target& from, const Buffer& to)
+void Commands::copy_rows(const Target& from, const Buffer& to, std::uint32_t first,
+                         std::uint32_t count)
 {
     begin();
-    const VkBufferImageCopy region = whole_level(from);
+    const VkBufferImageCopy region = rows_of(from, first, count);
     vkCmdCopyImageToBuffer(buffer_, from.image(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
     barrier();
 }
@@ -300,6 +319,7 @@ void Commands::submit()
     begin();
     vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
                          std::uint32_t(stages_.size()));
+    end_stage();
     check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
     recording_ = false;
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
