@@ -25,8 +25,8 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Nam
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
     try {
-        memory_ = device.memory().take(requirements,
-                                       place == Place::host ? MemoryUse::host : MemoryUse::array);
+        memory_ = device.memory().take(
+            requirements, place == Place::host ? MemoryUse::host : MemoryUse::array, name.text());
     } catch (...) {
         vkDestroyBuffer(device.handle(), buffer_, nullptr);
         throw;

@@ -36,7 +36,7 @@ VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32
 
 }  // namespace
 
-Commands::Commands(const Device& device) : device_(&device)
+Commands::Commands(const Device& device, Timing timing) : device_(&device)
 {
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .queueFamilyIndex = device.queue_family()};
@@ -49,6 +49,8 @@ Commands::Commands(const Device& device) : device_(&device)
     check(vkAllocateCommandBuffers(device.handle(), &buffer, &buffer_), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &fence, nullptr, &fence_), "vkCreateFence");
+    if (timing == Timing::off)
+        return;
     const VkQueryPoolCreateInfo queries{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                         .queryCount = kMaxTimestamps};
@@ -64,19 +66,23 @@ Commands::~Commands()
     vkDestroyCommandPool(device_->handle(), pool_, nullptr);
 }
 
-void Commands::begin()
+void Commands::start()
 {
-    if (recording_)
-        return;
     wait();
     check(vkResetCommandPool(device_->handle(), pool_, 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(vkBeginCommandBuffer(buffer_, &info), "vkBeginCommandBuffer");
-    vkCmdResetQueryPool(buffer_, queries_, 0, kMaxTimestamps);
+    if (queries_)
+        vkCmdResetQueryPool(buffer_, queries_, 0, kMaxTimestamps);
     recording_ = true;
     stages_.clear();
-    stage("other");
+}
+
+void Commands::begin()
+{
+    if (!recording_)
+        stage("other");
 }
 
 bool Commands::has_room_for_stages() const
@@ -86,17 +92,25 @@ bool Commands::has_room_for_stages() const
 
 void Commands::stage(const char* name)
 {
-    begin();
+    if (!recording_)
+        start();
     if (stages_.size() + 1 >= kMaxTimestamps || (!stages_.empty() && stages_.back() == name))
         return;
     end_stage();
+    begin_stage(name);
+}
+
+void Commands::begin_stage(const char* name)
+{
     begin_region(*device_, buffer_, name);
-    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
-                         std::uint32_t(stages_.size()));
+    if (queries_) {
+        vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                             std::uint32_t(stages_.size()));
+        // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may
+        // be after the work that follows.
+        barrier();
+    }
     stages_.emplace_back(name);
-    // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may be
-    // after the work that follows.
-    barrier();
 }
 
 void Commands::end_stage()
@@ -317,8 +331,9 @@ void Commands::end_pass()
 void Commands::submit()
 {
     begin();
-    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
-                         std::uint32_t(stages_.size()));
+    if (queries_)
+        vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                             std::uint32_t(stages_.size()));
     end_stage();
     check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
     recording_ = false;
@@ -338,6 +353,8 @@ void Commands::wait()
     check(vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever), "vkWaitForFences");
     check(vkResetFences(device_->handle(), 1, &fence_), "vkResetFences");
     submitted_ = false;
+    if (!queries_)
+        return;
     std::vector<std::uint64_t> stamps(stages_.size() + 1);
     check(vkGetQueryPoolResults(device_->handle(), queries_, 0, std::uint32_t(stamps.size()),
                                 stamps.size() * sizeof(std::uint64_t), stamps.data(),

@@ -49,11 +49,14 @@ struct Range {
 /// Time the device spent per stage [ms].
 using StageTimes = std::map<std::string, double>;
 
+enum class Timing { on, off };
+
 /// One command buffer with its fence and timestamps. Record, then run() or submit() and wait();
 /// after either it records anew.
 class Commands {
 public:
-    explicit Commands(const Device& device);
+    /// timing: off leaves out the timestamps, and the barriers that they need.
+    explicit Commands(const Device& device, Timing timing = Timing::on);
     ~Commands();
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
@@ -112,7 +115,9 @@ public:
     double last_milliseconds() const { return last_milliseconds_; }  ///< of the last submission
 
 private:
+    void start();
     void begin();
+    void begin_stage(const char* name);
     void end_stage();
     void barrier();
     void bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings);
@@ -132,7 +137,7 @@ private:
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer buffer_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
+    VkQueryPool queries_ = VK_NULL_HANDLE;   ///< null: not timed
     const Layout* layout_in_use_ = nullptr;  ///< of the Raster in use
     bool recording_ = false, submitted_ = false;
     std::vector<std::string> stages_;  ///< name of the interval that begins at timestamp i

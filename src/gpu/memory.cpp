@@ -49,7 +49,8 @@ Memory::~Memory()
         vkFreeMemory(device_, block.memory, nullptr);
 }
 
-Memory::Part Memory::take(const VkMemoryRequirements& requirements, MemoryUse use)
+Memory::Part Memory::take(const VkMemoryRequirements& requirements, MemoryUse use,
+                          const std::string& name)
 {
     Part part;
     bool suits = false;
@@ -62,6 +63,7 @@ Memory::Part Memory::take(const VkMemoryRequirements& requirements, MemoryUse us
             suits = true;
             if (!take_of_type(type, requirements, use, part))
                 continue;
+            part.block->held[part.offset] = {name, part.bytes};
             held_bytes_ += part.bytes;
             peak_bytes_ = std::max(peak_bytes_, held_bytes_);
             return part;
@@ -131,6 +133,7 @@ Memory::Block* Memory::add_block(std::uint32_t type, MemoryUse use, std::uint64_
 void Memory::give_back(const Part& part)
 {
     held_bytes_ -= part.bytes;
+    part.block->held.erase(part.offset);
     auto& gaps = part.block->gaps;
     auto gap = gaps.emplace(part.offset, part.bytes).first;
     if (const auto next = std::next(gap);
@@ -147,6 +150,20 @@ void Memory::give_back(const Part& part)
         return;
     vkFreeMemory(device_, part.memory, nullptr);
     blocks_.remove_if([&](const Block& block) { return &block == part.block; });
+}
+
+std::vector<Holding> Memory::holdings() const
+{
+    std::map<std::string, std::uint64_t> sums;
+    for (const Block& block : blocks_)
+        for (const auto& [offset, held] : block.held)
+            sums[held.name] += held.bytes;
+    std::vector<Holding> holdings;
+    for (const auto& [name, bytes] : sums)
+        holdings.push_back({name, bytes});
+    std::stable_sort(holdings.begin(), holdings.end(),
+                     [](const Holding& a, const Holding& b) { return a.bytes > b.bytes; });
+    return holdings;
 }
 
 }  // namespace lumel::gpu

@@ -7,6 +7,7 @@
 #include <list>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gpu/vulkan.h"
 
@@ -18,6 +19,12 @@ enum class MemoryUse {
     array,  ///< on the device
     image,  ///< on the device, with optimal tiling
     host,   ///< visible to the host, coherent and mapped
+};
+
+/// Memory that is held under one name.
+struct Holding {
+    std::string name;
+    std::uint64_t bytes = 0;
 };
 
 /// Not thread-safe, as the device it belongs to.
@@ -39,10 +46,13 @@ public:
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// Throws Error{device} if there is too little memory or none of the kind needed.
-    Part take(const VkMemoryRequirements& requirements, MemoryUse use);
+    /// name: of what the memory is for, see names.h. Throws Error{device} if there is too little
+    /// memory or none of the kind needed.
+    Part take(const VkMemoryRequirements& requirements, MemoryUse use, const std::string& name);
     void give_back(const Part& part);
 
+    /// What is held, by name; parts of one name count as one. The largest come first.
+    std::vector<Holding> holdings() const;
     std::uint64_t held_bytes() const { return held_bytes_; }  ///< by all parts together
     std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
     std::size_t blocks() const { return blocks_.size(); }     ///< taken from the driver
@@ -55,6 +65,7 @@ private:
         std::uint64_t bytes = 0;
         std::byte* mapped = nullptr;
         std::map<std::uint64_t, std::uint64_t> gaps;  ///< offset and length of what is free
+        std::map<std::uint64_t, Holding> held;        ///< by offset
     };
 
     bool take_from(Block& block, const VkMemoryRequirements& requirements, Part& part);

@@ -40,7 +40,7 @@ struct Rows {
 
 struct Staging::Slot {
     explicit Slot(const Device& device)
-        : commands(device),
+        : commands(device, Timing::off),
           memory(device, kSlotBytes, Buffer::Place::host, "staging")
     {
     }

@@ -84,7 +84,7 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
     try {
-        memory_ = device.memory().take(requirements, MemoryUse::image);
+        memory_ = device.memory().take(requirements, MemoryUse::image, name.text());
     } catch (...) {
         vkDestroyImage(device.handle(), image_, nullptr);
         throw;
