@@ -166,7 +166,10 @@ void add_light_options(CLI::App& app, LightOptions& lights)
 
 void add_talk_options(CLI::App& app, Talk& talk)
 {
-    app.add_flag("-q,--quiet", talk.quiet, "Say nothing but warnings and errors");
+    auto* quiet = app.add_flag("-q,--quiet", talk.quiet, "Say nothing but warnings and errors");
+    app.add_flag("--verbose", talk.verbose,
+                 "Print stages, sizes, memory and device times on stderr as they become known")
+        ->excludes(quiet);
     app.add_flag("--json", talk.json, "Print the report as JSON on stdout, and nothing else");
     app.add_flag_callback(
         "--no-progress", [&talk] { talk.progress = false; }, "Draw no progress line");
@@ -214,6 +217,15 @@ void add_device_option(CLI::App& app, std::string& device)
         ->type_name("NAME");
 }
 
+void add_dump_option(CLI::App& app, std::string& folder)
+{
+    app.add_option(
+           "--dump", folder,
+           "Also write intermediate images there, as EXR and PNG: what the brightest lumel "
+           "sees, the surfaces under the sky layer by layer, near-field row sums, and power")
+        ->type_name("FOLDER");
+}
+
 void add_preview_option(CLI::App& app, int& width)
 {
     app.add_option("--preview-width", width, "Of preview.png; 0: none")
@@ -240,6 +252,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
                "Of the arriving light only what comes straight from its source, or only the rest");
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);
+    add_dump_option(command, bake.options.dump);
     add_talk_options(command, bake.talk);
     return command;
 }
@@ -385,6 +398,7 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render, GivenMethod& method
     add_one_method(command, method);
     add_stop_options(command, options.bake.solver);
     add_device_option(command, options.bake.device);
+    add_dump_option(command, options.bake.dump);
     add_talk_options(command, render.talk);
     return command;
 }

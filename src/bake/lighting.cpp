@@ -71,9 +71,12 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
     if (!has_lights(setting.world.scene))
         return {};
     stages.begin("sky and lamps");
-    return direct_light(device, setting.resident, setting.world.scene, setting.world.lumels,
-                        direct_light_options(options.solver, options.sky_directions),
-                        [&](double fraction) { return stages.tell(fraction); });
+    DirectLight light =
+        direct_light(device, setting.resident, setting.world.scene, setting.world.lumels,
+                     direct_light_options(options.solver, options.sky_directions),
+                     [&](double fraction) { return stages.tell(fraction); });
+    stages.note_times(light.times);
+    return light;
 }
 
 std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light)

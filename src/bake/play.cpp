@@ -271,6 +271,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);
+    stages.watch(device);
     tell_warnings(start);
 
     stages.begin("charts");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "bake/dump.h"
 #include "bake/lighting.h"
 #include "bake/report.h"
 #include "bake/setting.h"
@@ -36,6 +37,8 @@ void check(const std::string& path, const RenderOptions& options)
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
+    if (options.paths > 0 && !options.bake.dump.empty())
+        throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
     const OutputFile can_be_written(path);
 }
 
@@ -159,6 +162,9 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 
 Made shoot(Scene scene, RenderOptions options, Stages& stages)
 {
+    std::optional<OutputFolder> dump;
+    if (!options.bake.dump.empty())
+        dump.emplace(options.bake.dump);
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
     const Prepared& world = setting.world;
@@ -177,6 +183,9 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, lamps.irradiance);
+    if (dump)
+        write_dump(*dump, device, {world, setting.resident, setting.near, irradiance},
+                   options.bake.solver);
     const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
     const Surfaces surfaces(world.scene);
     const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);

@@ -61,6 +61,7 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
                                                   setting.near, options.solver, std::move(sources));
     while (!solver->done() && stages.tell(solver->fraction(), solver->state().shots))
         solver->step();
+    stages.note_times(solver->times());
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();
     if (solver->done() && solution->lamps.finished)

@@ -51,6 +51,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
          {"--map-side", "--solver directions"}},
         {{"bake", scene, "out", "--solver", "gather", "--projection", "hemisphere"},
          {"--projection", "--solver gather"}},
+        {{"bake", scene, "out", "--quiet", "--verbose"}, {"--verbose", "--quiet"}},
+        {{"render", scene, "out.png", "--paths", "4", "--dump", "inside"}, {"--dump", "--paths"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
         {{"bake", scene, "out", "--projection", "sphere"},
