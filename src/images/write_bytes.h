@@ -1,5 +1,5 @@
 #pragma once
-// One way to put bytes on the disk, for every writer.
+// Writes bytes to the disk, for every writer.
 
 #include <cstddef>
 #include <span>

@@ -113,7 +113,7 @@ private:
     void read_node(const JsonView& channel, const JsonView& target, const std::string& path)
     {
         const auto reference = target.find("node");
-        if (!reference)  // for extensions, the format says
+        if (!reference)  // for extensions, by the format
             return;
         AnimatedNode& node = animation_.nodes[reference->index(animation_.nodes.size(), "nodes")];
         if (node.rest.matrix)
@@ -174,14 +174,14 @@ private:
     Track read_track(const JsonView& sampler, Quantity quantity) const
     {
         Track track;
-        const std::string way = sampler.string_or("interpolation", "LINEAR");
-        if (way == "STEP")
+        const std::string mode = sampler.string_or("interpolation", "LINEAR");
+        if (mode == "STEP")
             track.interpolation = Interpolation::step;
-        else if (way == "CUBICSPLINE")
+        else if (mode == "CUBICSPLINE")
             track.interpolation = Interpolation::cubic_spline;
-        else if (way != "LINEAR")
+        else if (mode != "LINEAR")
             sampler.get("interpolation")
-                .fail("is " + quoted(way) + ", but must be STEP, LINEAR or CUBICSPLINE");
+                .fail("is " + quoted(mode) + ", but must be STEP, LINEAR or CUBICSPLINE");
         track.times = read_times(sampler.get("input"));
         const bool spline = track.interpolation == Interpolation::cubic_spline;
         track.values =

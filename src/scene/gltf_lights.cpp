@@ -123,7 +123,7 @@ std::optional<float> extra(const JsonView& view, const char* key)
     return number;
 }
 
-/// How large it is, as no extension says: {"radius": m} or {"angle": rad} of node or light.
+/// How large it is, which no extension defines: {"radius": m} or {"angle": rad} of node or light.
 void read_size(const JsonView& view, PunctualLight& light)
 {
     constexpr float kLargestAngle = glm::quarter_pi<float>();

@@ -113,7 +113,7 @@ struct Table {
 };
 
 /// Passes over the lines before the numbers. True for the editions whose second factor, after that
-/// of the ballast, changes the candela: later it is reserved, or says how the file was made.
+/// of the ballast, changes the candela: later it is reserved, or describes how the file was made.
 bool skip_head(Words& words)
 {
     bool both_factors = true;
@@ -125,7 +125,7 @@ bool skip_head(Words& words)
         if (!line.starts_with(kTilt))
             continue;
         if (trimmed(line.substr(kTilt.size())) == "INCLUDE") {
-            words.number("lamp's way to stand");
+            words.number("lamp's position");
             const int count = words.count("number of tilts");
             for (int i = 0; i < 2 * count; ++i)
                 words.number("factors for tilted lamps");
@@ -201,7 +201,7 @@ Table read_table(Words& words)
 struct Place {
     std::size_t before = 0;
     std::size_t after = 0;
-    double rest = 0.0;  ///< of the way from one to the other
+    double rest = 0.0;  ///< of the distance from one to the other
 };
 
 /// `value` lies within the angles.
