@@ -1,6 +1,6 @@
-// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and bring all they
-// carry to each lumel that they meet; reflected by its ρ, they go on by chance. Two independent
-// halves tell the error.
+// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and deposit all they
+// carry at each lumel that they meet; reflected by its ρ, they continue at random. The difference
+// of two independent halves gives the error.
 
 #include "update/carried_light.h"
 
@@ -19,7 +19,7 @@ namespace lumel {
 namespace {
 
 /// Particles of each half in the first round. A round at most doubles what there is, as the error
-/// that it foresees is noisy itself, and makes so many times as many as that asks for.
+/// that it foresees is noisy itself, and takes this many times the number that follows from it.
 constexpr std::size_t kFirstParticles = 1 << 15;
 constexpr double kMargin = 1.1;
 /// Particles worth a task, and followed before their landings are added up.
