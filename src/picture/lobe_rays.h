@@ -1,6 +1,6 @@
 #pragma once
 // Light that rays along the lobes of glossy points find: y is chosen by what x reflects instead
-// of by what y sends. Shooters (solve/eye_image.h) are good at wide lobes and
+// of by what y sends. Shooters (lobes/eye_image.h) are good at wide lobes and
 // lamps, rays at narrow lobes.
 
 #include <functional>

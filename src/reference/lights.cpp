@@ -1,5 +1,5 @@
 // Next-event estimation: rays towards points drawn on the light sources. What a reflected direction
-// may hit as well, emitters and the sky, is estimated twice and weighed by the power heuristic;
+// may hit as well, emitters and the sky, is estimated twice and weighted by the power heuristic;
 // lamps are never hit.
 //
 // [VG95] E. Veach, L. Guibas, Optimally Combining Sampling Techniques, 1995.
@@ -69,9 +69,9 @@ Lights::Lights(const Scene& scene, const RayScene& rays, const Surfaces& surface
 glm::vec3 Lights::from_emitter(const Stand& stand, const BounceSamples& samples) const
 {
     const EmitterPoint emitter = emitters_.sample(samples.point(Draw::emitter));
-    const glm::vec3 way = emitter.position - stand.position;
-    const float squared = glm::dot(way, way);
-    const glm::vec3 direction = way / std::sqrt(squared);
+    const glm::vec3 offset = emitter.position - stand.position;
+    const float squared = glm::dot(offset, offset);
+    const glm::vec3 direction = offset / std::sqrt(squared);
     const float cos_here = cosine_above(stand, direction);
     const float cos_front = -glm::dot(emitter.normal, direction);
     const float cos_there = emitter.double_sided ? std::abs(cos_front) : cos_front;
@@ -105,8 +105,8 @@ glm::vec3 Lights::from_sky(const Stand& stand, const BounceSamples& samples) con
     return passing * sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
-/// Works out what every lamp would bring, and asks what is in the way of a few of them, chosen by
-/// that.
+/// Computes the unoccluded light of every lamp, and tests the visibility of a few of them, chosen
+/// by that.
 glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) const
 {
     struct Offer {

@@ -19,7 +19,7 @@ namespace lumel {
 class PathTracer {
 public:
     /// `scene` and `rays` must outlive this, unmoved. Gloss counts if the scene was read with it.
-    /// `parts`: which light arrives at the points that `reflected` is asked about.
+    /// `parts`: which light arrives at the points of `reflected`.
     PathTracer(const Scene& scene, const RayScene& rays, int max_bounces, Parts parts = Parts::all);
 
     /// One estimate of π × the radiance [lm/m²] that a point reflects towards where its BRDF looks.

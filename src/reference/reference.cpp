@@ -62,10 +62,10 @@ Stand LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
     const glm::mat4& transform = transforms_[lumel.instance];
     const glm::vec3 world(transform * glm::vec4(position, 1.0f));
     const glm::vec3 inward = glm::vec3(transform * glm::vec4(lumel.position, 1.0f)) - world;
-    const float way = glm::length(inward);
+    const float distance = glm::length(inward);
     glm::vec3 lifted = world + lift_ * geometric;
-    if (way > 0.0f)
-        lifted += inward * (std::min(lift_, 0.5f * way) / way);
+    if (distance > 0.0f)
+        lifted += inward * (std::min(lift_, 0.5f * distance) / distance);
     return {lifted, geometric, Brdf(glm::normalize(normal_transform * normal))};
 }
 

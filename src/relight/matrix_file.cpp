@@ -150,7 +150,7 @@ public:
     bool ended() const { return bytes_.empty(); }
 
 private:
-    /// The length of a list whose elements take so many bytes or more.
+    /// The length of a list whose elements take at least this number of bytes.
     std::size_t count(std::size_t least)
     {
         std::uint64_t count = 0;
@@ -239,7 +239,7 @@ bool is_sound(const Relightable& light)
            all_finite(light.transfer.weight) && size_of(light.matrix) == patches;
 }
 
-/// Throws unless the head says that the contents are ours and whole.
+/// Throws unless the head shows that the contents are ours and complete.
 void check_head(const std::string& path, const Bytes& bytes)
 {
     Head head;

@@ -121,11 +121,11 @@ private:
         const LumelPoint point = start(samples);
         const glm::vec2 disc = square_to_disc(samples.stratified(kWayPair));
         const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
-        const glm::vec3 way = turn_to(point.normal, disc.x, disc.y, up);
+        const glm::vec3 direction = turn_to(point.normal, disc.x, disc.y, up);
         const float share = 1.0f / float(options_.rays);
         RayHit hit;
-        if (!rays_.closest(point.position, way, 0.0f, kFar, samples.bits(kSeedPair), hit)) {
-            sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, way);
+        if (!rays_.closest(point.position, direction, 0.0f, kFar, samples.bits(kSeedPair), hit)) {
+            sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, direction);
             return;
         }
         const std::uint32_t met = hits_.lumel(hit);
@@ -136,7 +136,7 @@ private:
         const WorldLumel& there = world_[met];
         const Mesh& mesh = scene_.meshes[std::size_t(scene_.instances[hit.instance].mesh)];
         surfaces_[place_of(hit.instance, there.centre, there.normal)].add(
-            light, point.position + hit.distance * way, hit.distance,
+            light, point.position + hit.distance * direction, hit.distance,
             mesh.primitives[hit.primitive].material);
     }
 

@@ -68,10 +68,10 @@ void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint3
         const std::uint32_t pair = kFirstBouncePair + kPairsPerBounce * bounce;
         const glm::vec2 at =
             bounce < kStratifiedBounces ? samples.stratified(pair) : samples.random(pair);
-        const glm::vec3 way = frame_about(normal) * by_cosine(at);
+        const glm::vec3 direction = frame_about(normal) * by_cosine(at);
         RayHit hit;
-        if (!rays_->closest(position + lift * normal, way, 0.0f, std::numeric_limits<float>::max(),
-                            samples.bits(pair), hit))
+        if (!rays_->closest(position + lift * normal, direction, 0.0f,
+                            std::numeric_limits<float>::max(), samples.bits(pair), hit))
             return;
         const std::uint32_t i = hits_->lumel(hit);
         if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
@@ -83,7 +83,7 @@ void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint3
         if (!(double(samples.random(pair + 1).x) < chance))
             return;
         carried = reflected * float(1.0 / chance);
-        position += lift * normal + hit.distance * way;
+        position += lift * normal + hit.distance * direction;
         normal = hit.front ? hit.normal : -hit.normal;
     }
 }
