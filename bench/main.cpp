@@ -72,8 +72,9 @@ int main(int argc, char** argv)
         ->capture_default_str();
     app.add_option("--projection", projection, "hemicube or hemisphere")
         ->check(CLI::IsMember({"hemicube", "hemisphere"}));
-    app.add_option("--projections", settings.cuts,
-                   "compares both projections instead, edges of triangles cut into so many")
+    app.add_option(
+           "--projections", settings.cuts,
+           "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
     app.add_option("--near", settings.near_radius,
                    "near field radius [lumel sizes]; 0: as the solver likes it")

@@ -1,5 +1,5 @@
 #pragma once
-// What a run of the benchmark is asked for, and the scene it makes of it.
+// The settings of a run of the benchmark, and the scene that they make.
 
 #include <cstdint>
 #include <string>

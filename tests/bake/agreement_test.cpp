@@ -84,7 +84,7 @@ TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
     EXPECT_LE(std::abs(error.bias), 0.005);
 }
 
-/// What the matrix says of its error is of direct light: reflected light is as fine as its patches.
+/// The matrix states the error of direct light only: reflected light is as fine as its patches.
 class SolversToAnyError : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
@@ -190,7 +190,7 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
 {
     for (const MethodInfo& method : kMethods) {
-        if (std::string(method.id) == "gather")  // which knows hemicubes alone
+        if (std::string(method.id) == "gather")  // which has hemicubes alone
             continue;
         const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
                              AtlasOptions{.size = 64});

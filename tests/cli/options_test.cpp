@@ -1,4 +1,4 @@
-// What the command line accepts, and what it says to what it does not.
+// What the command line accepts, and its messages for what it does not.
 
 #include <sstream>
 
