@@ -137,7 +137,7 @@ void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not among those that may move");
+        throw Error(ErrorKind::input, name, "is not one of those that may move");
     if (!is_rigid(scene_.instances[instance].transform, transform))
         throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
     requested_[instance] = transform;
@@ -150,7 +150,7 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     if (instance >= factors.size())
         throw Error(ErrorKind::input, name, "is not in the scene");
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
+        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
     factors[instance] = factor;
     light_changes();
 }

@@ -205,7 +205,7 @@ private:
     {
         const AccessorData data = accessor_of(index, "SCALAR");
         if (data.component_type != ComponentType::f32)
-            index.fail("refers to times that are no floats");
+            index.fail("refers to times that are not floats");
         std::vector<double> times;
         for (const float time : to_floats(data)) {
             if (!(time >= 0.0f && std::isfinite(time)))
@@ -245,7 +245,7 @@ private:
                 index.fail("is not a unit quaternion at " + name);
             if ((quantity == Quantity::colour || quantity == Quantity::strength) &&
                 glm::any(glm::lessThan(value, glm::dvec4(0.0))))
-                index.fail("shines with a negative amount at " + name);
+                index.fail("emits a negative amount of light at " + name);
         }
     }
 

@@ -66,7 +66,7 @@ public:
             fail(std::string("the file ends before its ") + what);
         const std::optional<double> value = number_of(word);
         if (!value)
-            fail(quoted(std::string(word)) + " is no number, where the " + what + " should stand");
+            fail(quoted(std::string(word)) + " is not a number, but the " + what + " must be");
         return *value;
     }
 
@@ -132,7 +132,7 @@ bool skip_head(Words& words)
         }
         return both_factors;
     }
-    words.fail("the file ends without a line TILT=, it is no IES LM-63 photometry");
+    words.fail("the file ends without a line TILT=, so it is not an IES LM-63 photometric file");
 }
 
 std::vector<double> read_angles(Words& words, int count, const char* what)
