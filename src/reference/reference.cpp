@@ -31,7 +31,7 @@ public:
     }
 
     /// Steps onto a lumel. `at` in the unit square chooses where.
-    Stand start(const Lumel& lumel, const glm::vec2& at) const;
+    PathVertex start(const Lumel& lumel, const glm::vec2& at) const;
 
 private:
     const Lumels& lumels_;
@@ -41,7 +41,7 @@ private:
     std::vector<glm::mat3> normal_transforms_;
 };
 
-Stand LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
+PathVertex LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
 {
     glm::vec3 position = lumel.position;
     glm::vec3 normal = lumel.normal;
@@ -83,8 +83,8 @@ std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& 
         if (lumel.flags & kLumelBuried)
             return glm::vec4(0.0f);
         const PathSamples samples(PathSamples::hash(key, std::uint32_t(i)), sample);
-        const Stand stand = starts.start(lumel, samples.stratified(kStartPair));
-        return glm::vec4(tracer.reflected(stand, samples), 0.0f);
+        const PathVertex vertex = starts.start(lumel, samples.stratified(kStartPair));
+        return glm::vec4(tracer.reflected(vertex, samples), 0.0f);
     };
     const std::vector<glm::vec4> means =
         average(lumels.lumels.size(), options.samples_per_lumel, estimate, progress);
