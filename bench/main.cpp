@@ -23,14 +23,14 @@ int main(int argc, char** argv)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
     app.add_option_function<std::string>(
            "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
-           "light from all around, as lumel bake takes it")
+           "light from all directions, as in lumel bake")
         ->type_name("FILE|R,G,B");
     app.add_option_function<std::string>(
            "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
-           "sun, as lumel bake takes it")
+           "sun, as in lumel bake")
         ->type_name("PLACE");
     app.add_option("--sky-directions", settings.sky_directions,
-                   "that the sky's light is taken from")
+                   "directions from which the light of the sky is gathered")
         ->capture_default_str();
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');
@@ -39,7 +39,7 @@ int main(int argc, char** argv)
                    "samples of the reference made here; 0: none")
         ->capture_default_str();
     app.add_option("--save-reference", settings.save_reference, "EXR to keep that reference in");
-    app.add_option("--shots", settings.shots, "stops at which a solver is judged")
+    app.add_option("--shots", settings.shots, "numbers of shooters at which the error is measured")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
@@ -53,12 +53,13 @@ int main(int argc, char** argv)
         ->check(CLI::IsMember({"area", "centre"}));
     app.add_option("--batch", settings.solver.batch, "shooters per iteration")
         ->capture_default_str();
-    app.add_option("--layers", layers, "of --solver directions: list, peel or stochastic")
+    app.add_option("--layers", layers, "layers of --solver directions: list, peel or stochastic")
         ->check(CLI::IsMember({"list", "peel", "stochastic"}));
-    app.add_option("--lookups", settings.solver.lookups, "with stochastic layers: 1, 3 or 5 wide")
+    app.add_option("--lookups", settings.solver.lookups,
+                   "lookups with stochastic layers: 1, 3 or 5 pixels wide")
         ->capture_default_str();
     app.add_option("--slabs", settings.solver.slabs,
-                   "with stochastic layers: that directions are cut into; 0: as needed")
+                   "slabs of each direction with stochastic layers; 0: as needed")
         ->capture_default_str()
         ->check(CLI::Range(0u, kMostSlabs));
     app.add_option("--leak", settings.solver.leak,
@@ -66,7 +67,7 @@ int main(int argc, char** argv)
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1.0));
     app.add_option("--map-side", settings.solver.map_side,
-                   "of illumination maps [pixels]; 0: as suits the lumels")
+                   "side of illumination maps [pixels]; 0: as suits the lumels")
         ->capture_default_str();
     app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
         ->capture_default_str();
@@ -77,9 +78,9 @@ int main(int argc, char** argv)
            "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
     app.add_option("--near", settings.near_radius,
-                   "near field radius [lumel sizes]; 0: as the solver likes it")
+                   "near field radius [lumel sizes]; 0: as suits the solver")
         ->capture_default_str();
-    app.add_option("--seed", settings.solver.seed, "")->capture_default_str();
+    app.add_option("--seed", settings.solver.seed, "random seed")->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");
     app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();
     CLI11_PARSE(app, argc, argv);

@@ -33,7 +33,7 @@ struct Settings {
     std::vector<int> cuts;    ///< comparing projections instead: pieces of each triangle edge
     SolverOptions solver;
     std::string device;
-    float near_radius = 0.0f;  ///< 0: as the solver likes it
+    float near_radius = 0.0f;  ///< 0: as suits the solver
     double target = 0.02;      ///< relative RMSE that the methods race to
 };
 

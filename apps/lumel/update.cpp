@@ -21,7 +21,7 @@ std::string changes_in(const UpdateRow& row)
     add(row.vanished, "vanished");
     add(row.recoloured, "changed colour");
     if (row.relit)
-        list += list.empty() ? "the light is another" : ", the light is another";
+        list += list.empty() ? "sky or lamps differ" : ", sky or lamps differ";
     return list.empty() ? "nothing has changed" : list;
 }
 

@@ -47,7 +47,7 @@ constexpr std::uint32_t kLampPoints = 16;
 constexpr std::size_t kLumelsPerTask = 16, kLumelsPerStep = 4096;
 
 /// Dimension pairs of a sample's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
+constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
                         kDiscPair = 4, kSeedPair = 5;
 
 /// A cone of directions as a point sees a ball: all of them from within it.
@@ -257,10 +257,10 @@ private:
 
 struct Gatherer::Receiver {
     std::uint32_t lumel;
-    bool whole;                 ///< all light is found
-    std::uint32_t stream;       ///< of random numbers
-    std::uint32_t rays, lamps;  ///< directions, and points on emissive lumels
-    std::vector<float> shares;  ///< [balls] of the directions
+    bool whole;                       ///< all light is found
+    std::uint32_t stream;             ///< of random numbers
+    std::uint32_t directions, lamps;  ///< directions, and points on emissive lumels
+    std::vector<float> shares;        ///< [balls] of the directions
     std::uint64_t* rays;
 };
 
@@ -278,7 +278,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
                       .whole = asked_[i] == Asked::all,
                       .stream = PathSamples::hash(PathSamples::hash(options_.seed, options_.effort),
                                                   2 * i + half),
-                      .rays = std::max(options_.effort * options_.whole / 2, 1u),
+                      .directions = std::max(options_.effort * options_.whole / 2, 1u),
                       .lamps = std::max(options_.effort * options_.lamps / 2, 1u),
                       .shares = std::vector<float>(balls_.size(), 0.0f),
                       .rays = &rays};
@@ -294,7 +294,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
             return glm::vec3(0.0f);
         for (float& share : receiver.shares)
             share /= sum;
-        receiver.rays = options_.effort * points_for(std::min(sum, 1.0f));
+        receiver.directions = options_.effort * points_for(std::min(sum, 1.0f));
     }
     glm::vec3 light = along_ways(receiver) + from_lamps(receiver);
     if (!lamp_points_.empty())
@@ -338,11 +338,11 @@ Met Gatherer::meet(const SeenScene& seen, const Receiver& receiver, const glm::v
 glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
 {
     glm::vec3 sum(0.0f);
-    for (std::uint32_t k = 0; k < receiver.rays; ++k) {
+    for (std::uint32_t k = 0; k < receiver.directions; ++k) {
         const PathSamples samples(receiver.stream, k);
         const LumelPoint x = point_of(receiver, samples);
         const BallDirections directions(balls_, receiver.shares, x.position, x.normal);
-        const glm::vec3 direction = directions.draw(samples.stratified(kWayPair));
+        const glm::vec3 direction = directions.draw(samples.stratified(kDirectionPair));
         const float cosine = glm::dot(direction, x.normal);
         if (!(cosine > 0.0f))
             continue;
@@ -350,7 +350,7 @@ glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
         const std::uint32_t seed = samples.bits(kSeedPair);
         const auto seen_along = [&](const SeenScene& seen, bool is_now) {
             const Met met = meet(seen, receiver, x.position, direction, seed, is_now);
-            const float here = float(receiver.rays) * density;
+            const float here = float(receiver.directions) * density;
             const float there = float(receiver.lamps) * met.lamp_density;
             return met.reflected + met.emitted * (here / (here + there));
         };
@@ -360,7 +360,7 @@ glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
         if (density > 0.0f)
             sum += radiance * (cosine / density);
     }
-    return sum / float(receiver.rays);
+    return sum / float(receiver.directions);
 }
 
 glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
@@ -388,7 +388,7 @@ glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
         const float density = per_area * distance * distance / there;
         const BallDirections directions(balls_, receiver.shares, x.position, x.normal);
         const float mixed = float(receiver.lamps) * density +
-                            float(receiver.rays) * directions.density(direction, cosine);
+                            float(receiver.directions) * directions.density(direction, cosine);
         const std::uint32_t seed = samples.bits(kSeedPair);
         glm::vec3 radiance(0.0f);
         const auto passing = [&](const SeenScene& seen) {
