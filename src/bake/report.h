@@ -1,5 +1,5 @@
 #pragma once
-// What a bake has to say of itself.
+// The report of a bake.
 
 #include "bake/baked_folder.h"
 #include "bake/outputs.h"

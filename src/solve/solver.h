@@ -52,7 +52,7 @@ struct SolverOptions {
     Layers layers = Layers::list;  ///< of illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
     /// With Layers::stochastic: that a direction is cut into, 1 to kMostSlabs; 0: as many as the
-    /// overdraw asks for, see IlluminationMaps.
+    /// overdraw requires, see IlluminationMaps.
     std::uint32_t slabs = 0;
     int map_side = 0;  ///< of an illumination map [pixels], 0: as suits the lumels
     bool sky = true;   ///< of "directions" with Scheme::paper: gathers the world's sky
@@ -129,7 +129,7 @@ std::uint32_t checked_batch(const MethodInfo& method, int batch);
 /// Does the solver find the sky's light itself, so that it is not to be among the emission?
 bool gathers_sky(const SolverOptions& options);
 
-/// The near field that suits the options: finer where a smaller error is asked for.
+/// The near field that suits the options: finer where a smaller error is requested.
 NearFieldOptions near_field_options(const SolverOptions& options);
 
 /// Builds it; empty for methods and schemes without a near field. radius:
