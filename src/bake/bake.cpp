@@ -53,9 +53,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     if (options.directional != Directional::none) {
         stages.begin("directional light");
         if (has_lights(setting.world.scene))
-            log_warning(
-                "the directional layers treat the direct light of sky, sun and lamps as if it "
-                "came along the normal");
+            log_warning("the directional layers say of sky, sun and lamps only how much light they "
+                        "send, as if it came along the normal");
         directional = gather_directional(
             device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),

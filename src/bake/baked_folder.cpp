@@ -83,9 +83,8 @@ BakedFolder read_baked_folder(const std::string& folder)
 void check_whole(const std::string& folder, const BakedFolder& baked)
 {
     if (differs(baked, "only", "all"))
-        refuse(folder,
-               "holds only a part of the light, from which nothing can be derived; bake it again "
-               "without --only");
+        refuse(folder, "holds a part of the light, of which no more can be told; bake it again "
+                       "without --only");
 }
 
 void check_correctable(const std::string& folder, const BakedFolder& baked)

@@ -124,7 +124,7 @@ void add_times(Report& report, const std::string& before, const gpu::StageTimes&
         report.gpu_milliseconds.emplace_back(before + stage, std::vector<double>{ms});
 }
 
-/// The report of every solver, whatever is made of the solution.
+/// What all solvers have to say, whatever is made of the solution.
 Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
               const Solver& solver, const Results& results, const Stages& stages)
 {

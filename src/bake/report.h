@@ -1,5 +1,5 @@
 #pragma once
-// The report of a bake.
+// What a bake has to say of itself.
 
 #include "bake/baked_folder.h"
 #include "bake/outputs.h"

@@ -11,13 +11,13 @@
 
 namespace lumel {
 
-/// Prints the warnings of the scene's reader.
+/// Says what the scene's reader had to say.
 void tell_warnings(const Scene& scene);
 
-/// Prints the warnings of the scene's reader and of the atlas.
+/// Says what the scene's reader and the atlas had to say.
 void tell_user(const Prepared& world);
 
-/// Carries the light of lobes, for a solver with gloss; none for Scheme::paper, whose
+/// Who carries what lobes send on, for a solver that knows gloss; none for Scheme::paper, whose
 /// shooters send it. The world must outlive them.
 std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options);
 

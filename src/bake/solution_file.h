@@ -11,7 +11,7 @@ namespace lumel {
 
 inline constexpr const char* kSolutionFile = "solution.exr";
 
-/// The contents of the file, texel by texel.
+/// What the file says, texel by texel.
 struct StoredSolution {
     int side = 0;                        ///< of the atlas [texels]
     ChartMap charts;                     ///< [side][side]

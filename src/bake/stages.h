@@ -9,15 +9,14 @@
 
 namespace lumel {
 
-/// Follows a bake from stage to stage, and calls the progress function.
+/// Follows a bake from stage to stage, and tells the progress function about it.
 class Stages {
 public:
     explicit Stages(const ProgressFunction& progress);
 
     /// Ends the stage before and begins this one.
     void begin(const std::string& name);
-    /// Reports the progress of the current stage. False: the caller wants to stop, or has wanted
-    /// to.
+    /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
     bool tell(double fraction, std::uint64_t shots = 0, double error = -1.0);
     /// True once the caller has wanted to stop.
     bool stopped() const { return stopped_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Writes bytes to the disk, for every writer.
+// One way to put bytes on the disk, for every writer.
 
 #include <cstddef>
 #include <span>

@@ -52,7 +52,7 @@ SunPosition placed_sun(const LightOptions& options)
     return sun;
 }
 
-/// The sky of the options, or else the scene's own, turned and scaled.
+/// The sky asked for, or else the scene's own, turned and scaled.
 void add_sky(Scene& scene, const LightOptions& options)
 {
     if (!options.sky_file.empty())
@@ -125,7 +125,7 @@ void attach_profile(Scene& scene, const LightProfile& profile)
 std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions& options)
 {
     std::vector<std::pair<std::string, std::string>> settings;
-    const auto add = [&](const char* name, const std::vector<double>& values) {
+    const auto say = [&](const char* name, const std::vector<double>& values) {
         std::string text;
         for (const double value : values) {
             std::array<char, 32> digits{};
@@ -137,17 +137,17 @@ std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions&
     if (!options.sky_file.empty())
         settings.emplace_back("sky", options.sky_file);
     else if (const auto& color = options.sky_color)
-        add("sky", {color->r, color->g, color->b});
+        say("sky", {color->r, color->g, color->b});
     if (options.sky_scale != 1.0f)
-        add("sky-scale", {options.sky_scale});
+        say("sky-scale", {options.sky_scale});
     if (options.sky_rotation != 0.0)
-        add("sky-rotation", {glm::degrees(options.sky_rotation)});
+        say("sky-rotation", {glm::degrees(options.sky_rotation)});
     if (const auto& sun = options.sun)
-        add("sun", {glm::degrees(sun->azimuth), glm::degrees(sun->elevation)});
+        say("sun", {glm::degrees(sun->azimuth), glm::degrees(sun->elevation)});
     if (options.sun_angle)
-        add("sun-angle", {glm::degrees(*options.sun_angle)});
+        say("sun-angle", {glm::degrees(*options.sun_angle)});
     if (options.light_radius > 0.0f)
-        add("light-radius", {options.light_radius});
+        say("light-radius", {options.light_radius});
     for (const LightProfile& profile : options.profiles)
         settings.emplace_back("ies", profile.light + "=" + profile.path);
     return settings;

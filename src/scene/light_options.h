@@ -30,7 +30,7 @@ struct LightOptions {
 /// What the options were given as, for reports: name and value. Those left alone are left out.
 std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions& options);
 
-/// Inverse of settings_of(); settings of other names are skipped. Throws Error{input}.
+/// The options that settings_of said so; settings of other names are skipped. Throws Error{input}.
 LightOptions light_options_of(const std::vector<std::pair<std::string, std::string>>& settings);
 
 /// Adds the lights to a scene, or changes its own, and renews its hash. A sky given here takes the

@@ -40,10 +40,10 @@ public:
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
-    /// Before each batch: reads figures that are due, and lets leaky sums fade.
+    /// Before each batch: hears figures that are due, and lets leaky sums fade.
     void begin_batch(gpu::Pacer& pacer);
-    /// Ends a batch: these numbers of shots went into direct() and into indirect(). Returns true if
-    /// X is new.
+    /// Ends a batch: so many shots went into direct() and into indirect(). Returns true if X is
+    /// new.
     bool finish_batch(gpu::Pacer& pacer, std::uint32_t emission_shots, std::uint32_t source_shots);
     /// E is that of `lumels` from now on. Waits for the device. Throws Error{input} unless the sums
     /// are leaky: others would keep the light of before.
@@ -58,7 +58,7 @@ public:
     /// Shots so far of this half-solution, since the first batch.
     std::uint32_t emission_index() const { return emission_index_[half()]; }
     std::uint32_t source_index() const { return source_index_[half()]; }
-    /// Power of E as a part of all that is sent, 0…1, as last read.
+    /// Power of E as a part of all that is sent, 0…1, as last heard.
     double emission_share() const { return emission_share_; }
 
     const gpu::Array<glm::vec4>& surface() const { return surface_; }    ///< (ρ, A) [N]
@@ -99,7 +99,7 @@ private:
     Figures figures_;
 
     SolverState state_;
-    double mean_irradiance_ = 0.0;  ///< as last read [lx]
+    double mean_irradiance_ = 0.0;  ///< as last heard [lx]
     std::uint32_t phase_ = 0;
     std::uint32_t phase_batch_ = 0;  ///< batches done in this phase
     std::uint32_t phase_length_;     ///< batches in this phase
