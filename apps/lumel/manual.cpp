@@ -33,7 +33,8 @@ std::string spelling(const CLI::Option& option)
         names.push_back("-" + name);
     for (const std::string& name : option.get_lnames())
         names.push_back("--" + name);
-    const std::string type = option.get_type_name();
+    std::string type = option.get_type_name();
+    type.resize(std::min(type.find(':'), type.size()));  // CLI11 adds names of validators
     return CLI::detail::join(names, ", ") + (type.empty() ? "" : " " + type);
 }
 
