@@ -109,10 +109,15 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
                 value = meaning;
     };
     std::vector<std::string> words;
-    for (const auto& choice : choices)
-        words.push_back(choice.first);
+    std::string standard;
+    for (const auto& [choice, meaning] : choices) {
+        words.push_back(choice);
+        if (meaning == value)
+            standard = choice;
+    }
     return app.add_option_function<std::string>(name, assign, help)
         ->type_name(CLI::detail::join(words, "|"))
+        ->default_str(standard)
         ->check([words](const std::string& word) -> std::string {
             if (std::find(words.begin(), words.end(), word) != words.end())
                 return {};
@@ -287,7 +292,7 @@ void add_solver_options(CLI::App& app, SolverOptions& solver)
     app.option_defaults()->group(kMethodGroup);
     add_choice(app, "--sampling", solver.rule, kSampleRules,
                "Receive over the covered area of a lumel (the default) or at its centre");
-    app.add_option("--seed", solver.seed, "Of all random numbers")
+    app.add_option("--seed", solver.seed, "Random seed")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
@@ -562,8 +567,7 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         app, "--redistribution", options.redistribution, kRedistributions,
         "How light follows a move: incremental shoots again past the old and the new position, "
         "as exact as a new solution; cross uses only views from what moves, which is faster "
-        "where that is small")
-        ->default_str("incremental");
+        "where that is small");
     app.add_option(
            "--budget", options.budget_ms,
            "Milliseconds for the light of each frame; where they are not enough it lags behind")
@@ -616,7 +620,7 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kMostPaths));
-    command.add_option("--seed", reference.reference.seed, "Of all random numbers")
+    command.add_option("--seed", reference.reference.seed, "Random seed")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
