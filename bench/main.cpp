@@ -22,14 +22,14 @@ int main(int argc, char** argv)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
     app.add_option_function<std::string>(
            "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
-           "light from all around, as lumel bake takes it")
+           "light from all directions, as in lumel bake")
         ->type_name("FILE|R,G,B");
     app.add_option_function<std::string>(
            "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
-           "sun, as lumel bake takes it")
+           "sun, as in lumel bake")
         ->type_name("PLACE");
     app.add_option("--sky-directions", settings.sky_directions,
-                   "that the sky's light is taken from")
+                   "directions from which the light of the sky is gathered")
         ->capture_default_str();
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');
@@ -38,7 +38,7 @@ int main(int argc, char** argv)
                    "samples of the reference made here; 0: none")
         ->capture_default_str();
     app.add_option("--save-reference", settings.save_reference, "EXR to keep that reference in");
-    app.add_option("--shots", settings.shots, "stops at which a solver is judged")
+    app.add_option("--shots", settings.shots, "numbers of shooters at which the error is measured")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
@@ -53,11 +53,12 @@ int main(int argc, char** argv)
                option.info->help)
             ->type_name(option.info->type);
     }
-    app.add_option("--projections", settings.cuts,
-                   "compares both projections instead, edges of triangles cut into so many")
+    app.add_option(
+           "--projections", settings.cuts,
+           "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
     app.add_option("--near", settings.near_radius,
-                   "near field radius [lumel sizes]; 0: as the solver likes it")
+                   "near field radius [lumel sizes]; 0: as suits the solver")
         ->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");
     app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();

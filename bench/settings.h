@@ -1,5 +1,5 @@
 #pragma once
-// What a run of the benchmark is asked for, and the scene it makes of it.
+// The settings of a run of the benchmark, and the scene that they make.
 
 #include <cstdint>
 #include <string>
@@ -33,7 +33,7 @@ struct Settings {
     std::vector<int> cuts;    ///< comparing projections instead: pieces of each triangle edge
     GivenMethod given;        ///< the method and its options
     std::string device;
-    float near_radius = 0.0f;  ///< 0: as the solver likes it
+    float near_radius = 0.0f;  ///< 0: as suits the solver
     double target = 0.02;      ///< relative RMSE that the methods race to
 };
 

@@ -26,8 +26,8 @@ namespace {
 /// Places looked at within a pixel.
 constexpr std::uint32_t kSets = 4;
 
-/// A way to find what lobes reflect to the eye, and what it came to.
-struct Way {
+/// A technique that finds what lobes reflect to the eye, and its result.
+struct Technique {
     const char* name;
     std::uint64_t shots;
     std::uint32_t rays;
@@ -96,44 +96,45 @@ std::vector<double> pixels_of(const Sight& sight, const std::vector<glm::vec3>& 
 }
 
 /// One picture, made as lumel render does.
-void take(Way& way, const Sight& sight, GlossyIllumination& solver, const LitScene& lit,
+void take(Technique& technique, const Sight& sight, GlossyIllumination& solver, const LitScene& lit,
           std::uint32_t seed)
 {
     Stopwatch watch;
     watch.start();
-    const EyeSampling sampling{sight.seen.first, way.shots, way.rays};
+    const EyeSampling sampling{sight.seen.first, technique.shots, technique.rays};
     const std::vector<float> brightness = solver.brightness();
     std::vector<glm::vec3> radiance(sight.seen.glossy.size());
-    if (way.shots > 0) {
+    if (technique.shots > 0) {
         solver.look_at(sight.seen.glossy, brightness, sampling);
-        const std::uint64_t end = solver.state().shots + way.shots;
+        const std::uint64_t end = solver.state().shots + technique.shots;
         while (solver.state().shots < end)
             solver.step();
         radiance = solver.eye_radiance();
     }
-    const LobeRayOptions lobes{
-        .rays = way.rays, .shooters = way.shots > 0 ? sampling.shooters() : 0.0f, .seed = seed};
+    const LobeRayOptions lobes{.rays = technique.rays,
+                               .shooters = technique.shots > 0 ? sampling.shooters() : 0.0f,
+                               .seed = seed};
     const PowerDraw senders(sight.standing, sight.world.lumels, brightness);
     const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, sight.world.rays,
                                                             sight.surfaces, lit, senders, lobes);
     for (std::size_t g = 0; g < radiance.size(); ++g)
         radiance[g] += along[g];
     watch.stop();
-    way.cpu += watch.cpu;
-    way.spread.add(pixels_of(sight, radiance));
+    technique.cpu += watch.cpu;
+    technique.spread.add(pixels_of(sight, radiance));
 }
 
-void print_ways(const std::vector<Way>& ways, const Sight& sight, int seeds)
+void print_techniques(const std::vector<Technique>& techniques, const Sight& sight, int seeds)
 {
     fmt::print("Multiple importance sampling: {} × {} pixels, {} seeds\n\n"
-               "| way | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
+               "| method | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
                "|---|---|---|---|---|---|---|\n",
                sight.seen.width, sight.seen.height, seeds);
-    for (const Way& way : ways) {
-        const double cpu = way.cpu / seeds;
-        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", way.name, way.shots,
-                   way.rays, way.spread.mean(), way.spread.variance(), cpu,
-                   way.spread.variance() * cpu);
+    for (const Technique& technique : techniques) {
+        const double cpu = technique.cpu / seeds;
+        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", technique.name,
+                   technique.shots, technique.rays, technique.spread.mean(),
+                   technique.spread.variance(), cpu, technique.spread.variance() * cpu);
     }
     std::fflush(stdout);
 }
@@ -144,9 +145,9 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
     const Sight sight(settings, device);
     const auto shots = std::uint64_t(settings.eye_shots);
     const auto rays = std::uint32_t(settings.rays);
-    std::vector<Way> ways = {{.name = "shooters alone", .shots = shots, .rays = 0},
-                             {.name = "rays alone", .shots = 0, .rays = rays},
-                             {.name = "both, weighed", .shots = shots, .rays = rays}};
+    std::vector<Technique> techniques = {{.name = "shooters alone", .shots = shots, .rays = 0},
+                                         {.name = "rays alone", .shots = 0, .rays = rays},
+                                         {.name = "both, weighted", .shots = shots, .rays = rays}};
     for (int i = 0; i < settings.seeds; ++i) {
         SolverOptions options = sight.options;
         auto& gloss = std::get<GlossyOptions>(options.method);
@@ -164,13 +165,13 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
             finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
         const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
         if (i == 0) {  // the driver compiles shaders when they first run
-            Way warm = ways.back();
+            Technique warm = techniques.back();
             take(warm, sight, solver, lit, gloss.seed);
         }
-        for (Way& way : ways)
-            take(way, sight, way.rays > 0 ? solver : alone, lit, gloss.seed);
+        for (Technique& technique : techniques)
+            take(technique, sight, technique.rays > 0 ? solver : alone, lit, gloss.seed);
     }
-    print_ways(ways, sight, settings.seeds);
+    print_techniques(techniques, sight, settings.seeds);
 }
 
 /// Light at every lumel after some iterations of the papers' scheme, between seeds.

@@ -43,7 +43,8 @@ bool is_glossy(const SolverOptions& options)
     return method_of(options.method).materials == MaterialModel::glossy;
 }
 
-/// The glossy scene from its camera, by so many iterations before the eye looks and as many after.
+/// The glossy scene from its camera, by a number of iterations before the eye looks and as many
+/// after.
 Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options, int iterations)
 {
     options.max_shots = std::uint64_t(iterations) * std::uint64_t(batch_of(options.method));

@@ -13,7 +13,7 @@ struct IterationCost {
     gpu::Recorded recorded;  ///< of an iteration in which no error is estimated
 };
 
-/// Of the fastest of a few stretches of so many iterations.
+/// Of the fastest of a few stretches of this number of iterations.
 IterationCost cost_of_iteration(const gpu::Device& device, Solver& solver, int iterations);
 
 /// Sum of the stages named [ms].

@@ -14,7 +14,7 @@
 namespace lumel::bench {
 namespace {
 
-/// Edges are cut into so many pieces at most.
+/// Edges are cut into this number of pieces at most.
 constexpr int kMostPieces = 256;
 
 /// The scene without what is in the room: its blocks stay only as lumels.
@@ -35,14 +35,14 @@ std::size_t drawn_vertices(const Scene& scene)
     return std::size_t(std::unique(indices.begin(), indices.end()) - indices.begin());
 }
 
-/// Vertices of a triangle whose edges are cut into so many pieces.
+/// Vertices of a triangle whose edges are cut into a number of pieces.
 double grid_points(int pieces)
 {
     return 0.5 * (pieces + 1.0) * (pieces + 2.0);
 }
 
-/// The scene drawn with about so many vertices. Triangles share none once they are cut; where
-/// there are too many even so, the blocks go.
+/// The scene drawn with about a given number of vertices. Triangles share none once they are cut;
+/// where there are too many even so, the blocks go.
 Scene drawn_with(const Scene& scene, int vertices)
 {
     const bool whole = std::size_t(vertices) >= drawn_vertices(scene);

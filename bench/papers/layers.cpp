@@ -43,7 +43,7 @@ constexpr Variant kVariants[] = {{"stochastic, 1 × 1", Layers::stochastic, 1},
                                  {"list", Layers::list, 1},
                                  {"peel", Layers::peel, 1}};
 
-/// One plane, as often as asked for, behind one another.
+/// Copies of one plane, behind one another.
 Scene stack_of(int planes)
 {
     Scene scene;
@@ -149,7 +149,7 @@ struct Chances {
     std::vector<double> found;  ///< for each reach, the share of the planes
 };
 
-/// In maps of so many planes.
+/// In maps of a number of planes.
 Chances measure_chances(const LayersSettings& settings, const gpu::Device& device, int planes,
                         int slabs)
 {

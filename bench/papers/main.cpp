@@ -99,7 +99,7 @@ void add_convergence(CLI::App& app, ConvergenceSettings& settings)
     figure->add_option("--save-reference", settings.shared.save_reference,
                        "EXR to keep that reference in");
     figure->add_option("-o,--out", settings.folder, "folder for maps and pictures");
-    add_number(figure, "--width", settings.width, "of a picture [pixels]");
+    add_number(figure, "--width", settings.width, "width of a picture [pixels]");
     figure->callback([&settings] { follow_convergence(settings); });
 }
 
@@ -141,7 +141,8 @@ void add_leak(CLI::App& app, LeakSettings& settings)
     figure->add_option("--leak", settings.leak, "part of the solution that a direction replaces")
         ->check(CLI::Range(1e-6, 0.5))
         ->capture_default_str();
-    add_list(figure, "--directions", settings.directions, "at which the error is taken");
+    add_list(figure, "--directions", settings.directions,
+             "numbers of directions at which the error is taken");
     figure->callback([&settings] { follow_light(settings); });
 }
 
@@ -159,13 +160,13 @@ void add_directions(CLI::App& app, DirectionsSettings& settings)
     add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
     figure->add_option("--sky", settings.sky, "file; else a clear sky");
     figure->add_option("-o,--out", settings.folder, "folder for the picture");
-    add_number(figure, "--width", settings.width, "of each scene's picture [pixels]");
+    add_number(figure, "--width", settings.width, "width of each scene's picture [pixels]");
     figure->callback([&settings] { show_directions(settings); });
 }
 
 void add_residual(CLI::App* figure, double& residual)
 {
-    figure->add_option("--residual", residual, "light still to be shot, of all, to rest at")
+    figure->add_option("--residual", residual, "light still to be shot, as a part of all, at rest")
         ->check(CLI::Range(1e-6, 1.0))
         ->capture_default_str();
 }
@@ -188,7 +189,9 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings)
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
                "paths per lumel for the truth; 0: none", 0);
     figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");
-    figure->add_option("--pieces", settings.pieces, "that edges are cut into, for more vertices")
+    figure
+        ->add_option("--pieces", settings.pieces,
+                     "pieces that edges are cut into, for more vertices")
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -215,7 +218,7 @@ void add_matrix(CLI::App& app, MatrixSettings& settings)
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
     add_list(figure, "--patches", settings.patches, "of the simplified scene, at most");
     add_number(figure, "--lights", settings.lights, "states of light that errors are taken of");
-    figure->add_option("--shares", settings.shares, "of a row that are kept exactly [%]")
+    figure->add_option("--shares", settings.shares, "shares of a row that are kept exactly [%]")
         ->delimiter(',')
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();

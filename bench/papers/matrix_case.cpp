@@ -11,7 +11,7 @@
 namespace lumel::bench {
 namespace {
 
-constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, says nothing
+constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, is of no use
 constexpr int kMostTries = 100;     // places for each light
 constexpr float kMargin = 0.05f;    // of the scene's box: no light within this of its sides
 constexpr std::size_t kLumelsPerTask = 256;

@@ -1,5 +1,5 @@
 // [BJ04] section 3.1: "This selection algorithm took almost 10 times longer than all other elements
-// of rendering", said of reading the radiosity back and searching it on the processor; and what
+// of rendering", stated of reading the radiosity back and searching it on the processor; and what
 // replaced it, a search in sums on the device.
 
 #include <algorithm>

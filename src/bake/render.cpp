@@ -54,7 +54,7 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
                         std::to_string(most) + " that fit this device with that many --places");
 }
 
-/// The view asked for, as wide as the picture.
+/// The requested view, as wide as the picture.
 View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
 {
     check_camera(scene, options.camera);

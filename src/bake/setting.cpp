@@ -11,7 +11,7 @@
 namespace lumel {
 namespace {
 
-/// How far a solve is on the way to whichever limit is nearest, 0…1.
+/// The progress of a solve toward the limit that is nearest, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
 {
     double fraction = 0.0;

@@ -111,7 +111,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       world_(device, scene_, lumels_, &atlas_, movers_),
       lamps_(scene_, options.lights),
       solver_(device, world_, lumels_, near_, options.solver),
-      asked_(scene_.instances.size()),
+      requested_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       direct_(device, lumels_.lumels.size()),
@@ -137,10 +137,10 @@ void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not among those that may move");
+        throw Error(ErrorKind::input, name, "is not one of those that may move");
     if (!is_rigid(scene_.instances[instance].transform, transform))
         throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
-    asked_[instance] = transform;
+    requested_[instance] = transform;
 }
 
 void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
@@ -150,7 +150,7 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     if (instance >= factors.size())
         throw Error(ErrorKind::input, name, "is not in the scene");
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
+        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
     factors[instance] = factor;
     light_changes();
 }
@@ -192,7 +192,7 @@ void LiveScene::upload_surfaces()
             glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
     }
     solver_.pacer().finish();
-    // What surfaces reflect of direct light joins their emission: the solver knows of no lamps.
+    // Reflected direct light joins the emission of surfaces: the solver handles no lamps.
     if (const std::vector<glm::vec3> direct = lamps_.irradiance(); !direct.empty()) {
         for (std::size_t i = 0; i < direct.size(); ++i)
             lumels.lumels[i].emission += lumels.lumels[i].albedo * direct[i];
@@ -213,9 +213,9 @@ void LiveScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
     set_factor(reflectance_factor_, instance, factor);
 }
 
-bool LiveScene::is_move_asked() const
+bool LiveScene::is_move_requested() const
 {
-    return std::any_of(asked_.begin(), asked_.end(), [](auto& asked) { return bool(asked); });
+    return std::any_of(requested_.begin(), requested_.end(), [](auto& move) { return bool(move); });
 }
 
 bool LiveScene::is_under_way() const
@@ -225,24 +225,24 @@ bool LiveScene::is_under_way() const
 
 bool LiveScene::is_at_rest() const
 {
-    return !is_under_way() && !is_move_asked() && state_.residual <= options_.residual &&
+    return !is_under_way() && !is_move_requested() && state_.residual <= options_.residual &&
            (!cross_ || crossed_);
 }
 
 void LiveScene::begin_move()
 {
     move_ = {};
-    for (std::uint32_t i = 0; i < asked_.size(); ++i) {
+    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
         Instance& instance = scene_.instances[i];
-        const bool moves = asked_[i] && *asked_[i] != instance.transform;
+        const bool moves = requested_[i] && *requested_[i] != instance.transform;
         move_.moved.push_back(moves ? 1 : 0);
         if (moves) {
             move_.boxes.push_back(box_of(scene_, i, instance.transform));
-            instance.transform = *asked_[i];
+            instance.transform = *requested_[i];
             move_.boxes.push_back(box_of(scene_, i, instance.transform));
         }
         move_.transforms.push_back(instance.transform);
-        asked_[i].reset();
+        requested_[i].reset();
     }
     if (!cross_) {
         if (!move_.boxes.empty())
@@ -295,7 +295,8 @@ void LiveScene::work()
     if (is_under_way()) {
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
-    } else if (is_move_asked() || (cross_ && !crossed_ && state_.residual <= options_.residual)) {
+    } else if (is_move_requested() ||
+               (cross_ && !crossed_ && state_.residual <= options_.residual)) {
         begin_move();
     } else {
         shoot();

@@ -21,7 +21,7 @@
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
 //   in every batch, to read back one word: whether the last layer showed any lumel something new.
 // - Regions are slabs along d, whose surfaces compete only among themselves (illumination_maps.h).
-//   As many as the measured overdraw asks for (slabs.cpp).
+//   As many as the measured overdraw requires (slabs.cpp).
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 

@@ -16,12 +16,12 @@ namespace lumel {
 /// All lumels look along one direction at a time.
 class GlobalDirections final : public Solver {
 public:
-    /// `world` must know the atlas. Throws Error{device} if the device cannot keep the layers.
+    /// `world` must hold the atlas. Throws Error{device} if the device cannot keep the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const DirectionsOptions& options, std::span<const glm::vec3> known = {});
 
     void step() override;
-    /// From now on lumels emit what `lumels` says, and the sky is as it is now. For options with a
+    /// From now on lumels emit as in `lumels`, and the sky is as it is now. For options with a
     /// leak. Waits for the device. Throws Error{input} without one.
     void relight(const Lumels& lumels);
     SolverState state() const override { return iteration_.state(); }

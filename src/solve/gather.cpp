@@ -20,8 +20,9 @@
 //   sends ρ|ΔH| on, and no more than that can arrive.
 // - A hemicube sees from a point, while a lumel's value is its mean over the area. Once light has
 //   settled at the lumels' middles, points move from bounce to bounce and H_i is the mean of what
-//   arrived; two half-solutions of independent points tell its error. With SampleRule::centre or
-//   Scheme::paper points stay, and the error told is only of light still to come.
+//   arrived; the difference of two half-solutions of independent points gives its error. With
+//   SampleRule::centre or Scheme::paper points stay, and the stated error is only of light still to
+//   come.
 // - Delta form factors are exact, of the part of a pixel that each of its samples stands for. The
 //   samples are not resolved to pixels first.
 // - Pixels behind the geometric surface are black, where it leans away from the shading normal.
@@ -62,7 +63,8 @@ constexpr float kLift = 2e-6f;
 constexpr float kNearPart = 1e-3f;
 /// Pixels of all hemicubes of a batch, which bounds their memory to 320 MiB.
 constexpr std::uint64_t kMostPixels = 4u << 20;
-/// Light counts as settled once so much of it is still to come, or a quarter of the target error.
+/// Light counts as settled once only this part of it is still to come, or a quarter of the target
+/// error.
 constexpr double kSettled = 1e-3, kSettledPart = 0.25;
 
 float lift_of(const World& world)

@@ -16,7 +16,7 @@ namespace lumel {
 /// Every lumel in turn takes what it sees.
 class GatherRadiosity final : public Solver {
 public:
-    /// `world` must know the atlas. Hemicubes count as shots.
+    /// `world` must hold the atlas. Hemicubes count as shots.
     GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                     const GatherOptions& options, double target_error);
 

@@ -21,9 +21,9 @@
 // receivers and shooters instead of standing at their centres, and a first part that is not
 // averaged.
 //
-// Differs from the paper else:
+// Other differences from the paper:
 // - K shooters per iteration.
-// - Given LobeParticles, these carry what lobes send on, and shooters send E + ρ_d I alone. Without
+// - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone. Without
 //   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
 //   wide, K but at most 64 where they are narrow.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.

@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// Slabs that are ever tried: so many have 15 maps for a direction.
+/// Most slabs that are tried: they have 15 maps for a direction.
 inline constexpr std::uint32_t kMostTriedSlabs = 8;
 
 /// C_n(K), [TN11] section 6: the chance that a surface is among n lookups where K compete.

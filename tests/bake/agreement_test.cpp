@@ -84,7 +84,7 @@ TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
     EXPECT_LE(std::abs(error.bias), 0.005);
 }
 
-/// What the matrix says of its error is of direct light: reflected light is as fine as its patches.
+/// The matrix states the error of direct light only: reflected light is as fine as its patches.
 class SolversToAnyError : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
@@ -199,7 +199,7 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
 {
     for (const MethodInfo& method : methods()) {
-        if (!method.option("projection"))  // knows no other
+        if (!method.option("projection"))  // has no other
             continue;
         const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
                              AtlasOptions{.size = 64});

@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Light of the frame before is still on its way in the first of a frame's iterations: it leaves 2
+/// Light of the previous frame is still present in the first of a frame's iterations: it leaves 2
 /// % after 64 iterations, 0.7 % after these.
 constexpr int kFrameSteps = 128;
 

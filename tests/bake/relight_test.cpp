@@ -207,7 +207,7 @@ struct File {
     {
         std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
     }
-    /// What reading says, empty if it reads it.
+    /// The message of reading, empty if it succeeds.
     std::string complaint() const
     {
         try {

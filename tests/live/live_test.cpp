@@ -33,10 +33,11 @@ LiveOptions options_for(const Scene& scene, Redistribution redistribution)
 }
 
 /// The box's place, shifted toward a wall and turned about its own axis [rad].
-glm::mat4 shifted(const Scene& scene, float way, float angle)
+glm::mat4 shifted(const Scene& scene, float distance, float angle)
 {
     const glm::vec3 axis(1.0f, 0.0f, 1.0f);
-    const glm::mat4 shift = glm::translate(glm::mat4(1.0f), axis + glm::vec3(-way, 0.0f, 0.0f));
+    const glm::mat4 shift =
+        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
     return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
            scene.instances[find_instance(scene, "box")].transform;
 }

@@ -25,7 +25,7 @@ struct Furnace {
         atlas = support::lay_out(made, quads);
     }
 
-    /// Lets the walls emit so much.
+    /// Lets the walls emit this much.
     void shine(float emission)
     {
         for (Lumel& lumel : made.lumels.lumels)
