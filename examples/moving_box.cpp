@@ -1,12 +1,12 @@
 // A host that keeps a scene lit while a box in it turns.
 //
-//     moving_box [SCENE]
+//     moving_box [SCENE [FRAMES]]
 //
-// By default scenes/moving-large-lamp.gltf, whose instance "box" turns.
+// By default 12 frames of scenes/moving-large-lamp.gltf, whose instance "box" turns.
 
 #include <cmath>
 #include <cstdio>
-#include <exception>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
@@ -29,9 +29,8 @@ lumel::Mat4 turned(const lumel::Mat4& transform, const lumel::Vec3& about, float
     return result;
 }
 
-void play(const std::string& path)
+void play(const std::string& path, int frames)
 {
-    constexpr int kFrames = 12;
     constexpr float kStep = 0.1f;      // [rad] a frame
     constexpr double kBudget = 100.0;  // [ms] a call
     const lumel::Device device;        // or one of the host's own: lumel/vulkan.h
@@ -45,7 +44,7 @@ void play(const std::string& path)
     lumel::LiveScene live(device, scene, settings);
     live.update(std::numeric_limits<double>::infinity());  // the first solution takes longest
     const lumel::Mat4 start = scene.instances()[box].transform;
-    for (int frame = 1; frame <= kFrames; ++frame) {
+    for (int frame = 1; frame <= frames; ++frame) {
         live.move(box, turned(start, {1.0f, 0.0f, 1.0f}, kStep * float(frame)));
         lumel::LiveState state = live.update(kBudget);
         int calls = 1;
@@ -61,7 +60,8 @@ void play(const std::string& path)
 
 int main(int count, char** words)
 try {
-    play(count > 1 ? words[1] : "scenes/moving-large-lamp.gltf");
+    play(count > 1 ? words[1] : "scenes/moving-large-lamp.gltf",
+         count > 2 ? std::atoi(words[2]) : 12);
     return 0;
 } catch (const lumel::Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
