@@ -17,8 +17,13 @@ set_target_properties(lumel_library PROPERTIES
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib
     LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/lumel.map)
 # Only the interface is seen from outside: no room, and no library that is linked in.
-target_link_options(lumel_library PRIVATE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/lumel.map
-                                          LINKER:--no-undefined)
+target_link_options(lumel_library PRIVATE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/lumel.map)
+if(LUMEL_SANITIZE)
+    # The sanitizer's library is the program's.
+    target_link_options(lumel_library INTERFACE -fsanitize=${LUMEL_SANITIZE})
+else()
+    target_link_options(lumel_library PRIVATE LINKER:--no-undefined)
+endif()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/lumel)
 install(TARGETS lumel_library EXPORT lumelTargets

@@ -157,11 +157,11 @@ struct Material {
 
 /// Triangles of one material. Fronts are counter-clockwise.
 struct Primitive {
-    std::vector<Vec3> positions;         ///< [V]
-    std::vector<Vec3> normals;           ///< [V], or empty: flat
-    std::vector<Vec2> texcoords;         ///< [V], or empty
-    std::vector<Vec2> lightmap;          ///< [V] a lightmap layout of your own in 0…1, or empty
-    std::vector<Vec4> colors;            ///< [V] linear, multiply the base colour; or empty
+    std::vector<Vec3> positions;  ///< [V]
+    std::vector<Vec3> normals;    ///< [V], or empty: flat
+    std::vector<Vec2> texcoords;  ///< [V], or empty
+    std::vector<Vec2> lightmap;   ///< [V] a layout of your own in 0…1, used unless it overlaps
+    std::vector<Vec4> colors;     ///< [V] linear, multiply the base colour; or empty
     std::vector<std::uint32_t> indices;  ///< [3T]
     std::uint32_t material = 0;          ///< index into SceneContent::materials
 };
