@@ -20,12 +20,10 @@
 #define LUMEL_LUMEL_H
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -210,18 +208,19 @@ struct SceneContent {
     Sky sky;
 };
 
-/// Sky and sun that Scene::add_daylight adds.
+/// Sky and sun that Scene::add_daylight adds. The sky is of the file, else of the luminance, else,
+/// with a sun, that of a clear day, else the scene's own.
 struct Daylight {
-    std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or
-    std::optional<Vec3> sky_luminance;  ///< the same from everywhere [cd/m²]; or, with a sun,
-                                        ///< that of a clear day
+    std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or empty
+    std::optional<Vec3> sky_luminance;  ///< the same from everywhere [cd/m²]
+    /// As bright as on a clear day.
     struct Sun {
-        double azimuth = 0.0;  ///< clockwise from north (-z) as seen from above: east (+x) is π/2
+        double azimuth = 0.0;    ///< clockwise from north (-z), seen from above: east (+x) is π/2
         double elevation = 0.0;  ///< above the horizon, up to π/2
     };
-    std::optional<Sun> sun;  ///< as bright as on a clear day
+    std::optional<Sun> sun;
     float sky_scale = 1.0f;  ///< factor to the sky, not to the sun
-    double rotation = 0.0;   ///< of both about +y, counter-clockwise from above
+    double rotation = 0.0;   ///< of sky and sun about +y, counter-clockwise seen from above
 };
 
 /// What is read of a file's materials.
@@ -237,8 +236,8 @@ public:
     /// Throws Error{input} with the file, the place in it and the reason.
     static Scene load(const std::string& path, Materials materials = Materials::diffuse);
     /// Takes a copy. Triangles without area are dropped, normals made unit.
-    /// Throws Error{input}, e.g. "meshes[2].primitives[0]: index 17 …", for indices out of range,
-    /// arrays of different lengths, what is not finite, and transforms that flatten.
+    /// Throws Error{input}, e.g. "meshes[2].primitives[0]: indices[3] is 24, …", for indices out of
+    /// range, arrays of different lengths, what is not finite, and transforms that flatten.
     explicit Scene(const SceneContent& content);
     ~Scene();
     Scene(Scene&&) noexcept;
