@@ -12,6 +12,7 @@
 #include "bake/sources.h"
 #include "core/log.h"
 #include "finish/finish.h"
+#include "solve/methods.h"
 
 namespace lumel::v0 {
 namespace {
