@@ -52,11 +52,11 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
-        if (has_lights(setting.world.scene))
+        if (has_lights(setting.prepared.scene))
             log_warning("the directional layers say of sky, sun and lamps only how much light they "
                         "send, as if it came along the normal");
         directional = gather_directional(
-            device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
+            device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
@@ -76,7 +76,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     output.outdate(kMatrixFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
-    return write_bake(output, options, setting.world, device, *solution->solver,
+    return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }
 

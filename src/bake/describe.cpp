@@ -55,22 +55,22 @@ std::uint64_t solver_memory(std::uint64_t lumels, const BakeOptions& options)
            directional_memory(lumels, options);
 }
 
-std::uint64_t world_memory(const Prepared& world, const Occluders& occluders)
+std::uint64_t world_memory(const Prepared& prepared, const Occluders& occluders)
 {
-    return world.lumels.lumels.size() * 2 * sizeof(Lumel) +
-           world.lumels.pieces.size() * 2 * sizeof(Piece) +
+    return prepared.lumels.lumels.size() * 2 * sizeof(Lumel) +
+           prepared.lumels.pieces.size() * 2 * sizeof(Piece) +
            occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t)) +
            occluders.indices.size() * sizeof(std::uint32_t);
 }
 
 /// Direct light is found before the solver is made.
-std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
+std::uint64_t graphics_memory(const Prepared& prepared, const Occluders& occluders,
                               const BakeOptions& options)
 {
-    const float diagonal = glm::length(world.rays.high() - world.rays.low());
-    return world_memory(world, occluders) +
-           std::max(direct_light_bytes(world.scene, world.lumels, diagonal),
-                    solver_memory(world.lumels.lumels.size(), options));
+    const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
+    return world_memory(prepared, occluders) +
+           std::max(direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+                    solver_memory(prepared.lumels.lumels.size(), options));
 }
 
 std::size_t triangle_count(const Scene& scene)
@@ -82,17 +82,17 @@ std::size_t triangle_count(const Scene& scene)
     return count;
 }
 
-ordered_json facts(const Prepared& world, const BakeOptions& options)
+ordered_json facts(const Prepared& prepared, const BakeOptions& options)
 {
-    const Scene& scene = world.scene;
+    const Scene& scene = prepared.scene;
     const Occluders occluders = find_occluders(scene);
     std::size_t emissive = 0, authored = 0, buried = 0, back = 0;
     for (const Material& material : scene.materials)
         emissive += material.emitted != glm::vec3(0.0f);
-    for (const Surface& surface : world.atlas.surfaces)
+    for (const Surface& surface : prepared.atlas.surfaces)
         authored += surface.authored;
     double area = 0.0;
-    for (const Lumel& lumel : world.lumels.lumels) {
+    for (const Lumel& lumel : prepared.lumels.lumels) {
         buried += (lumel.flags & kLumelBuried) != 0;
         back += (lumel.flags & kLumelBack) != 0;
         area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
@@ -113,19 +113,19 @@ ordered_json facts(const Prepared& world, const BakeOptions& options)
     json["sky_irradiance_lx"] = {sky.r, sky.g, sky.b};
     json["cameras"] = scene.cameras.size();
     json["surface_area_m2"] = area;
-    json["surfaces"] = world.atlas.surfaces.size();
+    json["surfaces"] = prepared.atlas.surfaces.size();
     json["surfaces_with_own_lightmap_uv"] = authored;
-    json["charts"] = world.atlas.chart_count;
-    json["atlas_width"] = world.atlas.width;
-    json["atlas_height"] = world.atlas.height;
-    json["texels_per_metre"] = world.atlas.texels_per_metre;
-    json["lumels"] = world.lumels.lumels.size();
+    json["charts"] = prepared.atlas.chart_count;
+    json["atlas_width"] = prepared.atlas.width;
+    json["atlas_height"] = prepared.atlas.height;
+    json["texels_per_metre"] = prepared.atlas.texels_per_metre;
+    json["lumels"] = prepared.lumels.lumels.size();
     json["back_lumels"] = back;
     json["buried_lumels"] = buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    json["graphics_memory_bytes"] = graphics_memory(world, occluders, options);
+    json["graphics_memory_bytes"] = graphics_memory(prepared, occluders, options);
     json["warnings"] = scene.warnings;
-    json["notes"] = world.atlas.notes;
+    json["notes"] = prepared.atlas.notes;
     return json;
 }
 
@@ -176,9 +176,9 @@ std::string text_of(const ordered_json& json)
 
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
 {
-    const Prepared world(read_scene(scene_path, MaterialModel::diffuse, options.lights),
-                         options.atlas);
-    const ordered_json all = facts(world, options);
+    const Prepared prepared(read_scene(scene_path, MaterialModel::diffuse, options.lights),
+                            options.atlas);
+    const ordered_json all = facts(prepared, options);
     return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
 }
 

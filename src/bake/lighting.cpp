@@ -19,8 +19,8 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
 {
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
-    const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
-    solution->solver = make_solver(device, setting.resident, lumels, setting.near, options, known,
+    const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
+    solution->solver = make_solver(device, setting.world, lumels, setting.near, options, known,
                                    setting.carriers());
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
@@ -32,7 +32,7 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
                                       const BakeOptions& options,
                                       const std::vector<glm::vec3>& direct, Stages& stages)
 {
-    const Lumels& lumels = setting.world.lumels;
+    const Lumels& lumels = setting.prepared.lumels;
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), direct, stages);
@@ -61,10 +61,10 @@ DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages)
 {
-    if (!has_lights(setting.world.scene))
+    if (!has_lights(setting.prepared.scene))
         return {};
     stages.begin("sky and lamps");
-    return direct_light(device, setting.resident, setting.world.scene, setting.world.lumels,
+    return direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
                         direct_light_options(options.solver, options.sky_directions),
                         [&](double fraction) { return stages.tell(fraction); });
 }

@@ -101,13 +101,14 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
-    const WorldLumels standing(setting.world.scene, setting.world.rays, setting.world.lumels);
-    const PowerDraw senders(standing, setting.world.lumels, brightness);
+    const WorldLumels standing(setting.prepared.scene, setting.prepared.rays,
+                               setting.prepared.lumels);
+    const PowerDraw senders(standing, setting.prepared.lumels, brightness);
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = options.bake.solver.seed};
     const std::vector<glm::vec3> along =
-        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, senders, lobes,
+        gather_along_lobes(seen.glossy, setting.prepared.rays, surfaces, lit, senders, lobes,
                            [&](double fraction) { return stages.tell(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
         reflected[g] += along[g];
@@ -164,14 +165,14 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
 {
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
-    const Prepared& world = setting.world;
-    const View view = view_for(world.scene, world.rays, options);
+    const Prepared& prepared = setting.prepared;
+    const View view = view_for(prepared.scene, prepared.rays, options);
     check_size(device, options);
     DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
-    const std::optional<Lumels> lumels = shining(world.lumels, lamps.irradiance);
+    const std::optional<Lumels> lumels = shining(prepared.lumels, lamps.irradiance);
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
-    GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
+    GlossyIllumination solver(device, setting.world, lumels ? *lumels : prepared.lumels,
                               setting.near, options.bake.solver, lamps.irradiance, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
@@ -179,12 +180,13 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, lamps.irradiance);
-    const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
-    const Surfaces surfaces(world.scene);
-    const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
+    const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
+    const Surfaces surfaces(prepared.scene);
+    const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);
     stages.begin("looking");
-    const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces,
-                           world.scene.sky, [&](double fraction) { return stages.tell(fraction); });
+    const Seen seen =
+        look(view, options.width, options.height, options.sets, prepared.rays, surfaces,
+             prepared.scene.sky, [&](double fraction) { return stages.tell(fraction); });
     Image image =
         compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
@@ -196,7 +198,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
                           .lamps = std::move(lamps)};
-    return {std::move(image), picture_report(options, world, device, solver, results, stages)};
+    return {std::move(image), picture_report(options, prepared, device, solver, results, stages)};
 }
 
 Made make(Scene scene, RenderOptions options, Stages& stages)

@@ -77,9 +77,9 @@ Report common(const Scene& scene, const Atlas& atlas, const Lumels& lumels, cons
     return report;
 }
 
-Report common(const Prepared& world, const Stages& stages)
+Report common(const Prepared& prepared, const Stages& stages)
 {
-    return common(world.scene, world.atlas, world.lumels, stages);
+    return common(prepared.scene, prepared.atlas, prepared.lumels, stages);
 }
 
 void add_device(Report& report, const gpu::Device& device)
@@ -125,10 +125,10 @@ void add_times(Report& report, const std::string& before, const gpu::StageTimes&
 }
 
 /// What all solvers have to say, whatever is made of the solution.
-Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+Report solved(const BakeOptions& options, const Prepared& prepared, const gpu::Device& device,
               const Solver& solver, const Results& results, const Stages& stages)
 {
-    Report report = common(world, stages);
+    Report report = common(prepared, stages);
     report.settings = settings_of(options);
     append(report.settings, settings_of(options.lights));
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
@@ -163,10 +163,10 @@ void add_picture(Report& report, const RenderOptions& options, const Settings& s
 
 }  // namespace
 
-Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+Report bake_report(const BakeOptions& options, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages)
 {
-    Report report = solved(options, world, device, solver, results, stages);
+    Report report = solved(options, prepared, device, solver, results, stages);
     report.settings.emplace_back("only", text_of(options.parts));
     report.settings.emplace_back("half", options.half ? "true" : "false");
     report.settings.emplace_back("directional", text_of(options.directional));
@@ -181,9 +181,9 @@ Report bake_report(const BakeOptions& options, const Prepared& world, const gpu:
 }
 
 Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
-                     const Prepared& world, const gpu::Device* device, const Stages& stages)
+                     const Prepared& prepared, const gpu::Device* device, const Stages& stages)
 {
-    Report report = common(world, stages);
+    Report report = common(prepared, stages);
     const Settings lights_before = settings_of(baked.lights);
     for (const auto& entry : baked.settings)
         if (std::find(lights_before.begin(), lights_before.end(), entry) == lights_before.end())
@@ -208,13 +208,13 @@ Report update_report(const UpdateOptions& options, const BakedFolder& baked, con
 }
 
 Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
-                        const Prepared& world, bool stopped, const Stages& stages)
+                        const Prepared& prepared, bool stopped, const Stages& stages)
 {
-    Report report = common(world, stages);
+    Report report = common(prepared, stages);
     report.method = "reference";
     report.settings = {{"spp", std::to_string(reference.samples_per_lumel)},
                        {"sampling", text_of(reference.rule)},
-                       {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"},
+                       {"gloss", prepared.scene.model == MaterialModel::glossy ? "true" : "false"},
                        {"only", text_of(reference.parts)}};
     append(report.settings, settings_of(lights));
     report.seed = reference.seed;
@@ -223,11 +223,11 @@ Report reference_report(const LightOptions& lights, const ReferenceOptions& refe
     return report;
 }
 
-Report picture_report(const RenderOptions& options, const Prepared& world,
+Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages)
 {
-    Report report = solved(options.bake, world, device, solver, results, stages);
+    Report report = solved(options.bake, prepared, device, solver, results, stages);
     add_picture(report, options,
                 {{"places", std::to_string(options.sets)},
                  {"eye-shots", std::to_string(options.shots)},

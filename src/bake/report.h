@@ -11,21 +11,21 @@
 namespace lumel {
 
 /// The facts of a bake.
-Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+Report bake_report(const BakeOptions& options, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages);
 
 /// The facts of a reference.
 Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
-                        const Prepared& world, bool stopped, const Stages& stages);
+                        const Prepared& prepared, bool stopped, const Stages& stages);
 
 /// The facts of a picture of a solved scene. options.height: as the picture is.
-Report picture_report(const RenderOptions& options, const Prepared& world,
+Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
 
 /// The facts of a bake that was corrected. device: of the preview and of lights, or none.
 Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
-                     const Prepared& world, const gpu::Device* device, const Stages& stages);
+                     const Prepared& prepared, const gpu::Device* device, const Stages& stages);
 
 /// The facts of a film. height: of the pictures [pixels].
 Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,

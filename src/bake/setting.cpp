@@ -30,11 +30,11 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const Prepared& world, const SolverOptions& options, Stages& stages)
+NearField near_field_of(const Prepared& prepared, const SolverOptions& options, Stages& stages)
 {
-    tell_user(world);
+    tell_user(prepared);
     stages.begin("near field");
-    return near_field_for(world.scene, world.rays, world.lumels, options);
+    return near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
 }
 
 const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
@@ -45,12 +45,12 @@ const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 
 }  // namespace
 
-std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
+std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
     if (method_of(options.method).materials == MaterialModel::glossy &&
         options.scheme != Scheme::paper)
-        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
+        particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
     return particles;
 }
 
@@ -63,10 +63,10 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
-    : world(in_stage(std::move(scene), stages), lay_out),
-      near(near_field_of(world, options.solver, stages)),
-      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),
-      particles(particles_for(world, options.solver))
+    : prepared(in_stage(std::move(scene), stages), lay_out),
+      near(near_field_of(prepared, options.solver, stages)),
+      world(upload_to(device, stages), prepared.scene, prepared.lumels, &prepared.atlas),
+      particles(particles_for(prepared, options.solver))
 {
 }
 
@@ -89,10 +89,10 @@ void tell_warnings(const Scene& scene)
         log_warning(warning);
 }
 
-void tell_user(const Prepared& world)
+void tell_user(const Prepared& prepared)
 {
-    tell_warnings(world.scene);
-    for (const std::string& note : world.atlas.notes)
+    tell_warnings(prepared.scene);
+    for (const std::string& note : prepared.atlas.notes)
         log_info(note);
 }
 

@@ -141,16 +141,16 @@ std::string report_of(const WhySummary& summary)
     return json.dump(2) + "\n";
 }
 
-WhySummary summary_of(const Prepared& world, std::uint32_t lumel, const Senders& senders)
+WhySummary summary_of(const Prepared& prepared, std::uint32_t lumel, const Senders& senders)
 {
-    const Lumel& there = world.lumels.lumels[lumel];
-    const Instance& instance = world.scene.instances[there.instance];
+    const Lumel& there = prepared.lumels.lumels[lumel];
+    const Instance& instance = prepared.scene.instances[there.instance];
     WhySummary summary{.instance = instance.name,
                        .place = instance.transform * glm::vec4(there.position, 1.0f),
                        .found = senders.light};
     const double whole = luminance(senders.light);
     for (const Sender& sender : senders.list)
-        summary.rows.push_back(row_of(world.scene, sender, whole));
+        summary.rows.push_back(row_of(prepared.scene, sender, whole));
     summary.by_name = sums_by_name(summary.rows);
     return summary;
 }
@@ -165,20 +165,21 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     const BakedFolder baked = read_baked_folder(folder);
     check_whole(folder, baked);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
-    const Prepared world(read_scene((fs::path(folder) / "scene.glb").string(),
-                                    method_of(baked.method).materials, baked.lights),
-                         [&](const Scene& scene) {
-                             return written_atlas(scene, solution.side,
-                                                  float(baked.texels_per_metre), solution.charts);
-                         });
-    const std::vector<glm::vec3> irradiance = irradiance_of(solution, world.lumels);
+    const Prepared prepared(read_scene((fs::path(folder) / "scene.glb").string(),
+                                       method_of(baked.method).materials, baked.lights),
+                            [&](const Scene& scene) {
+                                return written_atlas(scene, solution.side,
+                                                     float(baked.texels_per_metre),
+                                                     solution.charts);
+                            });
+    const std::vector<glm::vec3> irradiance = irradiance_of(solution, prepared.lumels);
     const glm::ivec2 texel = texel_of(options, solution.side);
-    const std::uint32_t lumel = lumel_at(texel, world.lumels, irradiance);
+    const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
 
     stages.begin("rays");
-    const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
-                                         irradiance, lumel, {.seed = baked.seed});
-    WhySummary summary = summary_of(world, lumel, senders);
+    const Senders senders = find_senders(prepared.scene, prepared.rays, prepared.atlas,
+                                         prepared.lumels, irradiance, lumel, {.seed = baked.seed});
+    WhySummary summary = summary_of(prepared, lumel, senders);
     summary.texel = texel;
     summary.solved = irradiance[lumel];
     summary.report = report_of(summary);
@@ -187,7 +188,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
         OutputFolder output(folder);
         const gpu::Device device(options.device);
         write_png(output.path(kPicture),
-                  why_picture(device, world, irradiance, senders.density, lumel, options.width));
+                  why_picture(device, prepared, irradiance, senders.density, lumel, options.width));
         device.check_validation();
         output.commit();
     }
