@@ -14,9 +14,11 @@
 #include "picture/lobe_rays.h"
 #include "picture/picture.h"
 #include "preview/view.h"
+#include "record/origin.h"
 #include "reference/reference_image.h"
 #include "solve/glossy.h"
 #include "solve/lumel_arrays.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -125,18 +127,24 @@ Image unmultiplied(Image image)
     return image;
 }
 
-void write_picture(const std::string& path, const Image& image)
+/// Returns the exposure of a PNG [m²/cd].
+std::optional<float> write_picture(const std::string& path, const Image& image)
 {
     OutputFile file(path);
-    if (is_exr(path))
+    std::optional<float> exposure;
+    if (is_exr(path)) {
         write_exr(file.path(), image, Precision::float32,
                   {{"quantity", "radiance"},
                    {"unit", "cd/m2"},
                    {"colorSpace", "linear Rec. 709"},
-                   {"software", "lumel " LUMEL_VERSION}});
-    else
-        write_png(file.path(), tone_map(unmultiplied(image)));
+                   {"software", "lumel " + lumel_version()}});
+    } else {
+        const Image shown = unmultiplied(image);
+        exposure = choose_exposure(shown);
+        write_png(file.path(), tone_map(shown, *exposure));
+    }
     file.commit();
+    return exposure;
 }
 
 /// A picture and the facts of it.
@@ -210,8 +218,9 @@ Made make(Scene scene, RenderOptions options, Stages& stages)
 
 RenderSummary summary_of(const Report& report)
 {
-    return {report.picture_width, report.picture_height, report.shots,   report.estimated_error,
-            report.wall_seconds,  report.interrupted,    to_json(report)};
+    return {report.picture_width,      report.picture_height, report.shots,
+            report.estimated_error,    report.wall_seconds,   report.interrupted,
+            json_text(to_json(report))};
 }
 
 }  // namespace
@@ -231,7 +240,7 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     stages.begin("reading");
     Scene scene = read_scene(scene_path, MaterialModel::glossy, options.bake.lights);
     Made made = make(std::move(scene), options, stages);
-    write_picture(picture_path, made.image);
+    made.report.exposure = write_picture(picture_path, made.image);
     made.report.files = {std::filesystem::path(picture_path).filename().string()};
     return summary_of(made.report);
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bake/bake.h"
-#include "output/report.h"
+#include "record/report.h"
 
 namespace lumel {
 

@@ -6,9 +6,7 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "bake/baked_folder.h"
 #include "bake/solution_file.h"
 #include "bake/stages.h"
 #include "bake/why_picture.h"
@@ -16,7 +14,10 @@
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
+#include "record/bake_record.h"
+#include "record/light_settings.h"
 #include "relight/senders.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -109,26 +110,26 @@ std::vector<std::pair<std::string, double>> sums_by_name(const std::vector<WhyRo
     return list;
 }
 
-nlohmann::ordered_json numbers(const glm::vec3& v)
+Json numbers(const glm::vec3& v)
 {
     return {v.x, v.y, v.z};
 }
 
 std::string report_of(const WhySummary& summary)
 {
-    nlohmann::ordered_json json;
+    Json json;
     json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
     json["lumel"] = {{"instance", summary.instance},
                      {"texel", {summary.texel.x, summary.texel.y}},
                      {"place", numbers(summary.place)},
                      {"irradiance", numbers(summary.solved)},
                      {"found", numbers(summary.found)}};
-    json["by_name"] = nlohmann::ordered_json::array();
+    json["by_name"] = Json::array();
     for (const auto& [name, share] : summary.by_name)
         json["by_name"].push_back({{"name", name}, {"share", share}});
-    json["senders"] = nlohmann::ordered_json::array();
+    json["senders"] = Json::array();
     for (const WhyRow& row : summary.rows) {
-        nlohmann::ordered_json sender = {{"share", row.share}, {"name", row.name}};
+        Json sender = {{"share", row.share}, {"name", row.name}};
         if (!row.material.empty())
             sender["material"] = row.material;
         if (row.place) {
@@ -138,7 +139,7 @@ std::string report_of(const WhySummary& summary)
         sender["light"] = numbers(row.light);
         json["senders"].push_back(std::move(sender));
     }
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 WhySummary summary_of(const Prepared& prepared, std::uint32_t lumel, const Senders& senders)
@@ -162,11 +163,12 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
 {
     Stages stages(progress);
     stages.begin("reading");
-    const BakedFolder baked = read_baked_folder(folder);
+    const BakeRecord baked = read_bake_record(folder);
     check_whole(folder, baked);
+    check_light_files(baked.lights);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
-    const Prepared prepared(read_scene((fs::path(folder) / "scene.glb").string(),
-                                       method_of(baked.method).materials, baked.lights),
+    const Prepared prepared(read_scene((fs::path(folder) / kSceneFile).string(),
+                                       method_of(baked.solver.method).materials, baked.lights),
                             [&](const Scene& scene) {
                                 return written_atlas(scene, solution.side,
                                                      float(baked.texels_per_metre),
@@ -177,8 +179,9 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
 
     stages.begin("rays");
-    const Senders senders = find_senders(prepared.scene, prepared.rays, prepared.atlas,
-                                         prepared.lumels, irradiance, lumel, {.seed = baked.seed});
+    const Senders senders =
+        find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
+                     lumel, {.seed = baked.solver.seed});
     WhySummary summary = summary_of(prepared, lumel, senders);
     summary.texel = texel;
     summary.solved = irradiance[lumel];
