@@ -572,6 +572,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info)
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
+    add_method_options(command, info.options.solver);
     add_view_options(command, info.options.solver);
     add_directional_option(command, info.options.directional);
     command.add_flag("--json", info.json, "Print JSON");

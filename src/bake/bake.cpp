@@ -12,20 +12,6 @@
 #include "solve/solver.h"
 
 namespace lumel {
-namespace {
-
-DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
-{
-    return {.kind = options.directional,
-            .rule = options.solver.rule,
-            .seed = options.solver.seed,
-            .batch = std::uint32_t(options.solver.batch),
-            .projection = options.solver.projection,
-            .hemicube = std::uint32_t(options.solver.hemicube),
-            .shots = directional_shots(solver_shots)};
-}
-
-}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)

@@ -4,73 +4,49 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "bake/lighting.h"
 #include "bake/prepare.h"
+#include "bake/sources.h"
 #include "gpu/device.h"
-#include "solve/spherical_harmonics.h"
-#include "solve/stochastic.shared.h"
+#include "relight/relight_solver.h"
+#include "solve/solve_size.h"
 #include "world/occluders.h"
-#include "world/world.shared.h"
+#include "world/world.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
 
-using nlohmann::ordered_json;
+/// Bytes on the device, by what takes them. Direct light is gone before the solver is made.
+struct GraphicsMemory {
+    std::uint64_t world = 0, direct_light = 0, solver = 0, directional = 0;
 
-/// Bytes of graphics memory a stochastic bake holds at its peak, but for the near field, whose
-/// size is known only once it is built: about this many pairs a lumel.
-constexpr double kNearPairsPerLumel = 60.0;
+    std::uint64_t most() const { return world + std::max(direct_light, solver + directional); }
+};
 
-std::uint64_t view_memory(const SolverOptions& solver)
-{
-    return view_pixels(solver.projection, std::uint32_t(solver.hemicube)) * sizeof(float) *
-           std::uint64_t(solver.batch);
-}
-
-std::uint64_t near_field_memory(std::uint64_t lumels)
-{
-    return std::uint64_t(double(lumels) * kNearPairsPerLumel) * 2 * sizeof(float);
-}
-
-/// What gather_directional() holds beside the solver: sums of the bands, sources, and views and a
-/// near field of its own.
-std::uint64_t directional_memory(std::uint64_t lumels, const BakeOptions& options)
-{
-    if (options.directional == Directional::none)
-        return 0;
-    const auto coefficients = std::uint64_t(coefficient_count(int(options.directional)));
-    return lumels * ((coefficients + 1) * sizeof(glm::vec3) + sizeof(glm::vec4)) +
-           near_field_memory(lumels) + view_memory(options.solver);
-}
-
-/// What the solver holds, and after it gather_directional().
-std::uint64_t solver_memory(std::uint64_t lumels, const BakeOptions& options)
-{
-    constexpr std::uint64_t vectors_per_lumel = 15;  // Iteration's vec3 arrays
-    return lumels *
-               (sizeof(glm::vec4) + vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float)) +
-           view_memory(options.solver) + near_field_memory(lumels) +
-           directional_memory(lumels, options);
-}
-
-std::uint64_t world_memory(const Prepared& prepared, const Occluders& occluders)
-{
-    return prepared.lumels.lumels.size() * 2 * sizeof(Lumel) +
-           prepared.lumels.pieces.size() * 2 * sizeof(Piece) +
-           occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t)) +
-           occluders.indices.size() * sizeof(std::uint32_t);
-}
-
-/// Direct light is found before the solver is made.
-std::uint64_t graphics_memory(const Prepared& prepared, const Occluders& occluders,
-                              const BakeOptions& options)
+GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
+                               const BakeOptions& options)
 {
     const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
-    return world_memory(prepared, occluders) +
-           std::max(direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
-                    solver_memory(prepared.lumels.lumels.size(), options));
+    const SolveSize size{
+        &prepared.lumels,
+        near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
+    return {.world = World::device_bytes(prepared.lumels, occluders),
+            .direct_light = direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+            .solver = keeps_sources_apart(options)
+                          ? RelightSolver::device_bytes(size, options.solver)
+                          : solver_bytes(size, options.solver),
+            .directional = directional_bytes(size, directional_options(options, 0))};
+}
+
+Json json_of(const GraphicsMemory& bytes)
+{
+    return {{"world", bytes.world},
+            {"direct_light", bytes.direct_light},
+            {"solver", bytes.solver},
+            {"directional", bytes.directional}};
 }
 
 std::size_t triangle_count(const Scene& scene)
@@ -82,10 +58,10 @@ std::size_t triangle_count(const Scene& scene)
     return count;
 }
 
-ordered_json facts(const Prepared& prepared, const BakeOptions& options)
+Json facts(const Prepared& prepared, const BakeOptions& options)
 {
     const Scene& scene = prepared.scene;
-    const Occluders occluders = find_occluders(scene);
+    const Occluders occluders = find_occluders(scene, {}, &prepared.atlas);
     std::size_t emissive = 0, authored = 0, buried = 0, back = 0;
     for (const Material& material : scene.materials)
         emissive += material.emitted != glm::vec3(0.0f);
@@ -97,7 +73,7 @@ ordered_json facts(const Prepared& prepared, const BakeOptions& options)
         back += (lumel.flags & kLumelBack) != 0;
         area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
     }
-    ordered_json json;
+    Json json;
     json["scene"] = scene.path;
     json["hash"] = scene.hash;
     json["meshes"] = scene.meshes.size();
@@ -123,13 +99,15 @@ ordered_json facts(const Prepared& prepared, const BakeOptions& options)
     json["back_lumels"] = back;
     json["buried_lumels"] = buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    json["graphics_memory_bytes"] = graphics_memory(prepared, occluders, options);
+    const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
+    json["graphics_memory_bytes"] = memory.most();
+    json["graphics_memory_parts"] = json_of(memory);
     json["warnings"] = scene.warnings;
     json["notes"] = prepared.atlas.notes;
     return json;
 }
 
-std::string lightmap_uv_text(const ordered_json& json)
+std::string lightmap_uv_text(const Json& json)
 {
     const auto all = json["surfaces"].get<std::size_t>();
     const auto own = json["surfaces_with_own_lightmap_uv"].get<std::size_t>();
@@ -139,7 +117,7 @@ std::string lightmap_uv_text(const ordered_json& json)
                       : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
 }
 
-std::string text_of(const ordered_json& json)
+std::string text_of(const Json& json)
 {
     const auto count = [&](const char* key) { return json[key].get<std::size_t>(); };
     std::string text = json["scene"].get<std::string>() + "\n";
@@ -178,8 +156,8 @@ std::string describe(const std::string& scene_path, const BakeOptions& options, 
 {
     const Prepared prepared(read_scene(scene_path, MaterialModel::diffuse, options.lights),
                             options.atlas);
-    const ordered_json all = facts(prepared, options);
-    return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
+    const Json all = facts(prepared, options);
+    return json ? json_text(all) : text_of(all);
 }
 
 }  // namespace lumel

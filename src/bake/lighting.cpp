@@ -58,6 +58,17 @@ DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32
             .centre = solver.rule == SampleRule::centre};
 }
 
+DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
+{
+    return {.kind = options.directional,
+            .rule = options.solver.rule,
+            .seed = options.solver.seed,
+            .batch = std::uint32_t(options.solver.batch),
+            .projection = options.solver.projection,
+            .hemicube = std::uint32_t(options.solver.hemicube),
+            .shots = directional_shots(solver_shots)};
+}
+
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages)
 {

@@ -47,6 +47,13 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
         begin_source();
 }
 
+std::uint64_t RelightSolver::device_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    // One after the other.
+    return std::max(FormFactors::device_bytes(size, options),
+                    StochasticRadiosity::device_bytes(size, options));
+}
+
 void RelightSolver::step()
 {
     if (builder_) {

@@ -7,6 +7,7 @@
 
 #include "nearfield/near_field.h"
 #include "solve/directional_fit.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "world/world.h"
 
@@ -31,6 +32,10 @@ struct DirectionalLight {
     std::uint64_t shots = 0;
     gpu::StageTimes times;  ///< on the device [ms]
 };
+
+/// Bytes on the device that gather_directional() takes, on one whose images may be as large as is
+/// wanted.
+std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions& options);
 
 /// As many shooters as suit a solution that took `solver_shots`.
 std::uint64_t directional_shots(std::uint64_t solver_shots);

@@ -7,6 +7,7 @@
 #include "gpu/pacer.h"
 #include "solve/directions.shared.h"
 #include "solve/iteration.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "visibility/illumination_maps.h"
 
@@ -18,6 +19,10 @@ public:
     /// `world` must know the atlas. Throws Error{device} if the device cannot keep the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const SolverOptions& options, std::span<const glm::vec3> known = {});
+
+    /// Bytes on the device at most, on one whose images and arrays may be as large as is wanted.
+    /// Slabs that the device is to choose count as one.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
 
     void step() override;
     /// From now on lumels emit what `lumels` says, and the sky is as it is now. For SolverOptions

@@ -10,6 +10,7 @@
 #include "nearfield/near_field.h"
 #include "solve/form_factors.shared.h"
 #include "solve/patches.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "solve/voxel_patches.h"
 #include "visibility/eye_views.h"
@@ -38,6 +39,10 @@ public:
     /// patches must outlive this. Uses projection, hemicube and batch of the options.
     FormFactors(const gpu::Device& device, const World& world, const Lumels& lumels,
                 const NearField& near, const VoxelPatches& patches, const SolverOptions& options);
+
+    /// Bytes on the device but for blocks of patches, on one whose images may be as large as is
+    /// wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
 
     bool done() const { return next_ == blocks_.size(); }
     double fraction() const { return double(next_) / double(blocks_.size()); }  ///< done, 0…1

@@ -7,6 +7,7 @@
 #include "gpu/pacer.h"
 #include "solve/figures.h"
 #include "solve/gather.shared.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "visibility/lit_views.h"
 
@@ -18,6 +19,10 @@ public:
     /// `world` must know the atlas. Hemicubes count as shots.
     GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                     const SolverOptions& options);
+
+    /// Bytes on the device at most, of a scene without coloured glass, on one whose images may be
+    /// as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

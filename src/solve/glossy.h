@@ -12,6 +12,7 @@
 #include "solve/lobe_particles.h"
 #include "solve/near_rows.h"
 #include "solve/power_pyramid.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
 
@@ -32,6 +33,10 @@ public:
                        const NearField& near, const SolverOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
+
+    /// Bytes on the device at most, but for an eye, on one whose images may be as large as is
+    /// wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

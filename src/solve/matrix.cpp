@@ -124,6 +124,12 @@ MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
         builder_.emplace(device, world, lumels, near, options);
 }
 
+std::uint64_t MatrixRadiosity::device_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    return FormFactors::device_bytes(size, options) +
+           StochasticRadiosity::device_bytes(size, options);
+}
+
 void MatrixRadiosity::step()
 {
     if (!builder_) {

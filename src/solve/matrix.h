@@ -53,6 +53,9 @@ public:
                     const NearField& near, const SolverOptions& options,
                     std::span<const glm::vec3> known);
 
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+
     void step() override;
     /// The error is that of direct light.
     SolverState state() const override;

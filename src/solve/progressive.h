@@ -12,6 +12,9 @@ public:
     ProgressiveRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                          const NearField& near, const SolverOptions& options);
 
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+
     void step() override;
     SolverState state() const override { return state_; }
     std::vector<glm::vec3> irradiance() override;

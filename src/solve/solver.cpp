@@ -11,6 +11,16 @@
 #include "solve/stochastic.h"
 
 namespace lumel {
+namespace {
+
+/// Along global directions no pair is too close, nor is any to a hemicube of its own.
+bool has_near_field(const SolverOptions& options)
+{
+    return options.scheme != Scheme::paper && options.method != "directions" &&
+           options.method != "gather";
+}
+
+}  // namespace
 
 bool gathers_sky(const SolverOptions& options)
 {
@@ -40,14 +50,20 @@ NearFieldOptions near_field_options(const SolverOptions& options)
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius)
 {
-    // Along global directions no pair is too close, nor is any to a hemicube of its own.
-    if (options.scheme == Scheme::paper || options.method == "directions" ||
-        options.method == "gather")
+    if (!has_near_field(options))
         return {};
     NearFieldOptions near = near_field_options(options);
     if (radius > 0.0f)
         near.radius = radius;
     return build_near_field(scene, rays, lumels, near);
+}
+
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options)
+{
+    return has_near_field(options)
+               ? count_near_pairs(scene, rays, lumels, near_field_options(options))
+               : 0;
 }
 
 const MethodInfo& method_of(const std::string& id)

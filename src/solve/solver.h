@@ -140,6 +140,11 @@ NearFieldOptions near_field_options(const SolverOptions& options);
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius = 0.0f);
 
+/// Pairs that its table will have at most: all that are close, those that do not see each other
+/// among them.
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options);
+
 /// Throws Error{input} if options.method is not in the table or cannot take options.batch. `near`
 /// may be empty for methods and schemes without a near field. `known`: H [N] [lx] that lumels
 /// receive beside what the solver finds, or empty: the error it states is a part of both, but the

@@ -92,6 +92,15 @@ void StochasticRadiosity::build_source_pyramid()
     });
 }
 
+std::uint64_t StochasticRadiosity::device_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    const std::size_t count = size.count();
+    return EyeViews::device_bytes(options.projection, std::uint32_t(options.hemicube),
+                                  std::uint32_t(options.batch)) +
+           kMostBatch * (sizeof(Eye) + sizeof(Shot)) +
+           Iteration::device_bytes(count, size.near_pairs) + 2 * PowerPyramid::device_bytes(count);
+}
+
 void StochasticRadiosity::step()
 {
     iteration_.begin_batch(pacer_);

@@ -4,6 +4,7 @@
 #include "gpu/pacer.h"
 #include "solve/iteration.h"
 #include "solve/power_pyramid.h"
+#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
@@ -16,6 +17,9 @@ public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                         const NearField& near, const SolverOptions& options,
                         std::span<const glm::vec3> known = {});
+
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
 
     void step() override;
     SolverState state() const override { return iteration_.state(); }
