@@ -11,7 +11,6 @@
 #include "bake/sources.h"
 #include "gpu/device.h"
 #include "relight/relight_solver.h"
-#include "solve/solve_size.h"
 #include "world/occluders.h"
 #include "world/world.h"
 #include "json/json_file.h"

@@ -16,8 +16,8 @@
 #include "preview/view.h"
 #include "record/origin.h"
 #include "reference/reference_image.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
-#include "solve/lumel_arrays.h"
 #include "json/json_file.h"
 
 namespace lumel {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "directional/directional.h"
 #include "record/report.h"
 #include "scene/light_options.h"
 #include "scene/parts.h"
-#include "solve/directional.h"
 #include "solve/solver.h"
 
 namespace lumel {

@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
+#include "directional/directional.h"
 #include "scene/parts.h"
-#include "solve/directional.h"
 #include "solve/solver.h"
 #include "json/json_view.h"
 

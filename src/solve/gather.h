@@ -5,9 +5,8 @@
 #include <array>
 
 #include "gpu/pacer.h"
-#include "solve/figures.h"
+#include "shooting/figures.h"
 #include "solve/gather.shared.h"
-#include "solve/solve_size.h"
 #include "solve/solver.h"
 #include "visibility/lit_views.h"
 

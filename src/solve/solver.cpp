@@ -22,6 +22,22 @@ bool has_near_field(const SolverOptions& options)
 
 }  // namespace
 
+ViewOptions view_options(const SolverOptions& options)
+{
+    const std::uint32_t batch = checked_batch(method_of(options.method), options.batch);
+    return {options.projection, options.hemicube, int(batch)};
+}
+
+IterationOptions iteration_options(const SolverOptions& options)
+{
+    return {options.scheme, options.leak};
+}
+
+TransportOptions transport_options(const SolverOptions& options)
+{
+    return {view_options(options), options.patches, options.bounces};
+}
+
 bool gathers_sky(const SolverOptions& options)
 {
     return options.method == "directions" && options.scheme == Scheme::paper && options.sky;
@@ -84,6 +100,21 @@ std::uint32_t checked_batch(const MethodInfo& method, int batch)
                     "must be from 1 to " + std::to_string(method.most_batch) +
                         " shooters with the method " + method.id);
     return std::uint32_t(batch);
+}
+
+std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    if (options.method == "directions")
+        return GlobalDirections::device_bytes(size, options);
+    if (options.method == "gather")
+        return GatherRadiosity::device_bytes(size, options);
+    if (options.method == "progressive")
+        return ProgressiveRadiosity::device_bytes(size, options);
+    if (options.method == "matrix")
+        return MatrixRadiosity::device_bytes(size, options);
+    if (method_of(options.method).materials == MaterialModel::glossy)
+        return GlossyIllumination::device_bytes(size, options);
+    return StochasticRadiosity::device_bytes(size, options);
 }
 
 std::unique_ptr<Solver> make_solver(const gpu::Device& device, const World& world,
