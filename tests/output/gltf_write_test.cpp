@@ -46,7 +46,7 @@ const Primitive& primitive_of(const Scene& scene, const Surface& surface)
     return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
 }
 
-// Colour, emission and opacity at a corner, read the way a renderer would.
+// Colour, emission and opacity at a corner, read as a renderer would.
 MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
 {
     glm::vec2 texcoords[2];
