@@ -13,7 +13,6 @@ int main(int argc, char** argv)
     using namespace lumel;
     using namespace lumel::bench;
     Settings settings;
-    std::string scheme = "phased", sampling = "area", projection = "hemicube", layers = "list";
     CLI::App app("Error against time for each method, on the same atlas");
     app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
     app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
@@ -45,34 +44,15 @@ int main(int argc, char** argv)
     app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--solver", settings.solver.method, "as lumel methods lists")
-        ->capture_default_str();
-    app.add_option("--scheme", scheme, "phased or paper")
-        ->check(CLI::IsMember({"phased", "paper"}));
-    app.add_option("--sampling", sampling, "area or centre")
-        ->check(CLI::IsMember({"area", "centre"}));
-    app.add_option("--batch", settings.solver.batch, "shooters per iteration")
-        ->capture_default_str();
-    app.add_option("--layers", layers, "layers of --solver directions: list, peel or stochastic")
-        ->check(CLI::IsMember({"list", "peel", "stochastic"}));
-    app.add_option("--lookups", settings.solver.lookups,
-                   "lookups with stochastic layers: 1, 3 or 5 pixels wide")
-        ->capture_default_str();
-    app.add_option("--slabs", settings.solver.slabs,
-                   "slabs of each direction with stochastic layers; 0: as needed")
-        ->capture_default_str()
-        ->check(CLI::Range(0u, kMostSlabs));
-    app.add_option("--leak", settings.solver.leak,
-                   "with --scheme paper: part of the solution that each shot replaces; 0: none")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--map-side", settings.solver.map_side,
-                   "side of illumination maps [pixels]; 0: as suits the lumels")
-        ->capture_default_str();
-    app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
-        ->capture_default_str();
-    app.add_option("--projection", projection, "hemicube or hemisphere")
-        ->check(CLI::IsMember({"hemicube", "hemisphere"}));
+    app.add_option("--solver", settings.given.id, "as lumel methods lists")->capture_default_str();
+    for (const SharedOption& option : options_of_methods()) {
+        const std::string name = option.info->name;
+        app.add_option_function<std::string>(
+               "--" + name,
+               [&settings, name](const std::string& value) { settings.given.values[name] = value; },
+               option.info->help)
+            ->type_name(option.info->type);
+    }
     app.add_option(
            "--projections", settings.cuts,
            "compares both projections instead, edges of triangles cut into this number of pieces")
@@ -80,18 +60,11 @@ int main(int argc, char** argv)
     app.add_option("--near", settings.near_radius,
                    "near field radius [lumel sizes]; 0: as suits the solver")
         ->capture_default_str();
-    app.add_option("--seed", settings.solver.seed, "random seed")->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");
     app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
-    settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
-    settings.solver.layers = layers == "stochastic" ? Layers::stochastic
-                             : layers == "peel"     ? Layers::peel
-                                                    : Layers::list;
-    settings.solver.projection =
-        projection == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
     try {
+        settings.given.options();  // what is wrong is said before the long work
         if (!settings.cuts.empty())
             compare_projections(settings);
         else if (!settings.growth.empty())

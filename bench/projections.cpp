@@ -133,7 +133,8 @@ struct View {
 View look(const gpu::Device& device, const World& world, Projection projection, const Pairs& pairs,
           const Settings& settings)
 {
-    EyeViews views(device, world, projection, std::uint32_t(settings.solver.hemicube), kEyes);
+    EyeViews views(device, world, projection,
+                   std::uint32_t(views_of(settings.given.options()).hemicube), kEyes);
     if (views.capacity() < kEyes)
         throw Error(ErrorKind::input, "--hemicube", "is too large for the views of all eyes");
     const gpu::Array<Eye> eyes(device, std::span<const Eye>(pairs.eyes));

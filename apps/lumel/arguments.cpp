@@ -15,14 +15,12 @@
 #include "core/error.h"
 #include "core/number.h"
 #include "manual.h"
+#include "method_options.h"
 
 namespace lumel {
 namespace {
 
 constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
-constexpr int kLargestHemicube = 2048;
-constexpr int kSmallestMap = 16, kLargestMap = 4096;
-constexpr int kLargestBatch = 256;
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
 constexpr int kMostPaths = 100'000'000;
@@ -39,7 +37,6 @@ constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
 // Titles that --help and docs/options.md put above options.
 constexpr const char* kLightGroup = "Light";
 constexpr const char* kLightmapGroup = "Lightmap";
-constexpr const char* kMethodGroup = "Method";
 constexpr const char* kStopGroup = "When to stop";
 constexpr const char* kPictureGroup = "Pictures";
 constexpr const char* kAnimationGroup = "Animation";
@@ -86,17 +83,10 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
-const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
-                                          {"hemisphere", Projection::hemisphere}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
-const Choices<Layers> kLayers = {
-    {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
-constexpr const char* kAsNeeded = "auto";
-const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
-const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
 template <class Value>
@@ -123,60 +113,6 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
                 return {};
             return fmt::format("'{}' is none of {}", word, CLI::detail::join(words, ", "));
         });
-}
-
-void add_view_options(CLI::App& app, SolverOptions& solver)
-{
-    app.option_defaults()->group(kMethodGroup);
-    app.add_option("--batch", solver.batch, "Shooters per iteration")
-        ->type_name("K")
-        ->capture_default_str()
-        ->check(whole(1, kLargestBatch));
-    add_choice(app, "--projection", solver.projection, kProjections,
-               "What shooters see is drawn on five faces (hemicube, the default) or on one disc");
-    app.add_option(
-           "--hemicube", solver.hemicube,
-           "Side of a hemicube's front face in pixels; a hemisphere's disc is twice as wide")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(16, kLargestHemicube));
-}
-
-void add_map_options(CLI::App& app, SolverOptions& solver)
-{
-    app.option_defaults()->group(kMethodGroup);
-    add_choice(app, "--layers", solver.layers, kLayers,
-               "What --solver directions keeps of surfaces behind one another: all of them, at "
-               "once (list, the default) or one after another (peel), or one a pixel by chance "
-               "(stochastic)");
-    add_choice(app, "--lookups", solver.lookups, kLookups,
-               "Side of the square of pixels looked up among stochastic layers (default: 3)");
-    app.add_option_function<std::string>(
-           "--slabs",
-           [&solver](const std::string& text) {
-               solver.slabs = text == kAsNeeded ? 0 : std::uint32_t(std::stoul(text));
-           },
-           "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
-           "stochastic layers; auto (the default): as many as the overdraw asks for")
-        ->type_name("auto|N")
-        ->check(CLI::IsMember({kAsNeeded}) | whole(1, kMostSlabs));
-    app.add_option("--map-side", solver.map_side,
-                   "Side of --solver directions' maps in pixels (default: as suits the lumels)")
-        ->type_name("N")
-        ->check(whole(kSmallestMap, kLargestMap));
-}
-
-void add_matrix_options(CLI::App& app, SolverOptions& solver)
-{
-    app.option_defaults()->group(kMethodGroup);
-    app.add_option("--patches", solver.patches, "Patches of --solver matrix, at most")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(kFewestPatches, kMostPatches));
-    app.add_option("--bounces", solver.bounces,
-                   "Reflections that --solver matrix counts (default: all)")
-        ->type_name("K")
-        ->check(whole(1, kMostBounces));
 }
 
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
@@ -267,38 +203,6 @@ void add_talk_options(CLI::App& app, Talk& talk)
         "Show no progress line; there is one only where stderr is a terminal");
 }
 
-void add_method_options(CLI::App& app, SolverOptions& solver)
-{
-    app.option_defaults()->group(kMethodGroup);
-    Choices<std::string> methods;
-    for (const MethodInfo& method : kMethods)
-        methods.emplace_back(method.id, method.id);
-    const std::string title = "Method; lumel methods lists them";
-    app.add_option("--solver", solver.method, title)
-        ->type_name("NAME")
-        ->capture_default_str()
-        ->check([methods](const std::string& word) -> std::string {
-            for (const auto& method : methods)
-                if (method.first == word)
-                    return {};
-            return fmt::format("'{}' is not in the list of lumel methods", word);
-        });
-    add_choice(app, "--scheme", solver.scheme, kSchemes,
-               "Iteration scheme: phased (exact near pairs, the default) or the papers'");
-}
-
-void add_solver_options(CLI::App& app, SolverOptions& solver)
-{
-    app.option_defaults()->group(kMethodGroup);
-    add_choice(app, "--sampling", solver.rule, kSampleRules,
-               "Receive over the covered area of a lumel (the default) or at its centre");
-    app.add_option("--seed", solver.seed, "Random seed")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
-    add_view_options(app, solver);
-}
-
 /// When to stop. Without any of the three the bake ends at the default error.
 void add_stop_options(CLI::App& app, SolverOptions& solver)
 {
@@ -370,7 +274,7 @@ void add_preview_option(CLI::App& app, int& width)
         ->check(whole(0, kLargestAtlas));
 }
 
-CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
+CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
     command.add_option("scene", bake.scene, "A .gltf or .glb file")->required()->type_name("FILE");
@@ -380,10 +284,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_light_options(command, bake.options.lights);
     add_sky_directions_option(command, bake.options);
     add_atlas_options(command, bake.options.atlas);
-    add_method_options(command, bake.options.solver);
-    add_solver_options(command, bake.options.solver);
-    add_map_options(command, bake.options.solver);
-    add_matrix_options(command, bake.options.solver);
+    add_methods(command, method);
     add_stop_options(command, bake.options.solver);
     add_device_option(command, bake.options.device);
     add_half_option(command, bake.options.half);
@@ -502,7 +403,7 @@ void add_picture_options(CLI::App& app, int& camera, int& width)
         ->check(whole(1, kLargestAtlas));
 }
 
-CLI::App& add_render(CLI::App& app, RenderArguments& render)
+CLI::App& add_render(CLI::App& app, RenderArguments& render, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand(
         "render", "Make a picture of a scene from one of its cameras, glossy reflections included");
@@ -540,7 +441,7 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);
-    add_solver_options(command, options.bake.solver);
+    add_one_method(command, method);
     add_stop_options(command, options.bake.solver);
     add_device_option(command, options.bake.device);
     add_talk_options(command, render.talk);
@@ -587,7 +488,7 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->check(positive());
 }
 
-CLI::App& add_play(CLI::App& app, PlayArguments& play)
+CLI::App& add_play(CLI::App& app, PlayArguments& play, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand(
         "play", "Render a scene's animation and correct the light from frame to frame");
@@ -599,7 +500,7 @@ CLI::App& add_play(CLI::App& app, PlayArguments& play)
     add_play_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
-    add_view_options(command, options.solver);
+    add_one_method(command, method);
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
     return command;
@@ -637,14 +538,14 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
     return command;
 }
 
-CLI::App& add_info(CLI::App& app, InfoArguments& info)
+CLI::App& add_info(CLI::App& app, InfoArguments& info, GivenMethod& method)
 {
     CLI::App& command =
         *app.add_subcommand("info", "List what is in a scene and what a bake of it would need");
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
-    add_view_options(command, info.options.solver);
+    add_methods(command, method);
     add_directional_option(command, info.options.directional);
     add_json_flag(command, info.json);
     return command;
@@ -672,22 +573,6 @@ CLI::App& add_compare(CLI::App& app, CompareArguments& compare)
         ->check(positive());
     add_json_flag(command, compare.json);
     return command;
-}
-
-/// Throws for options that would do nothing.
-void check_map_options(const CLI::App& command, const SolverOptions& solver)
-{
-    const auto require = [&](const char* option, bool used, const char* with) {
-        if (command.count(option) > 0 && !used)
-            throw Error(ErrorKind::input, option, std::string("does nothing without ") + with);
-    };
-    for (const char* option : {"--layers", "--lookups", "--slabs", "--map-side"})
-        require(option, solver.method == "directions", "--solver directions");
-    for (const char* option : {"--lookups", "--slabs"})
-        require(option, solver.layers == Layers::stochastic, "--layers stochastic");
-    if (solver.method == "gather" && solver.projection != Projection::hemicube)
-        throw Error(ErrorKind::input, "--projection",
-                    "must be hemicube with --solver gather, which knows no other");
 }
 
 /// What CLI11 did not accept, as one sentence.
@@ -729,14 +614,17 @@ Arguments parse_arguments(int count, char** values)
     InfoArguments info;
     CompareArguments compare;
     DevicesArguments devices;
-    const CLI::App& bake_command = add_bake(app, bake);
+    GivenMethod bake_method, info_method;
+    GivenMethod render_method{.id = method_of(render.options.bake.solver.method).id};
+    GivenMethod play_method{.id = method_of(MethodOptions(play.options.solver)).id};
+    const CLI::App& bake_command = add_bake(app, bake, bake_method);
     const CLI::App& update_command = add_update(app, update);
     const CLI::App& relight_command = add_relight(app, relight);
     const CLI::App& why_command = add_why(app, why);
-    const CLI::App& render_command = add_render(app, render);
-    const CLI::App& play_command = add_play(app, play);
+    const CLI::App& render_command = add_render(app, render, render_method);
+    const CLI::App& play_command = add_play(app, play, play_method);
     const CLI::App& reference_command = add_reference(app, reference);
-    const CLI::App& info_command = add_info(app, info);
+    const CLI::App& info_command = add_info(app, info, info_method);
     const CLI::App& compare_command = add_compare(app, compare);
     CLI::App& devices_command =
         *app.add_subcommand("devices", "List the Vulkan devices, and why one cannot be used");
@@ -760,7 +648,7 @@ Arguments parse_arguments(int count, char** values)
     }
 
     if (bake_command.parsed()) {
-        check_map_options(bake_command, bake.options.solver);
+        bake.options.solver.method = bake_method.options();
         return bake;
     }
     if (update_command.parsed())
@@ -769,14 +657,20 @@ Arguments parse_arguments(int count, char** values)
         return relight;
     if (why_command.parsed())
         return why;
-    if (render_command.parsed())
+    if (render_command.parsed()) {
+        render.options.bake.solver.method = render_method.options();
         return render;
-    if (play_command.parsed())
+    }
+    if (play_command.parsed()) {
+        play.options.solver = std::get<ProgressiveOptions>(play_method.options());
         return play;
+    }
     if (reference_command.parsed())
         return reference;
-    if (info_command.parsed())
+    if (info_command.parsed()) {
+        info.options.solver.method = info_method.options();
         return info;
+    }
     if (compare_command.parsed())
         return compare;
     if (devices_command.parsed())

@@ -18,6 +18,7 @@
 #include "preview/view.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
+#include "solve/stochastic.h"
 
 namespace lumel::bench {
 namespace {
@@ -38,7 +39,7 @@ struct Technique {
 struct Sight {
     Sight(const AblationSettings& settings, const gpu::Device& device);
 
-    SolverOptions options;
+    SolverOptions options;  ///< of GlossyOptions
     Prepared world;
     NearField near;
     World resident;
@@ -51,7 +52,7 @@ struct Sight {
 
 Settings glossy(Settings settings)
 {
-    settings.solver.method = "glossy";
+    settings.given.id = "glossy";
     return settings;
 }
 
@@ -64,7 +65,7 @@ Seen seen_by_camera(const AblationSettings& settings, const Prepared& world,
 }
 
 Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
-    : options(glossy(settings.shared).solver),
+    : options(solver_of(glossy(settings.shared))),
       world(read_gltf(settings.shared.scene, MaterialModel::glossy),
             AtlasOptions{.size = settings.shared.size}),
       near(build_near_field(world.scene, world.rays, world.lumels, near_field_options(options))),
@@ -149,14 +150,15 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
                                          {.name = "both, weighted", .shots = shots, .rays = rays}};
     for (int i = 0; i < settings.seeds; ++i) {
         SolverOptions options = sight.options;
-        options.seed += std::uint32_t(i);
+        auto& gloss = std::get<GlossyOptions>(options.method);
+        gloss.seed += std::uint32_t(i);
         options.max_shots = std::uint64_t(settings.solving_shots);
         options.target_error = 0.0;
-        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options,
-                                  {}, &*sight.particles);
+        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, gloss, {},
+                                  &*sight.particles);
         solve(solver, options);
         // Without rays, shooters send what lobes do.
-        GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, options);
+        GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, gloss);
         solve(alone, options);
         const Prepared& world = sight.world;
         const SideMaps maps =
@@ -164,10 +166,10 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
         if (i == 0) {  // the driver compiles shaders when they first run
             Technique warm = techniques.back();
-            take(warm, sight, solver, lit, options.seed);
+            take(warm, sight, solver, lit, gloss.seed);
         }
         for (Technique& technique : techniques)
-            take(technique, sight, technique.rays > 0 ? solver : alone, lit, options.seed);
+            take(technique, sight, technique.rays > 0 ? solver : alone, lit, gloss.seed);
     }
     print_techniques(techniques, sight, settings.seeds);
 }
@@ -175,18 +177,18 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
 /// Light at every lumel after some iterations of the papers' scheme, between seeds.
 Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device& device,
                             const Prepared& world, const World& resident,
-                            const SolverOptions& options)
+                            const StochasticOptions& options)
 {
     Spread spread;
     for (int i = 0; i < settings.seeds; ++i) {
-        SolverOptions seeded = options;
+        StochasticOptions seeded = options;
         seeded.seed += std::uint32_t(i);
-        const auto solver =
-            make_solver(device, resident, world.lumels, no_near_field(world.lumels), seeded);
+        StochasticRadiosity solver(device, resident, world.lumels, no_near_field(world.lumels),
+                                   seeded);
         for (int k = 0; k < settings.iterations; ++k)
-            solver->step();
+            solver.step();
         std::vector<double> values;
-        for (const glm::vec3& irradiance : solver->irradiance())
+        for (const glm::vec3& irradiance : solver.irradiance())
             values.push_back(luminance(irradiance));
         spread.add(values);
     }
@@ -203,7 +205,7 @@ struct Partial {
 void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
 {
     Settings diffuse = settings.shared;
-    diffuse.solver.method = "stochastic";
+    diffuse.given.id = "stochastic";
     const Prepared world = prepare(diffuse, diffuse.size);
     const World resident(device, world.scene, world.lumels);
     fmt::print("\nPartial analytic integration: {} lumels, {} iterations, {} seeds\n\n"
@@ -214,7 +216,9 @@ void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
         for (const Partial& partial : {Partial{"r²", false, 0}, Partial{"r² + A/π", true, 0},
                                        Partial{"r² + A/π, 2 × 2 texels merged", true, 1},
                                        Partial{"r² + A/π, 4 × 4 texels merged", true, 2}}) {
-            SolverOptions options = papers_iteration(diffuse.solver);
+            auto options = options_of<StochasticOptions>(diffuse);
+            options.views.batch = 1;
+            options.iteration.scheme = Scheme::paper;
             options.rule = rule;
             options.disc = partial.disc;
             options.merge = partial.merge;

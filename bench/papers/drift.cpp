@@ -37,7 +37,7 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
     LiveScene live(device, scene,
                    {.atlas = {.size = settings.shared.size},
                     .redistribution = redistribution,
-                    .solver = settings.shared.solver,
+                    .solver = options_of<ProgressiveOptions>(settings.shared),
                     .movers = {box},
                     .residual = settings.residual});
     live.settle();

@@ -81,18 +81,19 @@ void print_row(int size, std::size_t lumels, const Scene& scene, const Iteration
 void time_iterations(const IterationSettings& settings)
 {
     const gpu::Device device(settings.shared.device);
-    const SolverOptions options = papers_iteration(settings.shared.solver);
+    const SolverOptions options = papers_iteration(settings.shared.given.options());
     fmt::print("{}, {} of side {}, {} ({})\n\n", settings.shared.scene,
-               options.projection == Projection::hemisphere ? "hemispheres" : "hemicubes",
-               options.hemicube, device.info().name, device.info().driver);
+               views_of(options.method).projection == Projection::hemisphere ? "hemispheres"
+                                                                             : "hemicubes",
+               views_of(options.method).hemicube, device.info().name, device.info().driver);
     print_head();
     for (const int size : settings.sizes) {
         const Prepared world = prepare(settings.shared, size);
         for (const int vertices : settings.vertices) {
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
-            const auto solver =
-                make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+            const NearField none = no_near_field(world.lumels);
+            const auto solver = make_solver({device, resident, world.lumels, none}, options);
             print_row(size, world.lumels.lumels.size(), scene,
                       cost_of_iteration(device, *solver, settings.iterations));
         }

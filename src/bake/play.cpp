@@ -258,7 +258,6 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
                  const ProgressFunction& progress)
 {
     PlayOptions options = given;
-    checked_batch(method_of("progressive"), options.solver.batch);
     Stages stages(progress);
     stages.begin("reading");
     const Animation animation = read_animation(scene_path, options.animation);

@@ -11,7 +11,7 @@ namespace lumel {
 
 struct PlayOptions {
     AtlasOptions atlas;
-    SolverOptions solver;
+    ProgressiveOptions solver;
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     Redistribution redistribution = Redistribution::incremental;
     double residual = LiveOptions{}.residual;  ///< light still to be shot, as a part of all

@@ -10,7 +10,8 @@
 namespace lumel {
 
 struct RenderOptions {
-    BakeOptions bake;         ///< the solution the picture is made from; its solver is `glossy`
+    /// The solution the picture is made from; its method is GlossyOptions.
+    BakeOptions bake{.solver = {.method = GlossyOptions{}}};
     int camera = -1;          ///< index into the file's cameras; -1: the first, or one chosen
     int width = 1280;         ///< [pixels]
     int height = 0;           ///< [pixels]; 0: by the camera's aspect

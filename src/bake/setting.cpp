@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/log.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -48,8 +49,7 @@ const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
-    if (method_of(options.method).materials == MaterialModel::glossy &&
-        options.scheme != Scheme::paper)
+    if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
         particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
     return particles;
 }

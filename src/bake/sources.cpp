@@ -1,6 +1,7 @@
 #include "bake/sources.h"
 
 #include "relight/relight_solver.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -45,7 +46,7 @@ FormFactorRow row_of(const Transport& transport)
 
 bool keeps_sources_apart(const BakeOptions& options)
 {
-    return options.solver.method == "matrix" && options.parts == Parts::all;
+    return method_of(options.solver.method).can_keep_sources && options.parts == Parts::all;
 }
 
 std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,

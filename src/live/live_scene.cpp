@@ -7,6 +7,7 @@
 #include "live/live.shared.h"
 #include "live/still_part.h"
 #include "shooting/lumel_arrays.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -51,10 +52,10 @@ Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<c
     return lumels;
 }
 
-SolverOptions progressive(SolverOptions options)
+NearFieldOptions near_field_options(const LiveOptions& options)
 {
-    options.method = "progressive";
-    return options;
+    return near_field_options(
+        SolverOptions{.method = options.solver, .target_error = options.target_error});
 }
 
 std::vector<char> open_meshes(const Scene& scene)
@@ -70,15 +71,14 @@ std::vector<char> open_meshes(const Scene& scene)
 NearField first_near_field(const Scene& scene, const Lumels& lumels,
                            const std::vector<char>& movers, const LiveOptions& options)
 {
-    const SolverOptions solver = progressive(options.solver);
+    const NearFieldOptions near = near_field_options(options);
     if (options.redistribution == Redistribution::incremental)
-        return near_field_for(scene, RayScene(scene), lumels, solver);
+        return build_near_field(scene, RayScene(scene), lumels, near);
     const Scene still = without(scene, movers);
     std::vector<char> stays;
     for (const Lumel& lumel : lumels.lumels)
         stays.push_back(!movers[lumel.instance]);
-    return build_near_field_among(stays, still, RayScene(still), lumels,
-                                  near_field_options(solver));
+    return build_near_field_among(stays, still, RayScene(still), lumels, near);
 }
 
 /// Rows of lumels that stay from the one, rows of those that move from the other.
@@ -110,7 +110,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       near_(first_near_field(scene_, lumels_, movers_, options)),
       world_(device, scene_, lumels_, &atlas_, movers_),
       lamps_(scene_, options.lights),
-      solver_(device, world_, lumels_, near_, progressive(options.solver)),
+      solver_(device, world_, lumels_, near_, options.solver),
       requested_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
@@ -127,7 +127,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, open_meshes(scene_));
     else
-        incremental_.emplace(device, world_, lumels_, solver_, options.solver.projection);
+        incremental_.emplace(device, world_, lumels_, solver_, options.solver.views.projection);
     find_lamps();
     world_.show_movers(!cross_);
     show();
@@ -264,7 +264,7 @@ void LiveScene::find_crossing_pairs()
     for (std::uint32_t i = 0; i < movers_.size(); ++i)
         if (movers_[i])
             boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
-    NearFieldOptions options = near_field_options(progressive(options_.solver));
+    NearFieldOptions options = near_field_options(options_);
     options.radius = near_.radius;
     const NearField around =
         build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
@@ -282,7 +282,7 @@ void LiveScene::end_move()
         const std::vector<char> affected =
             affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
         near_ = update_near_field(near_, scene_, RayScene(scene_), lumels_,
-                                  near_field_options(progressive(options_.solver)), affected);
+                                  near_field_options(options_), affected);
         solver_.set_near_field(near_);
     }
     if (!move_.boxes.empty())

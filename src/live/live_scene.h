@@ -23,11 +23,10 @@ enum class Redistribution {
 struct LiveOptions {
     AtlasOptions atlas;
     Redistribution redistribution = Redistribution::incremental;
-    /// The method is progressive whatever is set here, and no limit stops it; target_error, or
-    /// else max_shots, still sets how fine the near field is (near_field_options).
-    SolverOptions solver;
-    std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
-    bool still = false;                 ///< none may, whatever `movers` holds
+    ProgressiveOptions solver;
+    double target_error = SolverOptions{}.target_error;  ///< of the near field alone
+    std::vector<std::uint32_t> movers;                   ///< instances that may move; empty: all
+    bool still = false;                                  ///< none may, whatever `movers` holds
     /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at

@@ -73,13 +73,13 @@ float lift_of(const World& world)
     return kLift * std::max({world.diagonal(), most.x, most.y, most.z, 1e-20f});
 }
 
-std::uint32_t wanted_hemicubes(const SolverOptions& options, std::uint32_t channels)
+std::uint32_t wanted_hemicubes(const GatherOptions& options, std::uint32_t channels)
 {
     const Tiles tile = hemicube_tiles(std::uint32_t(options.hemicube), 1);
     const std::uint64_t pixels =
         std::max<std::uint64_t>(std::uint64_t(tile.width) * tile.height, 1);
     const std::uint64_t fit = std::max<std::uint64_t>(kMostPixels / pixels, channels);
-    const std::uint32_t asked = checked_batch(method_of("gather"), options.batch);
+    const auto asked = std::uint32_t(options.batch);
     return std::uint32_t(std::min<std::uint64_t>(fit, std::max(asked, channels)));
 }
 
@@ -163,8 +163,10 @@ std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
 }  // namespace
 
 GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
-                                 const Lumels& lumels, const SolverOptions& options)
+                                 const Lumels& lumels, const GatherOptions& options,
+                                 double target_error)
     : options_(options),
+      target_error_(target_error),
       count_(std::uint32_t(lumels.lumels.size())),
       world_(&world),
       channels_(world.has_coloured_glass() ? kChannels : 1),
@@ -278,13 +280,11 @@ void GatherRadiosity::end_bounce()
                           BounceFiguresParams{count_, {taken_[0], taken_[1]}}, count_);
         figures_.add_up(commands);
     });
-    const bool points_stay =
-        options_.rule == SampleRule::centre || options_.scheme == Scheme::paper;
+    const bool points_stay = options_.rule == SampleRule::centre;
     if (!averages_) {
         remaining_ = still_to_come(terms);
-        const double settled = options_.target_error > 0.0
-                                   ? std::max(kSettledPart * options_.target_error, kSettled)
-                                   : kSettled;
+        const double settled =
+            target_error_ > 0.0 ? std::max(kSettledPart * target_error_, kSettled) : kSettled;
         if (points_stay)
             state_.error = remaining_;
         else

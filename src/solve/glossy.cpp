@@ -85,12 +85,12 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection proje
 
 GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
                                        const Lumels& lumels, const NearField& near,
-                                       const SolverOptions& options,
+                                       const GlossyOptions& options,
                                        std::span<const glm::vec3> known,
                                        const LobeParticles* particles)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
-      batch_(checked_batch(method_of("glossy"), options.batch)),
+      batch_(std::uint32_t(options.views.batch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
@@ -100,8 +100,9 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       world_(&world),
       lumels_(&lumels),
       particles_(!paper_ && particles && particles->any() ? particles : nullptr),
-      kernels_(device, options.projection),
-      views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
+      kernels_(device, options.views.projection),
+      views_(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
+             batch_),
       eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
       shots_(device, kMostGlossyBatch),
       lobes_(device, kMostGlossyBatch * kMostLobes),
@@ -377,7 +378,7 @@ void GlossyIllumination::look_at(std::span<const EyePoint> points,
 {
     pacer_.finish();
     const std::vector<glm::vec3> emission = emission_.download();
-    eye_.emplace(*device_, options_.projection, points, brightness, sampling);
+    eye_.emplace(*device_, options_.views.projection, points, brightness, sampling);
     set_emission(emission);
 }
 

@@ -106,7 +106,7 @@ double missing_part(const Terms& terms, double least = 0.0)
 
 ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const World& world,
                                            const Lumels& lumels, const NearField& near,
-                                           const SolverOptions& options)
+                                           const ProgressiveOptions& options)
     : world_(&world),
       count_(std::uint32_t(lumels.lumels.size())),
       near_radius_(near.radius),
@@ -115,12 +115,12 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kPatchGroup),
       select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams), kPatchGroup),
       receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.projection)),
+               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.views.projection)),
       settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kPatchGroup),
       residual_(device, "progressive.residual", kResidualSpirv, 7, sizeof(ResidualParams),
                 kSumGroup),
       light_(device, lumels),
-      shots_(device, world, lumels, view_options(options)),
+      shots_(device, world, lumels, options.views),
       chart_light_(device, shots_.layout().charts.size()),
       ambient_(device, 1),
       cursor_(device, 1),

@@ -40,7 +40,7 @@ double chance_found(double surfaces, int lookups)
 }
 
 std::uint32_t suitable_slabs(const gpu::Device& device, const World& world, std::uint32_t side,
-                             const SolverOptions& options)
+                             const DirectionsOptions& options)
 {
     if (options.layers != Layers::stochastic)
         return 1;

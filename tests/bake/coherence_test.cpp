@@ -44,8 +44,8 @@ struct Running {
         : world(read_gltf(support::scene_path("glossy-cornell-box"), MaterialModel::glossy),
                 AtlasOptions{.size = 32}),
           lumels(lit_by(world.lumels, lamps(world.lumels))),
-          options{.method = "glossy", .seed = seed},
-          resident(world.scene, world.rays, lumels, options),
+          options{.seed = seed},
+          resident(world.scene, world.rays, lumels, {.method = options}),
           particles(world.scene, world.atlas, world.rays, lumels),
           solver(resident.device, resident.world, lumels, resident.near, options, {},
                  lobes == Lobes::carried ? &particles : nullptr)
@@ -92,7 +92,7 @@ struct Running {
 
     Prepared world;
     Lumels lumels;
-    SolverOptions options;
+    GlossyOptions options;
     support::Resident resident;
     LobeParticles particles;
     GlossyIllumination solver;

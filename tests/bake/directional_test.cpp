@@ -35,14 +35,15 @@ Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
 {
     const support::Resident resident(scene, rays, lumels, options);
     const auto& [near, device, world] = resident;
-    const auto solver = make_solver(device, world, lumels, near, options);
+    const auto solver = make_solver({device, world, lumels, near}, options);
     EXPECT_TRUE(solve(*solver, options));
     Lit lit;
     lit.irradiance = solver->irradiance();
     for (const Directional kind : {Directional::sh1, Directional::sh2})
         lit.coefficients[int(kind)] =
-            gather_directional(device, world, scene, lumels, near, lit.irradiance,
-                               {.kind = kind, .rule = options.rule, .shots = directional_shots})
+            gather_directional(
+                device, world, scene, lumels, near, lit.irradiance,
+                {.kind = kind, .rule = rule_of(options.method), .shots = directional_shots})
                 .coefficients;
     EXPECT_EQ(device.validation_messages(), "");
     return lit;
@@ -153,9 +154,9 @@ TEST(DirectionalLight, GivesBackTheIrradianceOfEveryMethodSchemeAndRule)
     const std::vector<glm::vec3> normals = world_normals(world.scene, world.lumels);
     SolverOptions plain{.max_shots = 128, .target_error = 0.0};
     SolverOptions paper = plain, centre = plain, glossy = plain;
-    paper.scheme = Scheme::paper;
-    centre.rule = SampleRule::centre;
-    glossy.method = "glossy";
+    paper.method = StochasticOptions{.iteration = {Scheme::paper}};
+    centre.method = StochasticOptions{.rule = SampleRule::centre};
+    glossy.method = GlossyOptions{};
     for (const SolverOptions& options : {plain, paper, centre, glossy}) {
         const Lit lit = light_up(world.scene, world.rays, world.lumels, options, 256);
         for (std::size_t i = 0; i < normals.size(); ++i)

@@ -96,7 +96,7 @@ TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
     const gpu::Device device;
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
-    options.solver.hemicube = kSmallHemicube;  // what drifts does so whatever is seen
+    options.solver.views.hemicube = kSmallHemicube;  // what drifts does so whatever is seen
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
     live.settle();
@@ -117,7 +117,7 @@ TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = kSmallSide;
-    options.solver.hemicube = kSmallHemicube;
+    options.solver.views.hemicube = kSmallHemicube;
     options.residual = 0.0005;  // less than the two may be apart
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
@@ -139,7 +139,7 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = kSmallSide;
-    options.solver.hemicube = kSmallHemicube;
+    options.solver.views.hemicube = kSmallHemicube;
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
     LiveScene at_once(device, scene, options), bit_by_bit(device, scene, options);
@@ -150,7 +150,7 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     bit_by_bit.move(block, place);
     // Cross redistribution looks from fronts and from backs.
     const std::uint64_t batch =
-        std::uint64_t(options.solver.batch) * (GetParam() == Redistribution::cross ? 2 : 1);
+        std::uint64_t(options.solver.views.batch) * (GetParam() == Redistribution::cross ? 2 : 1);
     std::uint64_t hemicubes = bit_by_bit.state().hemicubes;
     do {
         const auto shown = bit_by_bit.irradiance();

@@ -1,0 +1,66 @@
+#include "method_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace lumel {
+namespace {
+
+/// `standard`: its default. `note`: what else --help says.
+void add(CLI::App& app, GivenMethod& given, const OptionInfo& option, const std::string& standard,
+         const std::string& note = {})
+{
+    const std::string name = option.name;
+    app.add_option_function<std::string>(
+           "--" + name, [&given, name](const std::string& value) { given.values[name] = value; },
+           std::string(option.help) + note)
+        ->type_name(option.type)
+        ->default_str(standard);
+}
+
+std::string default_of(const MethodInfo& method, const std::string& option)
+{
+    return method.option(option)->get(method.defaults());
+}
+
+/// The default of the first reader, and those of others that differ.
+std::string defaults_of(const SharedOption& shared)
+{
+    const std::string first = default_of(*shared.readers.front(), shared.info->name);
+    std::string list = first;
+    for (const MethodInfo* reader : shared.readers) {
+        const std::string own = default_of(*reader, shared.info->name);
+        if (own != first)
+            list += fmt::format(", {} with {}", own, reader->id);
+    }
+    return list;
+}
+
+}  // namespace
+
+void add_methods(CLI::App& app, GivenMethod& given)
+{
+    app.option_defaults()->group(kMethodGroup);
+    app.add_option("--solver", given.id, "Method, see lumel methods")
+        ->type_name("NAME")
+        ->capture_default_str();
+    for (const SharedOption& shared : options_of_methods()) {
+        std::string note;
+        if (shared.readers.size() < methods().size()) {
+            for (const MethodInfo* reader : shared.readers)
+                note += (note.empty() ? " (only " : ", ") + std::string(reader->id);
+            note += ")";
+        }
+        add(app, given, *shared.info, defaults_of(shared), note);
+    }
+}
+
+void add_one_method(CLI::App& app, GivenMethod& given)
+{
+    app.option_defaults()->group(kMethodGroup);
+    const MethodInfo& method = method_of(given.id);
+    for (const OptionInfo& option : method.options)
+        add(app, given, option, default_of(method, option.name));
+}
+
+}  // namespace lumel

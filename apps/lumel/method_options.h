@@ -1,0 +1,21 @@
+#pragma once
+// The options of methods on the command line, as the table of methods describes them.
+
+#include "solve/methods.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lumel {
+
+/// The title that --help and docs/options.md put above these options.
+inline constexpr const char* kMethodGroup = "Method";
+
+/// --solver, and the options of all methods.
+void add_methods(CLI::App& app, GivenMethod& given);
+
+/// The options of the one method that `given` names.
+void add_one_method(CLI::App& app, GivenMethod& given);
+
+}  // namespace lumel
