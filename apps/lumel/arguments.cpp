@@ -196,7 +196,10 @@ void add_json_flag(CLI::App& app, bool& json)
 void add_talk_options(CLI::App& app, Talk& talk)
 {
     app.option_defaults()->group(kProgramGroup);
-    app.add_flag("-q,--quiet", talk.quiet, "Print only warnings and errors");
+    auto* quiet = app.add_flag("-q,--quiet", talk.quiet, "Print only warnings and errors");
+    app.add_flag("--verbose", talk.verbose,
+                 "Print stages, sizes, memory and device times on stderr as they become known")
+        ->excludes(quiet);
     add_json_flag(app, talk.json);
     app.add_flag_callback(
         "--no-progress", [&talk] { talk.progress = false; },
@@ -265,6 +268,16 @@ void add_device_option(CLI::App& app, std::string& device)
         ->default_str("the best");
 }
 
+void add_dump_option(CLI::App& app, std::string& folder)
+{
+    app.option_defaults()->group(kProgramGroup);
+    app.add_option(
+           "--dump", folder,
+           "Also write intermediate images there, as EXR and PNG: what the brightest lumel "
+           "sees, the surfaces under the sky layer by layer, near-field row sums, and power")
+        ->type_name("FOLDER");
+}
+
 void add_preview_option(CLI::App& app, int& width)
 {
     app.option_defaults()->group(kPictureGroup);
@@ -284,6 +297,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     add_light_options(command, bake.options.lights);
     add_sky_directions_option(command, bake.options);
     add_atlas_options(command, bake.options.atlas);
+    command.option_defaults()->group(kMethodGroup);
     add_methods(command, method);
     add_stop_options(command, bake.options.solver);
     add_device_option(command, bake.options.device);
@@ -291,6 +305,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);
+    add_dump_option(command, bake.options.dump);
     add_talk_options(command, bake.talk);
     return command;
 }
@@ -441,9 +456,11 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render, GivenMethod& method
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);
+    command.option_defaults()->group(kMethodGroup);
     add_one_method(command, method);
     add_stop_options(command, options.bake.solver);
     add_device_option(command, options.bake.device);
+    add_dump_option(command, options.bake.dump);
     add_talk_options(command, render.talk);
     return command;
 }
@@ -500,6 +517,7 @@ CLI::App& add_play(CLI::App& app, PlayArguments& play, GivenMethod& method)
     add_play_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
+    command.option_defaults()->group(kMethodGroup);
     add_one_method(command, method);
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
@@ -545,6 +563,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info, GivenMethod& method)
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
+    command.option_defaults()->group(kMethodGroup);
     add_methods(command, method);
     add_directional_option(command, info.options.directional);
     add_json_flag(command, info.json);

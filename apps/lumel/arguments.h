@@ -19,6 +19,7 @@ struct Talk {
     bool quiet = false;    ///< nothing but warnings and errors
     bool json = false;     ///< stdout carries one JSON document and nothing else
     bool progress = true;  ///< a progress line, where stderr is a terminal
+    bool verbose = false;  ///< on stderr what becomes known as it does, a line each
 };
 
 struct BakeArguments {

@@ -2,6 +2,9 @@
 
 #include "bake/bake.h"
 
+#include <optional>
+
+#include "bake/dump.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
 #include "bake/sources.h"
@@ -12,21 +15,6 @@
 #include "solve/methods.h"
 
 namespace lumel {
-namespace {
-
-DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
-{
-    const ViewOptions views = views_of(options.solver.method);
-    return {.kind = options.directional,
-            .rule = rule_of(options.solver.method),
-            .seed = seed_of(options.solver.method),
-            .batch = std::uint32_t(views.batch),
-            .projection = views.projection,
-            .hemicube = std::uint32_t(views.hemicube),
-            .shots = directional_shots(solver_shots)};
-}
-
-}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
@@ -40,6 +28,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // What can fail before the long work should.
     OutputFolder output(folder);
+    std::optional<OutputFolder> dump;
+    if (!options.dump.empty())
+        dump.emplace(options.dump);
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);
@@ -48,15 +39,21 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                                                    : solve_light(device, setting, options, stages);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
+    if (dump) {
+        stages.begin("dumping");
+        write_dump(*dump, device,
+                   {setting.world, setting.resident, setting.near, solution->irradiance},
+                   options.solver);
+    }
 
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
-        if (has_lights(setting.world.scene))
+        if (has_lights(setting.prepared.scene))
             log_warning("the directional layers say of sky, sun and lamps only how much light they "
                         "send, as if it came along the normal");
         directional = gather_directional(
-            device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
+            device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
@@ -76,7 +73,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     output.outdate(kMatrixFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
-    return write_bake(output, options, setting.world, device, *solution->solver,
+    return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }
 
@@ -91,6 +88,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
+    note_sizes(world, stages);
 
     stages.begin("path tracing");
     bool stopped = false;

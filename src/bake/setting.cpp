@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/log.h"
 #include "solve/methods.h"
 
@@ -31,26 +33,48 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const Prepared& world, const SolverOptions& options, Stages& stages)
+NearField near_field_of(const Prepared& prepared, const SolverOptions& options, Stages& stages)
 {
-    tell_user(world);
+    tell_user(prepared);
+    note_sizes(prepared, stages);
     stages.begin("near field");
-    return near_field_for(world.scene, world.rays, world.lumels, options);
+    NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
+    stages.note(fmt::format(
+        "{} close pairs take {}", near.column.size(),
+        mebibytes(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
+    return near;
 }
 
 const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 {
+    stages.watch(device);
     stages.begin("uploading");
     return device;
 }
 
+/// Estimates of the error as they come, each after twice the shooters of the one before.
+class ErrorNotes {
+public:
+    void add(const SolverState& state, Stages& stages)
+    {
+        if (state.error < 0.0 || state.shots < next_)
+            return;
+        stages.note(
+            fmt::format("{} shooters, estimated error {:.3f} %", state.shots, 100.0 * state.error));
+        next_ = 2 * state.shots;
+    }
+
+private:
+    std::uint64_t next_ = 0;
+};
+
 }  // namespace
 
-std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
+std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
     if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
-        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
+        particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
     return particles;
 }
 
@@ -63,23 +87,29 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
-    : world(in_stage(std::move(scene), stages), lay_out),
-      near(near_field_of(world, options.solver, stages)),
-      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),
-      particles(particles_for(world, options.solver))
+    : prepared(in_stage(std::move(scene), stages), lay_out),
+      near(near_field_of(prepared, options.solver, stages)),
+      world(upload_to(device, stages), prepared.scene, prepared.lumels, &prepared.atlas),
+      particles(particles_for(prepared, options.solver))
 {
 }
 
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages)
 {
     stages.begin("solving");
+    stages.note_arrays();
     SolveRun run;
+    ErrorNotes errors;
     run.finished = solve(solver, options, [&](const SolverState& state) {
+        errors.add(state, stages);
         const double seconds = stages.stage_seconds();
         if (state.error >= 0.0 && (run.curve.empty() || run.curve.back().error != state.error))
             run.curve.push_back({state.shots, seconds, state.error});
         return stages.tell(solved_fraction(options, state, seconds), state.shots, state.error);
     });
+    stages.note(fmt::format("{} shooters in {} iterations", solver.state().shots,
+                            solver.state().iterations));
+    stages.note_times(solver.times());
     return run;
 }
 
@@ -89,10 +119,22 @@ void tell_warnings(const Scene& scene)
         log_warning(warning);
 }
 
-void tell_user(const Prepared& world)
+void note_sizes(const Prepared& prepared, Stages& stages)
 {
-    tell_warnings(world.scene);
-    for (const std::string& note : world.atlas.notes)
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
+        return (lumel.flags & kLumelBuried) != 0;
+    });
+    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
+                            "buried",
+                            prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
+                            lumels.size(), prepared.lumels.pieces.size(), buried));
+}
+
+void tell_user(const Prepared& prepared)
+{
+    tell_warnings(prepared.scene);
+    for (const std::string& note : prepared.atlas.notes)
         log_info(note);
 }
 

@@ -134,7 +134,7 @@ struct LampStage {
     void take(gpu::Pacer& pacer, std::span<const Eye> batch, std::uint32_t lamp,
               std::uint32_t first, const SummedLight& light)
     {
-        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch);
+        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch, "lamps.eyes");
         views.look_from(pacer, eyes, std::uint32_t(batch.size()));
         pacer.work("lamps", light.lumels(), kProbeLumels,
                    [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {

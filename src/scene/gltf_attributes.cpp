@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/geometry_checks.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_extensions.h"
 

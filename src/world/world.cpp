@@ -23,14 +23,15 @@ gpu::Address address_of(Wrap wrap)
 gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const TextureUse& use)
 {
     if (use.texture < 0) {
-        gpu::Target white(device, gpu::Pixel::srgba8, 1, 1);
+        gpu::Target white(device, gpu::Pixel::srgba8, 1, 1, 1, 1, "white texel");
         const std::uint32_t texel = 0xffffffffu;
         white.upload(&texel);
         return white;
     }
     const Texture& texture = scene.textures[use.texture];
     gpu::Target target(device, gpu::Pixel::srgba8, std::uint32_t(texture.width),
-                       std::uint32_t(texture.height));
+                       std::uint32_t(texture.height), 1, 1,
+                       "cut-out texture " + std::to_string(use.texture));
     target.upload(texture.rgba.data());
     return target;
 }
@@ -146,6 +147,17 @@ void World::place(std::span<const glm::mat4> transforms)
                       {placement_array_, local_vertices_, vertex_instances_, vertices_},
                       PlaceParams{std::uint32_t(vertices_.size())}, vertices_.size());
     commands.run();
+}
+
+std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)
+{
+    // Lumels, pieces and vertices in their instance's frame and in the world's.
+    return lumels.lumels.size() * 2 * sizeof(Lumel) + lumels.pieces.size() * 2 * sizeof(Piece) +
+           occluders.positions.size() * 2 * sizeof(glm::vec3) +
+           occluders.instances.size() * sizeof(std::uint32_t) +
+           occluders.look.size() * sizeof(glm::vec3) + occluders.place.size() * sizeof(glm::vec2) +
+           occluders.chart.size() * sizeof(glm::vec4) +
+           occluders.indices.size() * sizeof(std::uint32_t);
 }
 
 }  // namespace lumel

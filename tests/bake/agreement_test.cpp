@@ -199,7 +199,7 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
 {
     for (const MethodInfo& method : methods()) {
-        if (!method.option("projection"))  // has hemicubes alone
+        if (!method.option("projection"))  // has no other
             continue;
         const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
                              AtlasOptions{.size = 64});
@@ -216,12 +216,30 @@ TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
     }
 }
 
+/// Two rooms with a door between them, and their reference, made once for all tests.
+struct TwoRooms {
+    explicit TwoRooms(int size)
+        : world(support::scene_path("two-rooms"), {.size = size}),
+          truth(path_traced(world, 4096))
+    {
+    }
+    Prepared world;
+    std::vector<glm::vec3> truth;
+};
+
+const TwoRooms& two_rooms(const std::string& method)
+{
+    if (method == "gather") {
+        static const TwoRooms small(72);
+        return small;
+    }
+    static const TwoRooms instance(128);
+    return instance;
+}
+
 TEST_P(EverySolver, FindsTheDoorBetweenTwoRoomsAndNothingElse)
 {
-    const bool gathers = std::string(GetParam()) == "gather";
-    const Prepared world(support::scene_path("two-rooms"),
-                         AtlasOptions{.size = gathers ? 72 : 128});
-    const auto truth = path_traced(world, 4096);
+    const auto& [world, truth] = two_rooms(GetParam());
     const Solved solved =
         support::solve_scene(world, suited({.method = support::method(GetParam())}));
     const auto in_room = [&](const char* prefix) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "bake/prepare.h"
 #include "finish/finish.h"
 #include "reference/metrics.h"
@@ -15,7 +16,7 @@ namespace lumel::support {
 
 inline std::string scene_path(const std::string& name)
 {
-    return LUMEL_SOURCE_DIR "/scenes/" + name + ".gltf";
+    return source_path("scenes/" + name + ".gltf");
 }
 
 /// A method with its defaults.

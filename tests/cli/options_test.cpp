@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -52,6 +53,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
          {"--map-side", "--solver directions"}},
         {{"bake", scene, "out", "--solver", "gather", "--projection", "hemisphere"},
          {"--projection", "--solver gather"}},
+        {{"bake", scene, "out", "--quiet", "--verbose"}, {"--verbose", "--quiet"}},
+        {{"render", scene, "out.png", "--paths", "4", "--dump", "inside"}, {"--dump", "--paths"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
         {{"bake", scene, "out", "--projection", "sphere"},
@@ -107,7 +110,7 @@ TEST(Options, OptionsPageIsWhatTheProgramPrints)
 {
     const Outcome page = run_lumel({"options"});
     EXPECT_EQ(page.code, 0) << page.err;
-    EXPECT_TRUE(page.out == bytes_of(LUMEL_SOURCE_DIR "/docs/options.md"))
+    EXPECT_TRUE(page.out == bytes_of(support::source_path("docs/options.md")))
         << "print it again: lumel options > docs/options.md";
 }
 

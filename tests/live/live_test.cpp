@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "../support/source_folder.h"
 #include "core/error.h"
 #include "live/live_scene.h"
 #include "scene/scene.h"
@@ -19,7 +20,7 @@ constexpr int kSmallHemicube = 64;
 
 Scene room_with_a_box()
 {
-    return read_gltf(LUMEL_SOURCE_DIR "/scenes/moving-large-lamp.gltf");
+    return read_gltf(support::source_path("scenes/moving-large-lamp.gltf"));
 }
 
 LiveOptions options_for(const Scene& scene, Redistribution redistribution)

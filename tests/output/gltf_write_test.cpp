@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
 #include "core/error.h"
 #include "hand_atlas.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConformance = fs::path(LUMEL_SOURCE_DIR) / "../shared/data/gltf_conformance";
+const fs::path kConformance = support::data_path("gltf_conformance");
 
 std::vector<std::string> conformance_files()
 {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "gltf_builder.h"
 #include "scene/ies.h"
 
@@ -14,7 +15,7 @@ using namespace lumel::test;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-const std::string kFiles = LUMEL_SOURCE_DIR "/../shared/data/ies/synthetic/";
+const std::string kFiles = support::data_path("ies/synthetic/");
 
 Photometry read(const std::string& text)
 {
