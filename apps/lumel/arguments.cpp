@@ -37,7 +37,6 @@ constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
 // Titles that --help and docs/options.md put above options.
 constexpr const char* kLightGroup = "Light";
 constexpr const char* kLightmapGroup = "Lightmap";
-constexpr const char* kMethodGroup = "Method";
 constexpr const char* kStopGroup = "When to stop";
 constexpr const char* kPictureGroup = "Pictures";
 constexpr const char* kAnimationGroup = "Animation";

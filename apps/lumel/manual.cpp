@@ -9,6 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "solve/methods.h"
+
 namespace lumel {
 namespace {
 
@@ -146,6 +148,20 @@ std::string table(const Section& section, std::size_t command_count)
     return text;
 }
 
+std::string table_of_methods()
+{
+    std::string text = "\n## Methods\n\n| `--solver` | method | papers | use it for | options |\n"
+                       "|---|---|---|---|---|\n";
+    for (const MethodInfo& method : methods()) {
+        std::string options;
+        for (const OptionInfo& option : method.options)
+            options += fmt::format("{}`--{}`", options.empty() ? "" : ", ", option.name);
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", method.id, cell(method.title),
+                            method.paper, cell(method.advice), options);
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string help_text(const CLI::App& app, const std::string& path)
@@ -180,7 +196,7 @@ std::string options_page(const CLI::App& program)
     std::vector<Section> sections;
     std::string text =
         "# Commands and options\n\n"
-        "<!-- Printed by `lumel options`, from the table that also prints --help. -->\n\n"
+        "<!-- Printed by `lumel options`, from the tables that also print --help. -->\n\n"
         "| command | what it does |\n|---|---|\n";
     for (const CLI::App* command : commands)
         text += fmt::format("| `{}` | {} |\n",
@@ -198,7 +214,7 @@ std::string options_page(const CLI::App& program)
     std::rotate(sections.begin(), sections.begin() + (sections.empty() ? 0 : 1), sections.end());
     for (const Section& section : sections)
         text += table(section, commands.size());
-    return text;
+    return text + table_of_methods();
 }
 
 }  // namespace lumel

@@ -6,44 +6,61 @@
 namespace lumel {
 namespace {
 
-void add(CLI::App& app, GivenMethod& given, const OptionInfo& option, const std::string& note)
+/// `standard`: its default. `note`: what else --help says.
+void add(CLI::App& app, GivenMethod& given, const OptionInfo& option, const std::string& standard,
+         const std::string& note = {})
 {
     const std::string name = option.name;
     app.add_option_function<std::string>(
            "--" + name, [&given, name](const std::string& value) { given.values[name] = value; },
-           fmt::format("{} ({})", option.help, note))
-        ->type_name(option.type);
+           std::string(option.help) + note)
+        ->type_name(option.type)
+        ->default_str(standard);
 }
 
-std::string default_of(const MethodInfo& method, const OptionInfo& option)
+std::string default_of(const MethodInfo& method, const std::string& option)
 {
-    return "default: " + option.get(method.defaults());
+    return method.option(option)->get(method.defaults());
+}
+
+/// The default of the first reader, and those of others that differ.
+std::string defaults_of(const SharedOption& shared)
+{
+    const std::string first = default_of(*shared.readers.front(), shared.info->name);
+    std::string list = first;
+    for (const MethodInfo* reader : shared.readers) {
+        const std::string own = default_of(*reader, shared.info->name);
+        if (own != first)
+            list += fmt::format(", {} with {}", own, reader->id);
+    }
+    return list;
 }
 
 }  // namespace
 
 void add_methods(CLI::App& app, GivenMethod& given)
 {
-    app.add_option("--solver", given.id, "Method; lumel methods lists them")
+    app.option_defaults()->group(kMethodGroup);
+    app.add_option("--solver", given.id, "Method, see lumel methods")
         ->type_name("NAME")
         ->capture_default_str();
     for (const SharedOption& shared : options_of_methods()) {
-        const MethodInfo& first = *shared.readers.front();
-        std::string note = default_of(first, *shared.info);
+        std::string note;
         if (shared.readers.size() < methods().size()) {
-            note += "; for";
             for (const MethodInfo* reader : shared.readers)
-                note += fmt::format("{} {}", reader == &first ? "" : ",", reader->id);
+                note += (note.empty() ? " (only " : ", ") + std::string(reader->id);
+            note += ")";
         }
-        add(app, given, *shared.info, note);
+        add(app, given, *shared.info, defaults_of(shared), note);
     }
 }
 
 void add_one_method(CLI::App& app, GivenMethod& given)
 {
+    app.option_defaults()->group(kMethodGroup);
     const MethodInfo& method = method_of(given.id);
     for (const OptionInfo& option : method.options)
-        add(app, given, option, default_of(method, option));
+        add(app, given, option, default_of(method, option.name));
 }
 
 }  // namespace lumel

@@ -9,6 +9,9 @@ class App;
 
 namespace lumel {
 
+/// The title that --help and docs/options.md put above these options.
+inline constexpr const char* kMethodGroup = "Method";
+
 /// --solver, and the options of all methods.
 void add_methods(CLI::App& app, GivenMethod& given);
 

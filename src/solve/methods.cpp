@@ -116,7 +116,7 @@ constexpr auto bounces = [](auto& o) -> auto&
     return o.transport.bounces;
 };
 
-/// What an option is called and says, and when it counts.
+/// The name and help of an option, and when it counts.
 struct Label {
     const char* name;
     const char* type;
@@ -254,14 +254,14 @@ constexpr OptionInfo kDirectionsOptions[] = {
     choice<DirectionsOptions, kLayers, layers>(
         {"layers", "list|peel|stochastic",
          "What is kept of surfaces behind one another: all of them, at once (list) or one after "
-         "another (peel), or one a pixel by chance (stochastic)"}),
+         "another (peel), or one a pixel at random (stochastic)"}),
     choice<DirectionsOptions, kLookups, lookups>(
-        {"lookups", "1|3|5", "Side of the square of pixels looked up among stochastic layers",
-         "layers", "stochastic"}),
+        {"lookups", "1|3|5", "Side of the square of pixels read among stochastic layers", "layers",
+         "stochastic"}),
     number<DirectionsOptions, 1u, kMostSlabs, slabs, Zero::automatic>(
         {"slabs", "auto|N",
          "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
-         "stochastic layers; auto: as many as the overdraw asks for",
+         "stochastic layers; auto: as many as the overdraw requires",
          "layers", "stochastic"}),
     number<DirectionsOptions, kLeastMap, kMostMap, map_side, Zero::automatic>(
         {"map-side", "auto|N", "Side of a direction's maps in pixels; auto: as suits the lumels"}),
@@ -287,7 +287,8 @@ constexpr OptionInfo kMatrixOptions[] = {
     choice<MatrixOptions, kProjections, patch_projection>(kProjection),
     number<MatrixOptions, kLeastHemicube, kMostHemicube, patch_hemicube>(kHemicube),
     number<MatrixOptions, kFewestPatches, kMostPatches, patches>(
-        {"patches", "N", "Patches that exchange light, at most"}),
+        {"patches", "N",
+         "Largest number of patches that exchange light; memory grows with its square"}),
     number<MatrixOptions, 1u, kMostReflections, bounces, Zero::all>(
         {"bounces", "all|K", "Reflections that count"}),
 };
@@ -370,7 +371,8 @@ constexpr MethodInfo kMethods[] = {
     {.id = "progressive",
      .title = "Progressive refinement radiosity",
      .paper = "[CCWG88], [Hoef13]",
-     .advice = "small scenes of diffuse surfaces; what is corrected when things move",
+     .advice =
+         "small scenes of diffuse surfaces; the basis of animation, corrected when objects move",
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = false,
@@ -382,8 +384,7 @@ constexpr MethodInfo kMethods[] = {
     {.id = "gather",
      .title = "Gather radiosity by hemicubes on every lumel",
      .paper = "[CG85], [Hoef13]",
-     .advice = "a reference for the others, which shares nothing with them: slow; --hemicube 64 is "
-               "enough",
+     .advice = "an independent reference for the others; slow, --hemicube 64 is enough",
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
@@ -395,8 +396,8 @@ constexpr MethodInfo kMethods[] = {
     {.id = "matrix",
      .title = "Form-factor matrices of all reflections",
      .paper = "[SF17]",
-     .advice = "one scene under many lights: lumel relight answers at once; small indirect detail "
-               "is lost",
+     .advice = "one scene under many lights: lumel relight takes milliseconds; small indirect "
+               "detail is lost",
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = true,

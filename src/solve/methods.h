@@ -103,7 +103,7 @@ bool set_option(MethodOptions& method, std::string_view name, const std::string&
 /// Does the solver find the sky's light itself, so that it is not to be among the emission?
 bool gathers_sky(const MethodOptions& method);
 
-/// The near field that suits the options: finer where a smaller error is asked for.
+/// The near field that suits the options: finer where a smaller error is requested.
 NearFieldOptions near_field_options(const SolverOptions& options);
 
 /// Builds it; empty for methods and schemes without a near field. radius:

@@ -1,5 +1,5 @@
 #pragma once
-// What each method can be asked for: a small struct per method, of which one is chosen.
+// The options of each method: a small struct per method, of which one is chosen.
 
 #include <cstdint>
 #include <variant>
@@ -37,8 +37,8 @@ struct DirectionsOptions {
     IterationOptions iteration;
     Layers layers = Layers::list;  ///< of illumination maps
     int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
-    /// With Layers::stochastic: slabs that a direction is cut into; 0: as many as the overdraw asks
-    /// for, see IlluminationMaps.
+    /// With Layers::stochastic: slabs that a direction is cut into; 0: as many as the overdraw
+    /// requires, see IlluminationMaps.
     std::uint32_t slabs = 0;
     int map_side = 0;  ///< of an illumination map [pixels], 0: as suits the lumels
     bool sky = true;   ///< with Scheme::paper: gathers the world's sky
@@ -79,7 +79,7 @@ inline std::uint32_t seed_of(const MethodOptions& method)
     return std::visit([](const auto& options) { return options.seed; }, method);
 }
 
-/// SampleRule::area of methods that know no other.
+/// SampleRule::area of methods that have no other.
 SampleRule rule_of(const MethodOptions& method);
 
 /// The default of methods that do not look from eyes.
