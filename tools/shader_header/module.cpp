@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace {
@@ -23,7 +24,14 @@ enum Op : std::uint32_t {
     OpTypeStruct = 30,
     OpTypePointer = 32,
     OpConstant = 43,
+    OpFunction = 54,
+    OpFunctionCall = 57,
     OpVariable = 59,
+    OpImageTexelPointer = 60,
+    OpLoad = 61,
+    OpAccessChain = 65,
+    OpInBoundsAccessChain = 66,
+    OpArrayLength = 68,
     OpDecorate = 71,
     OpMemberDecorate = 72,
     OpExecutionModeId = 331,
@@ -71,6 +79,7 @@ public:
 
 private:
     void read(const Instruction& instruction);
+    void read_use(const Instruction& instruction);
 
     const Instruction& type(std::uint32_t id) const { return types_.at(id); }
     std::uint32_t pointee(const Variable& v) const { return type(v.pointer_type).operands[2]; }
@@ -83,8 +92,13 @@ private:
     void add_binding(Module& module, const Variable& variable) const;
     void add_interface(Module& module, const Variable& variable) const;
     std::uint32_t group_size() const;
+    void reach(std::uint32_t function);
+    bool is_reached(std::uint32_t variable) const;
 
-    std::uint32_t stage_ = 0;
+    std::uint32_t stage_ = 0, main_ = 0;
+    std::uint32_t function_ = 0;                                     ///< that is being read
+    std::map<std::uint32_t, std::set<std::uint32_t>> uses_, calls_;  ///< by function
+    std::set<std::uint32_t> reached_;                                ///< functions, from main()
     std::uint32_t mode_ = 0;                 ///< how the group's size is given
     std::vector<std::uint32_t> group_size_;  ///< literals or ids of constants
     std::map<std::uint32_t, std::string> names_;
@@ -106,10 +120,52 @@ Reader::Reader(std::span<const std::uint32_t> words)
         read({words[at] & 0xffffu, words.subspan(at + 1, length - 1)});
         at += length;
     }
+    reach(main_);
+}
+
+void Reader::reach(std::uint32_t function)
+{
+    if (!reached_.insert(function).second)
+        return;
+    if (const auto calls = calls_.find(function); calls != calls_.end())
+        for (const std::uint32_t called : calls->second)
+            reach(called);
+}
+
+bool Reader::is_reached(std::uint32_t variable) const
+{
+    return std::any_of(reached_.begin(), reached_.end(), [&](std::uint32_t function) {
+        const auto uses = uses_.find(function);
+        return uses != uses_.end() && uses->second.contains(variable);
+    });
+}
+
+void Reader::read_use(const Instruction& instruction)
+{
+    const Operands o = instruction.operands;
+    switch (instruction.op) {
+    case OpFunction:
+        function_ = o[1];
+        break;
+    case OpFunctionCall:
+        calls_[function_].insert(o[2]);
+        uses_[function_].insert(o.begin() + 3, o.end());
+        break;
+    case OpImageTexelPointer:
+    case OpLoad:
+    case OpAccessChain:
+    case OpInBoundsAccessChain:
+    case OpArrayLength:
+        uses_[function_].insert(o[2]);
+        break;
+    default:
+        break;
+    }
 }
 
 void Reader::read(const Instruction& instruction)
 {
+    read_use(instruction);
     const Operands o = instruction.operands;
     switch (instruction.op) {
     case OpName:
@@ -120,6 +176,7 @@ void Reader::read(const Instruction& instruction)
         break;
     case OpEntryPoint:
         stage_ = o[0];
+        main_ = o[1];
         break;
     case OpExecutionMode:
     case OpExecutionModeId:
@@ -227,8 +284,8 @@ std::uint32_t Reader::only_member(std::uint32_t id) const
 void Reader::add_binding(Module& module, const Variable& variable) const
 {
     const auto number = decoration(variable.id, BindingNumber);
-    if (!number)
-        return;  // main() does not reach it
+    if (!number || !is_reached(variable.id))
+        return;
     const std::uint32_t what = pointee(variable);
     if (variable.storage == UniformConstant) {
         const std::uint32_t image =
