@@ -15,7 +15,8 @@
 #include "bench/stopwatch.h"
 #include "finish/finish.h"
 #include "reference/metrics.h"
-#include "solve/lumel_arrays.h"
+#include "reference/reference.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel::bench {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "reference/reference.h"
 
 namespace lumel::bench {
 

@@ -16,8 +16,8 @@
 #include "picture/lobe_rays.h"
 #include "picture/seen.h"
 #include "preview/view.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
-#include "solve/lumel_arrays.h"
 
 namespace lumel::bench {
 namespace {

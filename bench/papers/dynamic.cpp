@@ -12,7 +12,8 @@
 #include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
 #include "reference/metrics.h"
-#include "solve/patches.h"
+#include "reference/reference.h"
+#include "transport/patches.h"
 
 namespace lumel::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/stopwatch.h"
-#include "reference/samples.h"
+#include "paths/samples.h"
 #include "scene/light_options.h"
 #include "solve/slabs.h"
 

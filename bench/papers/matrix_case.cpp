@@ -73,7 +73,7 @@ MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
     const Prepared world = prepare(settings, settings.size);
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
-    TransportBuilder builder(device, resident, world.lumels, near, options);
+    TransportBuilder builder(device, resident, world.lumels, near, transport_options(options));
     while (!builder.done())
         builder.step();
     Transport transport = builder.finish();

@@ -12,8 +12,8 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/stopwatch.h"
-#include "solve/lumel_arrays.h"
-#include "solve/power_pyramid.h"
+#include "shooting/lumel_arrays.h"
+#include "shooting/power_pyramid.h"
 
 namespace lumel::bench {
 namespace {

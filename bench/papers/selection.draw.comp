@@ -1,6 +1,6 @@
 #version 460
-#include "solve/power_pyramid.shared.h"
-#include "solve/power_pyramid.glsl"
+#include "shooting/power_pyramid.shared.h"
+#include "shooting/power_pyramid.glsl"
 
 // One draw from a pyramid.
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "atlas/atlas.h"
+#include "directional/directional.h"
 #include "lights/direct_light.h"
 #include "reference/reference.h"
 #include "scene/light_options.h"
-#include "solve/directional.h"
 #include "solve/solver.h"
 
 namespace lumel {

@@ -17,7 +17,7 @@
 #include "bake/lighting.h"
 #include "core/luminance.h"
 #include "nearfield/world_lumels.h"
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {

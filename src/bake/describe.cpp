@@ -8,8 +8,8 @@
 
 #include "bake/bake.h"
 #include "bake/prepare.h"
+#include "directional/spherical_harmonics.h"
 #include "gpu/device.h"
-#include "solve/spherical_harmonics.h"
 #include "solve/stochastic.shared.h"
 #include "world/occluders.h"
 #include "world/world.shared.h"

@@ -1,7 +1,7 @@
 #include "bake/directional_layers.h"
 
 #include "core/parallel.h"
-#include "solve/directional.h"
+#include "directional/directional.h"
 
 namespace lumel {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "nearfield/buried.h"
 #include "scene/scene_hash.h"
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 #include "update/kept_atlas.h"
 
 namespace lumel {

@@ -1,6 +1,6 @@
 #include "bake/lighting.h"
 
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {

@@ -15,8 +15,8 @@
 #include "picture/picture.h"
 #include "preview/view.h"
 #include "reference/reference_image.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
-#include "solve/lumel_arrays.h"
 
 namespace lumel {
 namespace {

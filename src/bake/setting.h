@@ -7,7 +7,7 @@
 #include "bake/bake.h"
 #include "bake/prepare.h"
 #include "bake/stages.h"
-#include "solve/lobe_particles.h"
+#include "lobes/lobe_particles.h"
 
 namespace lumel {
 

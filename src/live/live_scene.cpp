@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "live/live.shared.h"
 #include "live/still_part.h"
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
@@ -125,7 +125,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         commands.fill(direct_.buffer());
     });
     if (options.redistribution == Redistribution::cross)
-        cross_.emplace(device, world_, lumels_, solver_, options.solver, open_meshes(scene_));
+        cross_.emplace(device, world_, lumels_, solver_, open_meshes(scene_));
     else
         incremental_.emplace(device, world_, lumels_, solver_, options.solver.projection);
     find_lamps();

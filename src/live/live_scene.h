@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "atlas/atlas.h"
+#include "live/cross.h"
+#include "live/incremental.h"
 #include "live/live_lamps.h"
-#include "solve/cross.h"
-#include "solve/incremental.h"
 
 namespace lumel {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "live/incremental.shared.h"
 #include "rays/ray_scene.h"
 #include "scene/scene.h"
-#include "solve/incremental.shared.h"
 
 namespace lumel {
 

@@ -9,7 +9,7 @@
 
 namespace lumel {
 
-/// The rule that receiver kernels repeat in solve/near.glsl: centres (world) closer than
+/// The rule that receiver kernels repeat in nearfield/near_pairs.glsl: centres (world) closer than
 /// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
 inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
                     float size_j, float radius)

@@ -17,8 +17,8 @@
 #include <numbers>
 
 #include "core/parallel.h"
-#include "reference/samples.h"
-#include "solve/phong.h"
+#include "lobes/phong.h"
+#include "paths/samples.h"
 
 namespace lumel {
 namespace {

@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "lobes/eye_image.h"
+#include "paths/surfaces.h"
 #include "picture/lit_scene.h"
-#include "reference/surfaces.h"
-#include "solve/eye_image.h"
-#include "solve/power_draw.h"
+#include "shooting/power_draw.h"
 
 namespace lumel {
 

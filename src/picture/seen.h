@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "lobes/eye_image.h"
+#include "paths/surfaces.h"
 #include "rays/ray_scene.h"
-#include "reference/surfaces.h"
 #include "scene/view.h"
-#include "solve/eye_image.h"
 
 namespace lumel {
 

@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/samples.h"
+#include "paths/samples.h"
 
 namespace lumel {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/directions.h"
+#include "paths/directions.h"
 
 namespace lumel {
 

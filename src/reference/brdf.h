@@ -6,14 +6,9 @@
 
 #include <glm/glm.hpp>
 
-namespace lumel {
+#include "paths/reflectance.h"
 
-/// What a surface reflects.
-struct Reflectance {
-    glm::vec3 diffuse{0.0f};   ///< ρ_d
-    glm::vec3 specular{0.0f};  ///< ρ_s; ρ_d + ρ_s ≤ 1
-    float shininess = 1.0f;    ///< n
-};
+namespace lumel {
 
 /// f_r(ω, ω') towards one direction ω, and directions ω' to look for light in:
 ///

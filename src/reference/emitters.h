@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "reference/surfaces.h"
+#include "paths/surfaces.h"
 
 namespace lumel {
 

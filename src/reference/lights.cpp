@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "reference/directions.h"
+#include "paths/directions.h"
 
 namespace lumel {
 

@@ -5,12 +5,12 @@
 
 #include <glm/glm.hpp>
 
+#include "paths/lamps.h"
+#include "paths/surfaces.h"
 #include "rays/ray_scene.h"
 #include "reference/bounce_samples.h"
 #include "reference/emitters.h"
-#include "reference/lamps.h"
 #include "reference/stand.h"
-#include "reference/surfaces.h"
 #include "scene/sky.h"
 
 namespace lumel {

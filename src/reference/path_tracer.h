@@ -6,11 +6,11 @@
 
 #include <glm/glm.hpp>
 
+#include "paths/samples.h"
+#include "paths/surfaces.h"
 #include "rays/ray_scene.h"
 #include "reference/lights.h"
-#include "reference/samples.h"
 #include "reference/stand.h"
-#include "reference/surfaces.h"
 #include "scene/parts.h"
 
 namespace lumel {

@@ -7,14 +7,12 @@
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "atlas/sample_rule.h"
 #include "rays/ray_scene.h"
 #include "scene/parts.h"
 #include "scene/scene.h"
 
 namespace lumel {
-
-/// Where on a lumel irradiance is asked for.
-enum class SampleRule { area, centre };
 
 struct ReferenceOptions {
     int samples_per_lumel = 256;

@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "core/usage.h"
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
@@ -42,7 +42,7 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
     for (KnownSource& source : sources_)
         source.direct.resize(lumels.lumels.size(), glm::vec3(0.0f));
     if (reflecting_area(lumels) > 0.0f)
-        builder_.emplace(device, world, lumels, near, options);
+        builder_.emplace(device, world, lumels, near, transport_options(options));
     else
         begin_source();
 }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "matrix/compressed.h"
-#include "solve/lumel_transfer.h"
+#include "transport/lumel_transfer.h"
 
 namespace lumel {
 

@@ -18,9 +18,9 @@
 #include "core/luminance.h"
 #include "nearfield/hit_lumels.h"
 #include "nearfield/world_lumels.h"
-#include "reference/directions.h"
-#include "reference/lamps.h"
-#include "reference/samples.h"
+#include "paths/directions.h"
+#include "paths/lamps.h"
+#include "paths/samples.h"
 
 namespace lumel {
 namespace {

@@ -32,8 +32,8 @@
 #include <numbers>
 
 #include "core/sphere.h"
-#include "reference/samples.h"
-#include "solve/lumel_arrays.h"
+#include "paths/samples.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/slabs.h"
 
 namespace lumel {
@@ -106,7 +106,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
       news_(device, 1),
       heard_(device, lumels.lumels.size()),
-      iteration_(device, lumels, NearField{}, known, options, batch_),
+      iteration_(device, lumels, NearField{}, known, iteration_options(options), batch_),
       pacer_(device)
 {
     gpu::Commands commands(device);

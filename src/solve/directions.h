@@ -5,8 +5,8 @@
 #include <deque>
 
 #include "gpu/pacer.h"
+#include "shooting/iteration.h"
 #include "solve/directions.shared.h"
-#include "solve/iteration.h"
 #include "solve/solver.h"
 #include "visibility/illumination_maps.h"
 

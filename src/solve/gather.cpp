@@ -32,8 +32,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/closed_forms.h"
-#include "solve/lumel_arrays.h"
+#include "nearfield/near_field.h"
+#include "shooting/lumel_arrays.h"
 #include "visibility/hemicube_tiles.h"
 
 namespace lumel {
@@ -117,6 +117,18 @@ std::vector<std::uint32_t> nearest_lumels_by_side(const Lumels& lumels)
     return of_sides;
 }
 
+/// Of a rectangle on a face of the hemicube of half side 1 about the origin, from which +z leads
+/// up: on the front face right × up, on a side face, of which all are alike, right × height.
+float pixel_form_factor(std::uint32_t face, double right0, double right1, double up0, double up1)
+{
+    const auto corner = [&](double right, double up) {
+        return face == 0 ? glm::vec3(-right, up, 1.0) : glm::vec3(right, 1.0, up);
+    };
+    const glm::vec3 corners[] = {corner(right0, up0), corner(right1, up0), corner(right1, up1),
+                                 corner(right0, up1)};
+    return polygon_form_factor(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f), corners, 4);
+}
+
 /// [pixels of a hemicube's tile][kManySamples] ΔF, which add up to 1: the form factors of the parts
 /// of a pixel that its samples stand for. Sample s of standard locations lies in the s-th quarter
 /// of the rows. Near the horizon that counts: the lowest pixels' own factors run from 0 to twice
@@ -129,9 +141,7 @@ std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
     const double width = 2.0 / double(side);
     for (std::uint32_t face = 0; face < kHemicubeFaces; ++face) {
         const auto factor = [&](double right, double up, double height) {
-            const Span across{right, right + width}, along{up, up + height};
-            return face == 0 ? point_to_parallel_rectangle(across, along, 1.0)
-                             : point_to_perpendicular_rectangle(across, along, 1.0);
+            return pixel_form_factor(face, right, right + width, up, up + height);
         };
         const gpu::Area area = hemicube_face_area(tile.area(0), side, face);
         for (std::uint32_t y = 0; y < area.height; ++y)
@@ -141,8 +151,8 @@ std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
                 const double right = width * x - 1.0, up = width * y - (face == 0 ? 1.0 : 0.0);
                 const double part = width / samples;
                 for (std::uint32_t s = 0; s < samples; ++s)
-                    of_pixel[s] = float(standard_samples ? factor(right, up + part * s, part)
-                                                         : factor(right, up, width) / samples);
+                    of_pixel[s] = standard_samples ? factor(right, up + part * s, part)
+                                                   : factor(right, up, width) / float(samples);
             }
     }
     return factors;

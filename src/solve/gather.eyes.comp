@@ -2,7 +2,7 @@
 #include "solve/gather.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Where the hemicubes of a batch stand: each at a point of its lumel, turned about the normal by an
 // angle of its own [Hoef13] 4.2, and lifted a little, so that the surface itself stays out of
@@ -17,7 +17,7 @@ layout(binding = 3, scalar) writeonly buffer Eyes { Eye eyes[]; };
 layout(binding = 4, scalar) writeonly buffer Points { GatheringPoint points[]; };
 
 #include "world/lumel.glsl"
-#include "solve/shooter.glsl"
+#include "shooting/shooter.glsl"
 
 // A point keeps this part of its way to the piece's middle away from the edges, where other
 // surfaces may stand closer than eyes are lifted.

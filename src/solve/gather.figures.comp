@@ -1,7 +1,7 @@
 #version 460
 #include "solve/gather.shared.h"
-#include "solve/figures.shared.h"
-#include "solve/radiosity.glsl"
+#include "shooting/figures.shared.h"
+#include "shooting/radiosity.glsl"
 
 // How far the solution still moves, and how far its two halves are apart:
 //
@@ -16,7 +16,7 @@ layout(binding = 2, scalar) readonly buffer Change { vec3 change[]; };
 layout(binding = 3, scalar) readonly buffer Irradiance { vec3 irradiance[]; };
 layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "solve/sum.glsl"
+#include "shooting/sum.glsl"
 
 void main()
 {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "gpu/pacer.h"
-#include "solve/figures.h"
+#include "shooting/figures.h"
 #include "solve/gather.shared.h"
 #include "solve/solver.h"
 #include "visibility/lit_views.h"

@@ -23,7 +23,7 @@ vec3 plus(vec3 a, vec3 b)
 }
 
 #define SUMMAND vec3
-#include "solve/group_sum.glsl"
+#include "shooting/group_sum.glsl"
 
 void main()
 {

@@ -38,9 +38,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/samples.h"
-#include "solve/lumel_arrays.h"
-#include "solve/phong.h"
+#include "lobes/phong.h"
+#include "paths/samples.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {

@@ -12,8 +12,8 @@ layout(binding = 2, scalar) readonly buffer Absorbed { vec3 absorbed[]; };  // [
 layout(binding = 3, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
 layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "solve/radiosity.glsl"
-#include "solve/sum.glsl"
+#include "shooting/radiosity.glsl"
+#include "shooting/sum.glsl"
 
 void main()
 {

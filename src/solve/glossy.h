@@ -6,12 +6,12 @@
 #include <span>
 
 #include "gpu/pacer.h"
-#include "solve/eye_image.h"
-#include "solve/figures.h"
+#include "lobes/eye_image.h"
+#include "lobes/lobe_particles.h"
+#include "nearfield/near_rows.h"
+#include "shooting/figures.h"
+#include "shooting/power_pyramid.h"
 #include "solve/glossy.shared.h"
-#include "solve/lobe_particles.h"
-#include "solve/near_rows.h"
-#include "solve/power_pyramid.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #include "solve/glossy.shared.h"
 #include "core/hash.glsl"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Every lumel takes its share of all K shots ([BSS05] Eq. (4)), keeps the actual irradiance of each
 // for the next iteration's reflections, and adds it to the running average:
@@ -39,12 +39,12 @@ layout(binding = 18, scalar) readonly buffer Carried { vec3 carried[]; };  // [N
 layout(binding = 19, scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, by lobes
 
 #include "world/lumel.glsl"
-#include "solve/phong.glsl"
-#include "solve/glossy.lobes.glsl"
+#include "lobes/phong.glsl"
+#include "lobes/lobes.glsl"
 #include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
-#include "solve/near.glsl"
-#include "solve/near_factor.glsl"
+#include "nearfield/near_pairs.glsl"
+#include "nearfield/near_factor.glsl"
 
 // Between near lumels a narrower lobe would be hit or missed by chance.
 const float kMostNearShininess = 100.0;

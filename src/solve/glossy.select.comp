@@ -1,8 +1,8 @@
 #version 460
 #include "solve/glossy.shared.h"
 #include "core/hash.glsl"
-#include "solve/radiosity.glsl"
-#include "solve/power_pyramid.glsl"
+#include "shooting/radiosity.glsl"
+#include "shooting/power_pyramid.glsl"
 
 // Draws the shooters of one iteration in proportion to their power ([BSS05] section 4.1) and
 // prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and lobes of
@@ -23,8 +23,8 @@ layout(binding = 9, scalar) writeonly buffer Shots { GlossyShot shots[]; };
 layout(binding = 10, scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
 
 #include "world/lumel.glsl"
-#include "solve/phong.glsl"
-#include "solve/shooter.glsl"
+#include "lobes/phong.glsl"
+#include "shooting/shooter.glsl"
 #include "visibility/channel.glsl"
 
 // What shooter k's light gives the lobe: the luminance of ρ_s I_k a(ω_k).

@@ -36,7 +36,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
@@ -111,16 +111,15 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       near_radius_(near.radius),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       area_(std::max(area_of(lumels), 1e-30f)),
-      power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kProgressiveGroup),
-      select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams),
-              kProgressiveGroup),
+      power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kPatchGroup),
+      select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams), kPatchGroup),
       receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(PatchReceiveParams), kProgressiveGroup, std::uint32_t(options.projection)),
-      settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kProgressiveGroup),
+               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.projection)),
+      settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kPatchGroup),
       residual_(device, "progressive.residual", kResidualSpirv, 7, sizeof(ResidualParams),
                 kSumGroup),
       light_(device, lumels),
-      shots_(device, world, lumels, options),
+      shots_(device, world, lumels, view_options(options)),
       chart_light_(device, shots_.layout().charts.size()),
       ambient_(device, 1),
       cursor_(device, 1),
@@ -161,7 +160,7 @@ void ProgressiveRadiosity::choose()
         commands.dispatch(power_,
                           {shots_.charts(), light_.surface, light_.emission, light_.far,
                            light_.near, light_.shot, ambient_, chart_light_},
-                          params, std::size_t(charts) * kProgressiveGroup);
+                          params, std::size_t(charts) * kPatchGroup);
         commands.dispatch(
             select_,
             {shots_.charts(), chart_light_, shots_.levels(), cursor_, shots_.chosen(), ambient_},

@@ -1,8 +1,10 @@
 #pragma once
 // Progressive refinement radiosity [Hoef13] 4.3. See progressive.cpp.
 
-#include "solve/figures.h"
-#include "solve/patch_shots.h"
+#include "shooting/figures.h"
+#include "solve/progressive.shared.h"
+#include "solve/solver.h"
+#include "transport/patch_shots.h"
 
 namespace lumel {
 

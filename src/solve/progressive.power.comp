@@ -1,10 +1,10 @@
 #version 460
 #include "solve/progressive.shared.h"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Light of each chart [Hoef13] 4.3.2, FindShootingQuad. A workgroup a chart.
 
-layout(local_size_x = kProgressiveGroup) in;
+layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
 layout(binding = 0, scalar) readonly buffer Charts { PatchChart charts[]; };
 layout(binding = 1, scalar) readonly buffer Surface { vec4 surface[]; };
@@ -15,8 +15,8 @@ layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
 layout(binding = 6, scalar) readonly buffer Ambient { vec3 ambient; };  // of the batch before
 layout(binding = 7, scalar) writeonly buffer Lights { ChartLight lights[]; };
 
-#include "solve/foreseen.glsl"
-#include "solve/chart_light.glsl"
+#include "transport/foreseen.glsl"
+#include "solve/progressive.chart_light.glsl"
 
 void main()
 {
@@ -24,7 +24,7 @@ void main()
     const PatchChart chart = charts[gl_WorkGroupID.x];
     ChartLight mine = no_light();
     for (uint i = me; chart.moving == 0u && i < chart.lumel_count;
-         i += kProgressiveGroup) {
+         i += kPatchGroup) {
         const uint j = chart.first_lumel + i;
         const vec4 s = surface[j];
         const vec3 arrived = far[j] + near[j], unshot = unshot_of(j);

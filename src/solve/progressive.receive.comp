@@ -2,7 +2,7 @@
 #include "solve/progressive.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Every lumel takes its share of what the patches of a batch send [Hoef13] 4.3.2,
 // ReconstructionShader, for all of them at once:
@@ -12,7 +12,7 @@
 // The receiving point is the same each time for a patch and a lumel, and another for the next
 // patch.
 
-layout(local_size_x = kProgressiveGroup) in;
+layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { PatchReceiveParams p; };
 layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
@@ -25,7 +25,7 @@ layout(binding = 6, scalar) buffer Far { vec3 far[]; };
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
-#include "solve/patch_light.glsl"
+#include "transport/patch_light.glsl"
 
 void main()
 {

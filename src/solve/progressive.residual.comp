@@ -1,8 +1,8 @@
 #version 460
 #include "solve/progressive.shared.h"
-#include "solve/figures.shared.h"
+#include "shooting/figures.shared.h"
 #include "atlas/lumel.shared.h"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Sums of light: what is still to be shot, what arrived, and what reflects it.
 
@@ -16,8 +16,8 @@ layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
 layout(binding = 5, scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(binding = 6, scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "solve/sum.glsl"
-#include "solve/unshot.glsl"
+#include "shooting/sum.glsl"
+#include "transport/unshot.glsl"
 
 void main()
 {

@@ -1,6 +1,6 @@
 #version 460
 #include "solve/progressive.shared.h"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Chooses the patches of a batch [Hoef13] Algorithm 4.2: those of the chart with the most unshot
 // power for each of its patches, one after another, then those of the next such chart. Where the
@@ -14,7 +14,7 @@
 // The light that is still to arrive, spread evenly, is the ambient term of [CCWG88] section 4; how
 // much of what is shot arrives, and is reflected, is taken from what was shot so far.
 
-layout(local_size_x = kProgressiveGroup) in;
+layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
 layout(binding = 0, scalar) readonly buffer Charts { PatchChart charts[]; };
 layout(binding = 1, scalar) buffer Lights { ChartLight lights[]; };
@@ -23,8 +23,8 @@ layout(binding = 3, scalar) buffer Cursors { Cursor cursor_; };
 layout(binding = 4, scalar) writeonly buffer Chosen { ChosenPatch chosen[]; };
 layout(binding = 5, scalar) writeonly buffer Ambient { vec3 ambient; };
 
-#include "solve/patches.glsl"
-#include "solve/chart_light.glsl"
+#include "transport/patches.glsl"
+#include "solve/progressive.chart_light.glsl"
 
 // A chart is shot anew only where a patch would send so many times the power it may.
 const float kTooBright = 8.0;
@@ -42,8 +42,8 @@ vec3 ambient_of(ChartLight sum)
 
 shared Cursor cursor;
 shared float patch_power;  // a patch is to send no more than this [lm]
-shared float best_gain[kProgressiveGroup];
-shared uint best_chart[kProgressiveGroup];
+shared float best_gain[kPatchGroup];
+shared uint best_chart[kPatchGroup];
 
 uint level_for(PatchChart chart, float chart_power)
 {
@@ -65,7 +65,7 @@ void find_best(uint me)
 {
     float gain = 0.0;
     uint best = kNoPatch;
-    for (uint c = me; c < p.charts; c += kProgressiveGroup) {
+    for (uint c = me; c < p.charts; c += kPatchGroup) {
         const float here = gain_of(c);
         if (here > gain) {
             gain = here;
@@ -75,7 +75,7 @@ void find_best(uint me)
     best_gain[me] = gain;
     best_chart[me] = best;
     barrier();
-    for (uint width = kProgressiveGroup / 2u; width > 0u; width /= 2u) {
+    for (uint width = kPatchGroup / 2u; width > 0u; width /= 2u) {
         if (me < width && best_gain[me + width] > best_gain[me]) {
             best_gain[me] = best_gain[me + width];
             best_chart[me] = best_chart[me + width];
@@ -115,7 +115,7 @@ void main()
 {
     const uint me = gl_LocalInvocationID.x;
     ChartLight mine = no_light();
-    for (uint c = me; c < p.charts; c += kProgressiveGroup)
+    for (uint c = me; c < p.charts; c += kPatchGroup)
         mine = plus(mine, lights[c]);
     const ChartLight sum = add_over_group(mine);
     if (me == 0u) {

@@ -3,7 +3,7 @@
 
 // What a batch sent now counts as shot.
 
-layout(local_size_x = kProgressiveGroup) in;
+layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { TakeParams p; };
 layout(binding = 0, scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
 layout(binding = 1, scalar) readonly buffer Shots { PatchShot shots[]; };

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/sphere.h"
-#include "reference/samples.h"
+#include "paths/samples.h"
 
 namespace lumel {
 namespace {

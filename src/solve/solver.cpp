@@ -12,6 +12,22 @@
 
 namespace lumel {
 
+ViewOptions view_options(const SolverOptions& options)
+{
+    const std::uint32_t batch = checked_batch(method_of(options.method), options.batch);
+    return {options.projection, options.hemicube, int(batch)};
+}
+
+IterationOptions iteration_options(const SolverOptions& options)
+{
+    return {options.scheme, options.leak};
+}
+
+TransportOptions transport_options(const SolverOptions& options)
+{
+    return {view_options(options), options.patches, options.bounces};
+}
+
 bool gathers_sky(const SolverOptions& options)
 {
     return options.method == "directions" && options.scheme == Scheme::paper && options.sky;

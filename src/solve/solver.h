@@ -10,15 +10,19 @@
 
 #include <glm/glm.hpp>
 
+#include "atlas/sample_rule.h"
 #include "gpu/pacer.h"
+#include "lobes/lobes.shared.h"
 #include "nearfield/near_field.h"
-#include "reference/reference.h"
+#include "shooting/iteration.h"
+#include "shooting/solver_state.h"
 #include "solve/gather.shared.h"
 #include "solve/glossy.shared.h"
 #include "solve/progressive.shared.h"
 #include "solve/stochastic.shared.h"
-#include "visibility/eye_views.h"
+#include "transport/transport.h"
 #include "visibility/illumination_maps.h"
+#include "visibility/view_options.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -32,11 +36,6 @@ inline constexpr std::uint32_t kMostBounces = 1'000'000;
 
 /// Of "directions": a direction has twice as many maps.
 inline constexpr std::uint32_t kMostSlabs = 64;
-
-enum class Scheme {
-    phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
-    paper,   ///< the papers' iteration: random shooters, running average, no near field
-};
 
 struct SolverOptions {
     std::string method = "stochastic";  ///< id in kMethods
@@ -68,12 +67,10 @@ struct SolverOptions {
     double target_error = 0.02;    ///< estimated relative error to stop at, 0: never
 };
 
-/// Where a solver stands, as last heard from the device.
-struct SolverState {
-    std::uint64_t shots = 0;       ///< shooters so far
-    std::uint64_t iterations = 0;  ///< steps so far
-    double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
-};
+/// How its shooters see. Throws Error{input} as checked_batch() does.
+ViewOptions view_options(const SolverOptions& options);
+IterationOptions iteration_options(const SolverOptions& options);
+TransportOptions transport_options(const SolverOptions& options);
 
 /// A method at work on one world. Every method fills the same result.
 class Solver {

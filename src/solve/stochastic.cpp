@@ -31,13 +31,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/lumel_arrays.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
 
 constexpr std::uint32_t kSelectSpirv[] = {
-#include "solve/stochastic.select.comp.inc"
+#include "shooting/shooters.select.comp.inc"
 };
 constexpr std::uint32_t kReceiveSpirv[] = {
 #include "solve/stochastic.receive.comp.inc"
@@ -70,7 +70,7 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       batch_(views_.capacity()),
       eyes_(device, kMostBatch),
       shots_(device, kMostBatch),
-      iteration_(device, lumels, near, known, options, batch_),
+      iteration_(device, lumels, near, known, iteration_options(options), batch_),
       emission_power_pyramid_(device, lumels.lumels.size()),
       source_power_pyramid_(device, lumels.lumels.size()),
       pacer_(device)

@@ -2,8 +2,8 @@
 // Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
 
 #include "gpu/pacer.h"
-#include "solve/iteration.h"
-#include "solve/power_pyramid.h"
+#include "shooting/iteration.h"
+#include "shooting/power_pyramid.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"

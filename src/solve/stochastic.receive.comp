@@ -2,7 +2,7 @@
 #include "solve/stochastic.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
-#include "solve/radiosity.glsl"
+#include "shooting/radiosity.glsl"
 
 // Every lumel i takes its share of all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with
 // the disc of Eq. (8)):
@@ -25,7 +25,7 @@ layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sum
 #include "world/lumel.glsl"
 #include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
-#include "solve/shot.glsl"
+#include "shooting/shot.glsl"
 
 vec3 receive(Receiver r, uint k)
 {

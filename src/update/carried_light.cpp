@@ -12,7 +12,7 @@
 #include "core/luminance.h"
 #include "core/parallel.h"
 #include "core/sphere.h"
-#include "reference/samples.h"
+#include "paths/samples.h"
 #include "update/two_estimates.h"
 
 namespace lumel {

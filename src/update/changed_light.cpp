@@ -24,8 +24,8 @@
 #include "core/parallel.h"
 #include "core/sphere.h"
 #include "nearfield/world_lumels.h"
-#include "reference/lamps.h"
-#include "reference/samples.h"
+#include "paths/lamps.h"
+#include "paths/samples.h"
 
 namespace lumel {
 namespace {

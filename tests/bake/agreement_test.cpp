@@ -1,6 +1,7 @@
 // The solver against the path tracer, against other settings of its own, and against its own
 // word.
 
+#include "reference/reference.h"
 #include "solved.h"
 
 namespace lumel {

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "picture/seen.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
-#include "solve/lumel_arrays.h"
 #include "solved.h"
 
 namespace lumel {

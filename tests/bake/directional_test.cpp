@@ -10,9 +10,9 @@
 #include "bake/bake.h"
 #include "core/frame.h"
 #include "core/parallel.h"
+#include "directional/directional.h"
 #include "images/image_files.h"
 #include "nearfield/world_lumels.h"
-#include "solve/directional.h"
 #include "solved.h"
 
 namespace lumel {

@@ -3,7 +3,9 @@
 #include "../support/box_lumels.h"
 #include "bake/lighting.h"
 #include "lights/direct_light.h"
+#include "reference/reference.h"
 #include "scene/clear_sky.h"
+#include "shooting/lumel_arrays.h"
 #include "solved.h"
 
 namespace lumel {

@@ -1,9 +1,9 @@
 // Particles along lobes: no power is made or lost.
 
-#include "solve/lobe_particles.h"
+#include "lobes/lobe_particles.h"
 
-#include "solve/lumel_arrays.h"
-#include "solve/phong.h"
+#include "lobes/phong.h"
+#include "shooting/lumel_arrays.h"
 #include "solved.h"
 
 namespace lumel {

@@ -13,7 +13,8 @@ Transport transport_of(const Prepared& world, std::uint32_t patches)
 {
     const SolverOptions options{.method = "matrix", .patches = patches};
     const support::Resident resident(world.scene, world.rays, world.lumels, options);
-    TransportBuilder builder(resident.device, resident.world, world.lumels, resident.near, options);
+    TransportBuilder builder(resident.device, resident.world, world.lumels, resident.near,
+                             transport_options(options));
     while (!builder.done())
         builder.step();
     Transport transport = builder.finish();

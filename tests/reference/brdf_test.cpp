@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/quadrature.h"
-#include "reference/samples.h"
+#include "paths/samples.h"
 
 namespace lumel {
 namespace {

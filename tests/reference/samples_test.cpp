@@ -1,4 +1,4 @@
-#include "reference/samples.h"
+#include "paths/samples.h"
 
 #include <cmath>
 #include <set>

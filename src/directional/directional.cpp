@@ -1,0 +1,252 @@
+// Directional light: spherical harmonics of the radiance that arrives at every lumel.
+//
+// Beyond the papers. The finished irradiance H of any method makes every lumel a source of
+// radiosity B = E + ρH. Shooters are drawn from B and send it once more, as in
+// stochastic.cpp, but receivers keep where it comes from (directional.receive.comp). Close pairs
+// are left out of the shots and taken from the near field (directional.near.comp). Directions go
+// into coefficients by the fit of directional_fit.cpp, about each lumel's normal; at last the
+// coefficients are made to give H exactly at that normal, so that the shots' noise is left only in
+// how irradiance changes as the normal is tilted.
+
+#include "directional/directional.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/parallel.h"
+#include "directional/directional.shared.h"
+#include "nearfield/near_rows.h"
+#include "shooting/lumel_arrays.h"
+#include "shooting/power_pyramid.h"
+#include "shooting/shooters.shared.h"
+#include "visibility/eye_views.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kSelectSpirv[] = {
+#include "shooting/shooters.select.comp.inc"
+};
+constexpr std::uint32_t kReceiveSpirv[] = {
+#include "directional/directional.receive.comp.inc"
+};
+constexpr std::uint32_t kNearSpirv[] = {
+#include "directional/directional.near.comp.inc"
+};
+
+/// Shooters, whatever the solve took, and before a stop is heeded.
+constexpr std::uint64_t kFewestShots = 1024, kMostShots = 4096, kShotsBeforeStop = 256;
+
+constexpr gpu::Slot kReceiveSlots[] = {
+    gpu::Slot::array,     gpu::Slot::array,   gpu::Slot::constants,
+    gpu::Slot::constants, gpu::Slot::texture, gpu::Slot::array,
+    gpu::Slot::array,     gpu::Slot::array,   gpu::Slot::array};
+
+/// B = E + ρH [N]; what is buried sends nothing.
+std::vector<glm::vec3> radiosity_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+{
+    std::vector<glm::vec3> radiosity = emission_of(lumels);
+    for (std::size_t i = 0; i < radiosity.size(); ++i)
+        if (!(lumels.lumels[i].flags & kLumelBuried))
+            radiosity[i] += lumels.lumels[i].albedo * irradiance[i];
+    return radiosity;
+}
+
+/// The device side.
+class Gathering {
+public:
+    Gathering(const gpu::Device& device, const World& world, const Lumels& lumels,
+              const NearField& near, const std::vector<glm::vec3>& radiosity,
+              const DirectionalFit& fit, const DirectionalOptions& options)
+        : options_(options),
+          count_(std::uint32_t(lumels.lumels.size())),
+          order_(std::uint32_t(fit.order())),
+          batch_(std::clamp(options.batch, 1u, kMostBatch)),
+          near_radius_(near.radius),
+          world_(&world),
+          select_(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
+          receive_(device, "directional.receive", kReceiveSpirv, kReceiveSlots,
+                   sizeof(DirectionalReceiveParams), kDirectionalGroup,
+                   std::uint32_t(options.projection)),
+          near_(device, "directional.near", kNearSpirv, 10, sizeof(DirectionalNearParams),
+                kDirectionalGroup),
+          views_(device, world, options.projection, options.hemicube, batch_),
+          eyes_(device, kMostBatch),
+          shots_(device, kMostBatch),
+          surface_(device, view(surfaces_of(lumels))),
+          source_(device, view(radiosity)),
+          fit_(device, view(fit.rows())),
+          bands_{gpu::Array<glm::vec3>(device, count_), gpu::Array<glm::vec3>(device, 3 * count_),
+                 gpu::Array<glm::vec3>(device, order_ < 2 ? 1 : 5 * count_)},
+          near_rows_(device, near, count_),
+          pyramid_(device, count_),
+          pacer_(device)
+    {
+        batch_ = std::min(batch_, views_.capacity());
+        pacer_.work("prepare", [&](gpu::Commands& commands) {
+            for (const auto& band : bands_)
+                commands.fill(band.buffer());
+            pyramid_.build(commands, source_, surface_, kDefensiveShare, reflecting_area(lumels));
+        });
+    }
+
+    /// Sends one batch.
+    void shoot()
+    {
+        select();
+        views_.look_from(pacer_, eyes_, batch_);
+        receive();
+        sent_ += batch_;
+        ++iteration_;
+    }
+
+    std::uint64_t sent() const { return sent_; }
+
+    /// Ends the gathering: coefficients [4 or 9][N]. Waits for the device.
+    std::vector<std::vector<glm::vec3>> finish()
+    {
+        pacer_.work(
+            "directional near", count_, kProbeLumels,
+            [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                commands.dispatch(
+                    near_,
+                    {world_->lumels(), near_rows_.first(), near_rows_.column(), near_rows_.factor(),
+                     source_, fit_, bands_[0], bands_[1], bands_[2], world_->pieces()},
+                    DirectionalNearParams{first, last, count_, order_, float(sent_)}, last - first);
+            });
+        pacer_.finish();
+        std::vector<std::vector<glm::vec3>> coefficients;
+        for (std::uint32_t l = 0; l <= order_; ++l) {
+            const std::vector<glm::vec3> band = bands_[l].download();
+            for (auto m = band.begin(); m != band.end(); m += count_)
+                coefficients.emplace_back(m, m + count_);
+        }
+        return coefficients;
+    }
+
+    const gpu::StageTimes& times() const { return pacer_.times(); }
+
+private:
+    void select()
+    {
+        const SelectParams params{.layout_ = pyramid_.layout(),
+                                  .count = batch_,
+                                  .emission_count = 0,
+                                  .source_index = std::uint32_t(sent_),
+                                  .seed = ~options_.seed,  // no shooter of the solve again
+                                  .disc = near_radius_ > 0.0f ? 0u : 1u,
+                                  .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                                  .channels = world_->has_coloured_glass() ? 1u : 0u};
+        pacer_.work("select", [&](gpu::Commands& commands) {
+            commands.dispatch(select_,
+                              {world_->lumels(), world_->pieces(), source_, source_,
+                               pyramid_.array(), pyramid_.array(), eyes_, shots_},
+                              params, batch_);
+        });
+    }
+
+    void receive()
+    {
+        DirectionalReceiveParams params{.views = views_.layout(),
+                                        .count = count_,
+                                        .shots = batch_,
+                                        .iteration = iteration_,
+                                        .seed = options_.seed,
+                                        .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                                        .order = order_,
+                                        .near_radius = near_radius_};
+        pacer_.work("directional receive", count_, kProbeLumels,
+                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                        params.first = first;
+                        params.last = last;
+                        commands.dispatch(receive_,
+                                          {world_->lumels(),
+                                           world_->pieces(),
+                                           eyes_,
+                                           shots_,
+                                           {views_.image(), views_.sampler()},
+                                           fit_,
+                                           bands_[0],
+                                           bands_[1],
+                                           bands_[2]},
+                                          params, last - first);
+                    });
+    }
+
+    DirectionalOptions options_;
+    std::uint32_t count_;  ///< N lumels
+    std::uint32_t order_;
+    std::uint32_t batch_;  ///< K
+    float near_radius_;
+    const World* world_;
+    gpu::Kernel select_, receive_, near_;
+    EyeViews views_;
+    gpu::Array<Eye> eyes_;
+    gpu::Array<Shot> shots_;
+    gpu::Array<glm::vec4> surface_;
+    gpu::Array<glm::vec3> source_;  ///< B
+    gpu::Array<FitRow> fit_;
+    std::array<gpu::Array<glm::vec3>, kMostBands> bands_;  ///< [2l + 1][N] sums
+    NearRows near_rows_;
+    PowerPyramid pyramid_;
+    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    std::uint64_t sent_ = 0;
+    std::uint32_t iteration_ = 0;
+};
+
+void settle_all(DirectionalLight& light, const DirectionalFit& fit, const Scene& scene,
+                const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+{
+    const std::vector<glm::vec3> normals = world_normals(scene, lumels);
+    parallel_for(normals.size(), 1024, [&](std::size_t first, std::size_t last) {
+        std::vector<glm::vec3> own(light.coefficients.size());
+        for (std::size_t i = first; i < last; ++i) {
+            for (std::size_t c = 0; c < own.size(); ++c)
+                own[c] = light.coefficients[c][i];
+            settle(fit, own, normals[i], irradiance[i]);
+            for (std::size_t c = 0; c < own.size(); ++c)
+                light.coefficients[c][i] = own[c];
+        }
+    });
+}
+
+}  // namespace
+
+std::uint64_t directional_shots(std::uint64_t solver_shots)
+{
+    return std::clamp(solver_shots, kFewestShots, kMostShots);
+}
+
+std::vector<glm::vec3> world_normals(const Scene& scene, const Lumels& lumels)
+{
+    std::vector<glm::mat3> frames;  // by instance
+    for (const Instance& instance : scene.instances)
+        frames.push_back(glm::transpose(glm::inverse(glm::mat3(instance.transform))));
+    std::vector<glm::vec3> normals;
+    normals.reserve(lumels.lumels.size());
+    for (const Lumel& lumel : lumels.lumels)
+        normals.push_back(glm::normalize(frames[lumel.instance] * lumel.normal));
+    return normals;
+}
+
+DirectionalLight gather_directional(const gpu::Device& device, const World& world,
+                                    const Scene& scene, const Lumels& lumels, const NearField& near,
+                                    const std::vector<glm::vec3>& irradiance,
+                                    const DirectionalOptions& options,
+                                    const std::function<bool(double)>& go_on)
+{
+    const DirectionalFit fit(int(options.kind));
+    Gathering gathering(device, world, lumels, near, radiosity_of(lumels, irradiance), fit,
+                        options);
+    while (gathering.sent() < options.shots) {
+        const double fraction = double(gathering.sent()) / double(options.shots);
+        if (go_on && !go_on(fraction) && gathering.sent() >= kShotsBeforeStop)
+            break;
+        gathering.shoot();
+    }
+    DirectionalLight light{gathering.finish(), gathering.sent(), gathering.times()};
+    settle_all(light, fit, scene, lumels, irradiance);
+    return light;
+}
+
+}  // namespace lumel

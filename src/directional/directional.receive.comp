@@ -1,0 +1,52 @@
+#version 460
+#include "directional/directional.shared.h"
+#include "shooting/shooters.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+
+// Every lumel i adds up where the light of K shots comes from. A shot gives it the irradiance
+// dH = X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π), so dH / cosθ_i is the radiance times
+// the solid angle that arrives from its direction.
+
+layout(local_size_x = kDirectionalGroup) in;
+layout(push_constant, scalar) uniform Params { DirectionalReceiveParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
+layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
+layout(binding = 4) uniform sampler2D views;
+layout(binding = 5, scalar) readonly buffer Fit { FitRow fit[]; };
+layout(binding = 6, scalar) buffer Band0 { vec3 band0[]; };
+layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
+layout(binding = 8, scalar) buffer Band2 { vec3 band2[]; };
+
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "shooting/shot.glsl"
+#include "directional/directional.glsl"
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
+    const Receiver r = receiver_at(point, lumel, i);
+    load_sums(i, p.count, p.order);
+    for (uint k = 0u; k < p.shots; ++k) {
+        vec3 d;
+        if (!arrives(r, k, p.views, p.near_radius, d))
+            continue;
+        const float r2 = dot(d, d);
+        const float per_r = inversesqrt(r2);
+        const float solid = dot(d, eyes[k].normal) * per_r / (r2 + shots[k].disc);
+        float c[9];
+        coefficients_of(-d * per_r, lumel.normal, p.order, c);
+        add_light(c, shots[k].power * solid, p.order);
+    }
+    store_sums(i, p.count, p.order);
+}

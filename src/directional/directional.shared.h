@@ -1,0 +1,53 @@
+#ifndef LUMEL_DIRECTIONAL_DIRECTIONAL_SHARED_H
+#define LUMEL_DIRECTIONAL_DIRECTIONAL_SHARED_H
+#include "visibility/eye_views.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kDirectionalGroup = 64u;
+
+// Constants of the orthonormal real spherical harmonics.
+LUMEL_CONST float kY0 = 0.28209479f;   ///< √(1/4π)
+LUMEL_CONST float kY1 = 0.48860251f;   ///< √(3/4π)    × y, z, x
+LUMEL_CONST float kY2 = 1.09254843f;   ///< √(15/4π)   × xy, yz, xz
+LUMEL_CONST float kY20 = 0.31539157f;  ///< √(5/16π)   × 3z² - 1
+LUMEL_CONST float kY22 = 0.54627422f;  ///< √(15/16π)  × x² - y²
+
+LUMEL_CONST uint kElevations = 129u;  ///< rows of the fit's table, z = -1…1
+
+/// What light of radiance × solid angle 1 from ω gives the coefficients of a lumel whose normal is
+/// n, with z = n·ω and t = ω - z n:
+///     band 0   zero
+///     band 1   u = along n + across t,                      (y, z, x) of u
+///     band 2   M = axial (n nᵀ - I/3) + skew (n tᵀ + t nᵀ) + flat (t tᵀ - t·t (I - n nᵀ) / 2),
+///              kY2 (M_xy, M_yz), 3 kY20 M_zz, kY2 M_xz, kY22 (M_xx - M_yy)
+struct FitRow {
+    float zero;
+    float along, across;
+    float axial, skew, flat_;
+};
+
+/// Push constants of directional.receive.comp.
+struct DirectionalReceiveParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;  ///< N
+    uint shots;  ///< K
+    uint iteration;
+    uint seed;
+    uint centre;        ///< 1: receive at the centroid
+    uint order;         ///< 1 or 2
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+/// Push constants of directional.near.comp.
+struct DirectionalNearParams {
+    uint first;
+    uint last;
+    uint count;
+    uint order;
+    float shots;  ///< whose sums the bands hold
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,57 @@
+#pragma once
+// Cross-redistribution radiosity [Hoef13] 4.5: what moves is lit, sends light and hides light, at
+// the cost of hemicubes on what moves alone. See cross.cpp.
+
+#include "live/cross.shared.h"
+#include "solve/progressive.h"
+#include "visibility/lit_views.h"
+
+namespace lumel {
+
+/// Redistributes what was shot among what stays, batch by batch.
+class CrossRedistribution {
+public:
+    /// world: the solver's, made with movers, whose lumels are kLumelMoving. open [instances]: 1
+    /// of meshes that show backs without lumels to what is outside. All but it must outlive this.
+    CrossRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
+                        ProgressiveRadiosity& solver, const std::vector<char>& open);
+
+    /// Pairs with a moving lumel, with instances where they are next. Nothing may be under way.
+    void set_near_field(const NearField& near);
+    /// Begins to find anew what moving patches do where they now are in the world. Nothing may be
+    /// under way.
+    void begin();
+    /// One batch. Returns false once nothing is left to do.
+    bool step();
+    bool is_under_way() const { return under_way_; }
+    std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far, fronts and backs
+
+private:
+    void look_from_fronts();
+    void look_from_backs();
+    void resolve_backs();
+    void gather();
+    void receive();
+
+    const gpu::Device* device_;
+    World* world_;
+    const Lumels* lumels_;
+    ProgressiveRadiosity* solver_;
+    gpu::Kernel back_eyes_kernel_, resolve_, gather_, send_, receive_, settle_;
+    LitViews back_views_;
+    std::uint32_t batch_;  ///< K
+    BackLayout back_layout_;
+    std::vector<ChosenPatch> patches_;                    ///< M: all that move
+    gpu::Array<ChosenPatch> list_;                        ///< of them, in whole batches
+    gpu::Array<Eye> back_eyes_;                           ///< [K]
+    gpu::Array<BackPixel> back_;                          ///< [K][pixels of all levels]
+    gpu::Array<std::uint32_t> lumel_of_;                  ///< [texels][2]
+    gpu::Array<std::uint32_t> near_first_, near_column_;  ///< rows of still lumels, moving columns
+    gpu::Array<float> near_factor_;
+    gpu::Array<glm::vec3> fresh_, crossing_;  ///< [N] what moving patches do: being found, in force
+    std::uint32_t next_ = 0;                  ///< of the list
+    bool under_way_ = false;
+    std::uint64_t hemicubes_ = 0;
+};
+
+}  // namespace lumel

@@ -1,0 +1,20 @@
+#version 460
+#include "live/cross.shared.h"
+
+// What moving patches send and hide takes the place of what they did before. Nothing adds up over
+// many moves.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { CrossSettleParams p; };
+layout(binding = 0, scalar) readonly buffer Fresh { vec3 fresh[]; };
+layout(binding = 1, scalar) buffer Crossing { vec3 crossing[]; };
+layout(binding = 2, scalar) buffer Far { vec3 far[]; };
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count)
+        return;
+    far[i] += fresh[i] - crossing[i];
+    crossing[i] = fresh[i];
+}

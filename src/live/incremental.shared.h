@@ -1,0 +1,30 @@
+#ifndef LUMEL_LIVE_INCREMENTAL_SHARED_H
+#define LUMEL_LIVE_INCREMENTAL_SHARED_H
+#include "transport/patch_shots.shared.h"
+LUMEL_SHARED_BEGIN
+
+/// Where something was before it moved, or is now.
+struct MovedBox {
+    vec3 low;  ///< corners [m], world
+    vec3 high;
+};
+
+/// Push constants of incremental.receive.comp.
+struct RedistributeParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint shots;         ///< K
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    uint boxes;         ///< of what moved, before and after
+    float slack;        ///< angle [rad] by which views may show them larger
+    float sign_;        ///< -1: takes light back, 1: sends it anew
+};
+
+/// Push constants of incremental.reset.comp.
+struct ResetParams {
+    uint count;  ///< lumels
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,101 @@
+// A lamp is seen under a cone of half angle α: a ball of radius R from distance d with
+// sin α = R / d, or a disc in the sky. Directions are drawn uniformly from the cone, whose solid
+// angle is
+//
+//     Ω = 2π (1 - cos α) = 2π sin² α / (1 + cos α).
+//
+// The disc has the radiance lux / (π sin² α), so that a plane that faces it gets lux. The ball's
+// surface sends I(ω) / (π R²) along ω, so that all that it sends along ω is I(ω), whatever R is.
+// Times Ω, an estimate of what a plane that faces the drawn direction gets is
+//
+//     disc:  lux · 2 / (1 + cos α),          ball:  I(ω) / d² · 2 / (1 + cos α),
+//
+// which holds for α = 0, the point and the parallel beam, too. What is inside the ball gets none.
+
+#include "paths/lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "paths/directions.h"
+
+namespace lumel {
+
+namespace {
+
+/// A direction drawn from a cone.
+struct Ray {
+    glm::vec3 direction;
+    float cosine = 1.0f;        ///< to the axis
+    float squared_sine = 0.0f;  ///< exact where it is small
+    float spread = 1.0f;        ///< 2 / (1 + cos α)
+};
+
+/// Uniform in solid angle, as `disc` is over the unit disc. `squared_sine`: sin² α.
+Ray draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine, const glm::vec2& disc)
+{
+    Ray ray{.direction = axis};
+    if (squared_sine <= 0.0f)
+        return ray;
+    const float height = squared_sine / (1.0f + cosine);  // 1 - cos α
+    const float drop = height * glm::dot(disc, disc);
+    ray.cosine = 1.0f - drop;
+    ray.squared_sine = drop * (2.0f - drop);
+    ray.spread = 2.0f / (1.0f + cosine);
+    const glm::vec2 aside = std::sqrt(height * (2.0f - drop)) * disc;
+    ray.direction = turn_to(axis, aside.x, aside.y, ray.cosine);
+    return ray;
+}
+
+}  // namespace
+
+Lamps::Lamps(const Scene& scene) : scene_(&scene)
+{
+    for (const PunctualLight& light : scene.lights)
+        if (shines(light))
+            lamps_.push_back({.light = &light,
+                              .position = glm::vec3(light.transform[3]),
+                              .toward = glm::normalize(glm::vec3(light.transform[2]))});
+}
+
+LampSample Lamps::sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const
+{
+    const Lamp& chosen = lamps_[lamp];
+    return chosen.light->kind == PunctualLight::Kind::directional
+               ? from_disc(chosen, disc)
+               : from_ball(chosen, position, disc);
+}
+
+LampSample Lamps::from_disc(const Lamp& lamp, const glm::vec2& disc) const
+{
+    const float sine = std::sin(lamp.light->angle);
+    const Ray ray = draw_from_cone(lamp.toward, sine * sine, std::cos(lamp.light->angle), disc);
+    return {.direction = ray.direction,
+            .distance = std::numeric_limits<float>::infinity(),
+            .illuminance = lamp.light->intensity * ray.spread * lamp.light->color};
+}
+
+LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position,
+                            const glm::vec2& disc) const
+{
+    const PunctualLight& light = *lamp.light;
+    const glm::vec3 way = lamp.position - position;
+    const float squared = glm::dot(way, way);
+    const float squared_radius = light.radius * light.radius;
+    if (squared <= squared_radius)
+        return {};
+    const float squared_sine = squared_radius / squared;
+    const float far = std::sqrt(squared);
+    const Ray ray = draw_from_cone(way / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
+    // Where the ray enters the ball.
+    const float within = std::sqrt(std::max(0.0f, squared_radius - squared * ray.squared_sine));
+    LampSample sample{.direction = ray.direction, .distance = far * ray.cosine - within};
+    const float window = range_window(light, sample.distance);
+    if (window > 0.0f)
+        sample.illuminance =
+            intensity_towards(*scene_, light, -ray.direction) * (window * ray.spread / squared);
+    return sample;
+}
+
+}  // namespace lumel

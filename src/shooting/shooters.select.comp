@@ -1,0 +1,101 @@
+#version 460
+#include "shooting/shooters.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "shooting/radiosity.glsl"
+#include "shooting/power_pyramid.glsl"
+
+// Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
+// point y uniform on lumel j, the hemicube turned at random about the normal.
+//
+// Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area
+// A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. Its point stays on the
+// texel drawn, so that it lies on the surface.
+//
+// Among coloured glass what a shooter reaches differs from channel to channel: each takes one, with
+// three times the power in it.
+
+layout(local_size_x = kSelectGroup) in;
+layout(push_constant, scalar) uniform Params { SelectParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
+layout(binding = 3, scalar) readonly buffer Source { vec3 source[]; };
+layout(binding = 4, scalar) readonly buffer EmissionPower { float emission_power[]; };
+layout(binding = 5, scalar) readonly buffer SourcePower { float source_power[]; };
+layout(binding = 6, scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
+
+#include "world/lumel.glsl"
+#include "shooting/shooter.glsl"
+#include "visibility/channel.glsl"
+
+struct Merged {
+    vec3 power;    // Σ X_m A_m
+    float area;    // Σ A_m
+    float weight;  // Σ of what they are drawn by
+};
+
+bool is_merged_with(Lumel j, Lumel m)
+{
+    const uvec2 a = uvec2(j.texel % p.width, j.texel / p.width) >> p.merge;
+    const uvec2 b = uvec2(m.texel % p.width, m.texel / p.width) >> p.merge;
+    return a == b && j.chart == m.chart && (m.flags & kLumelBuried) == 0u;
+}
+
+// Lumels lie by chart and along a Morton curve: those of a square are neighbours.
+Merged merged_with(uint j)
+{
+    const Lumel lumel = lumels[j];
+    const uint reach = (1u << (2u * p.merge)) - 1u;
+    const uint last = min(j + reach, p.layout_.count[0] - 1u);
+    Merged sum = Merged(vec3(0.0), 0.0, 0.0);
+    for (uint m = j - min(j, reach); m <= last; ++m)
+        if (is_merged_with(lumel, lumels[m])) {
+            sum.power += source[m] * lumels[m].area;
+            sum.area += lumels[m].area;
+            sum.weight += source_power[p.layout_.first[0] + m];
+        }
+    return sum;
+}
+
+void main()
+{
+    const uint k = gl_GlobalInvocationID.x;
+    if (k >= p.count)
+        return;
+    const bool emits = k < p.emission_count;
+    const uint index = emits ? p.emission_index + k : p.source_index + k - p.emission_count;
+    // Channels take turns with one shooter, so that each has a whole sequence of them.
+    const uint point = p.channels != 0u ? index / kChannels : index;
+    const vec3 u = draw_point(point, emits ? 0u : 1u, p.seed, p.random != 0u);
+
+    const PyramidLayout layout_ = p.layout_;
+    Drawn drawn;
+    if (emits)
+        DRAW_FROM(emission_power, u.x)
+    else
+        DRAW_FROM(source_power, u.x)
+
+    const uint j = drawn.lumel;
+    const Lumel lumel = lumels[j];
+    const float area = lumel.area;
+    LumelPoint y = point_on(lumel, u.y, u.z);
+    if (p.centre != 0u) {
+        y.position = lumel.position;
+        y.normal = lumel.normal;
+    }
+    const uint channel = channel_in_turn(index, p.channels != 0u);
+    eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)),
+                       channel);
+
+    Merged sent = Merged((emits ? emission[j] : source[j]) * area, area, 1.0);
+    float probability = drawn.probability;
+    if (p.merge > 0u && !emits && probability > 0.0) {
+        sent = merged_with(j);
+        probability *= sent.weight / source_power[layout_.first[0] + j];
+    }
+    const float scale = probability > 0.0 ? 1.0 / (kPi * probability) : 0.0;
+    shots[k] = Shot(sent.power * carried_in_turn(channel) * scale, lumel.position, lumel.size,
+                    p.disc != 0u ? sent.area / kPi : 0.0, j);
+}

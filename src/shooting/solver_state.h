@@ -1,0 +1,15 @@
+#pragma once
+// Where a solver stands.
+
+#include <cstdint>
+
+namespace lumel {
+
+/// As last read back from the device.
+struct SolverState {
+    std::uint64_t shots = 0;       ///< shooters so far
+    std::uint64_t iterations = 0;  ///< steps so far
+    double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
+};
+
+}  // namespace lumel

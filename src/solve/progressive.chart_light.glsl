@@ -1,0 +1,15 @@
+// Sums of ChartLight over a workgroup.
+
+ChartLight no_light()
+{
+    return ChartLight(0.0, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+ChartLight plus(ChartLight a, ChartLight b)
+{
+    return ChartLight(a.power + b.power, a.unshot + b.unshot, a.shot + b.shot,
+                      a.arrived + b.arrived, a.reflected + b.reflected);
+}
+
+#define SUMMAND ChartLight
+#include "shooting/group_sum.glsl"

@@ -1,0 +1,11 @@
+// Light that a lumel sends next. The includer declares what unshot.glsl needs, and `vec3 ambient`.
+
+#include "transport/unshot.glsl"
+
+// Unshot light, and what will be reflected of light that is still to arrive: overshooting [FP92].
+// Never more than was reflected so far, so that what no light reaches stays dark.
+vec3 foreseen(uint j)
+{
+    const vec3 reflected = abs(surface[j].rgb * (far[j] + near[j]));
+    return unshot_of(j) + clamp(surface[j].rgb * ambient, -reflected, reflected);
+}

@@ -1,0 +1,37 @@
+#version 460
+#include "transport/form_factors.shared.h"
+#include "atlas/lumel.shared.h"
+#include "core/hash.glsl"
+#include "shooting/radiosity.glsl"
+
+// Eyes of a batch of blocks, and their shots at a radiosity of 1.
+
+layout(local_size_x = kFormFactorGroup) in;
+layout(push_constant, scalar) uniform Params { BlockParams p; };
+layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
+layout(binding = 2, scalar) readonly buffer Blocks { Patch blocks[]; };
+layout(binding = 3, scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(binding = 4, scalar) writeonly buffer Shots { PatchShot shots[]; };
+
+#include "world/lumel.glsl"
+#include "transport/block_point.glsl"
+#include "shooting/shooter.glsl"
+#include "visibility/channel.glsl"
+
+void main()
+{
+    const uint k = gl_GlobalInvocationID.x;
+    if (k >= p.count)
+        return;
+    const Patch block = blocks[p.first + k];
+    float area = 0.0, size = 0.0;
+    for (uint j = block.first; j < block.first + block.count; ++j) {
+        area += lumels[j].area;
+        size = max(size, lumels[j].size);
+    }
+    shots[k] = PatchShot(vec3(area / kPi), block.size, size, block.first, block.count, 1u,
+                         block.first, 1.0);
+    const LumelPoint y = block_point(block);
+    eyes[k] = make_eye(y.position, y.normal, hash(block.first), kAllChannels);
+}

@@ -1,0 +1,67 @@
+#include "transport/patch_shots.h"
+
+#include "shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kTakeSpirv[] = {
+#include "transport/patch_shots.take.comp.inc"
+};
+
+}  // namespace
+
+ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
+    : surface(device, view(surfaces_of(lumels))),
+      emission(device, view(emission_of(lumels))),
+      shot(device, lumels.lumels.size()),
+      far(device, lumels.lumels.size()),
+      near(device, lumels.lumels.size())
+{
+}
+
+PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
+                       const ViewOptions& options)
+    : world_(&world),
+      take_(device, "patch_shots.take", kTakeSpirv, 14, sizeof(TakeParams), kPatchGroup),
+      views_(device, world, options.projection, std::uint32_t(options.hemicube),
+             std::uint32_t(options.batch)),
+      batch_(views_.capacity()),
+      layout_(make_patches(lumels)),
+      patches_(device, view(layout_.patches)),
+      charts_(device, view(layout_.charts)),
+      levels_(device, layout_.charts.size()),
+      chosen_(device, batch_),
+      eyes_(device, batch_),
+      shots_(device, batch_),
+      sending_(device, lumels.lumels.size()),
+      no_ambient_(device, 1)
+{
+}
+
+void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
+                      const gpu::Array<glm::vec3>& ambient)
+{
+    commands.dispatch(take_,
+                      {world_->lumels(), world_->pieces(), charts_, patches_, chosen_,
+                       light.surface, light.emission, light.far, light.near, light.shot, sending_,
+                       eyes_, shots_, ambient},
+                      TakeParams{batch_}, batch_);
+}
+
+void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
+                      const gpu::Array<ChosenPatch>& list, std::uint32_t first)
+{
+    commands.copy_part(list.buffer(), first * sizeof(ChosenPatch), chosen_.buffer(), 0,
+                       batch_ * sizeof(ChosenPatch));
+    take(commands, light, no_ambient_);
+}
+
+std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch)
+{
+    while (list.empty() || list.size() % batch != 0)
+        list.push_back({kNoPatch, 0, 0, kSendShot});
+    return list;
+}
+
+}  // namespace lumel
