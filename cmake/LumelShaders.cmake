@@ -27,29 +27,22 @@ function(lumel_shader_path shader result)
     set(${result} ${path} PARENT_SCOPE)
 endfunction()
 
-# Compiles a shader into the target, once: <path>.inc is what runs, as words of a C array;
+# Compiles a shader for the target, once: <path>.inc is what runs, as words of a C array;
 # <path>.names.spv the same with the names that optimisation drops, and <path>.names.d what it
 # includes, are for the header.
 function(lumel_spirv target shader)
     lumel_shader_path(${shader} path)
     set(source ${CMAKE_CURRENT_SOURCE_DIR}/${shader})
     set(output ${PROJECT_BINARY_DIR}/shaders/${path})
-    get_source_file_property(known ${output}.c LUMEL_SHADER)
-    if(known)
+    get_target_property(known ${target} LUMEL_SHADERS)
+    if(NOT known)
+        cmake_language(EVAL CODE "cmake_language(DEFER CALL lumel_spirv_source ${target})")
+    elseif(path IN_LIST known)
         return()
     endif()
+    set_property(TARGET ${target} APPEND PROPERTY LUMEL_SHADERS ${path})
     get_filename_component(folder ${output} DIRECTORY)
     file(MAKE_DIRECTORY ${folder})
-    string(REGEX REPLACE "[^A-Za-z0-9]" "_" symbol lumel_spirv_${path})
-    file(CONFIGURE OUTPUT ${output}.c CONTENT
-"#include <stddef.h>
-#include <stdint.h>
-
-const uint32_t @symbol@[] = {
-#include \"@output@.inc\"
-};
-const size_t @symbol@_words = sizeof @symbol@ / sizeof @symbol@[0];
-" @ONLY)
     get_filename_component(stage ${path} LAST_EXT)
     string(SUBSTRING ${stage} 1 -1 stage)
     set(first ${LUMEL_FIRST_BINDING_${stage}})
@@ -66,8 +59,25 @@ const size_t @symbol@_words = sizeof @symbol@ / sizeof @symbol@[0];
         COMMENT "Compiling ${path}"
         COMMAND_EXPAND_LISTS
         VERBATIM)
-    set_source_files_properties(${output}.c PROPERTIES LUMEL_SHADER ON OBJECT_DEPENDS ${output}.inc)
-    target_sources(${target} PRIVATE ${output}.c ${output}.inc)
+    target_sources(${target} PRIVATE ${output}.inc)
+endfunction()
+
+# One C source with the words of all of a target's shaders, for its headers to name.
+function(lumel_spirv_source target)
+    get_target_property(paths ${target} LUMEL_SHADERS)
+    set(source ${PROJECT_BINARY_DIR}/shaders/${target}.c)
+    set(text "#include <stddef.h>\n#include <stdint.h>\n")
+    set(words "")
+    foreach(path ${paths})
+        string(REGEX REPLACE "[^A-Za-z0-9]" "_" symbol lumel_spirv_${path})
+        set(file ${PROJECT_BINARY_DIR}/shaders/${path}.inc)
+        list(APPEND words ${file})
+        string(APPEND text "\nconst uint32_t ${symbol}[] = {\n#include \"${file}\"\n};\n"
+                           "const size_t ${symbol}_words = sizeof ${symbol} / sizeof ${symbol}[0];\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${words}")
+    target_sources(${target} PRIVATE ${source})
 endfunction()
 
 function(lumel_shader_header target header name)

@@ -38,7 +38,7 @@ struct BounceParams {
     uint channels;  ///< hemicubes of one lumel
     uint count;     ///< N
     uint averaged;  ///< 1: what arrives is added to the half-solution
-    uint half_;     ///< 0 or 1
+    uint half_index;     ///< 0 or 1
     uvec2 taken;    ///< bounces in each half-solution, with this one
 };
 

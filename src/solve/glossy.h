@@ -11,6 +11,9 @@
 #include "nearfield/near_rows.h"
 #include "shooting/figures.h"
 #include "shooting/power_pyramid.h"
+#include "solve/glossy.evaluate.comp.h"
+#include "solve/glossy.receive.comp.h"
+#include "solve/glossy.select.comp.h"
 #include "solve/glossy.shared.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
@@ -67,7 +70,9 @@ public:
 private:
     struct Kernels {
         Kernels(const gpu::Device& device, Projection projection);
-        gpu::Kernel select, receive, evaluate;
+        gpu::Kernel<shaders::GlossySelect> select;
+        gpu::Kernel<shaders::GlossyReceive> receive;
+        gpu::Kernel<shaders::GlossyEvaluate> evaluate;
     };
 
     /// Where frames begin: what an iteration takes from the one before, and mean B, in proportion

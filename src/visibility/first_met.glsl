@@ -1,4 +1,7 @@
-// Is a lumel the first thing that light meets? Needs atlas/lumel.shared.h.
+#ifndef LUMEL_VISIBILITY_FIRST_MET_GLSL
+#define LUMEL_VISIBILITY_FIRST_MET_GLSL
+
+// Is a lumel the first thing that light meets?
 //
 // A pixel tells exactly what the ray through its centre meets first, and nothing of the rays beside
 // it. So the point of a lumel that is asked about is one where a pixel's ray meets the lumel: all
@@ -78,3 +81,5 @@ bool is_first(PieceInView s, RayMet ray, float stored)
     const float slope = abs(s.depth_form.x) + abs(s.depth_form.y);
     return stored <= own + s.rounding + kSnap * kSnapSlack * slope;
 }
+
+#endif
