@@ -27,7 +27,7 @@ function(lumel_shader_path shader result)
     set(${result} ${path} PARENT_SCOPE)
 endfunction()
 
-# Compiles a shader for the target, once: <path>.inc is what runs, as words of a C array;
+# Compiles a shader for the target, once: <path>.inc is what runs, as words of an array;
 # <path>.names.spv the same with the names that optimisation drops, and <path>.names.d what it
 # includes, are for the header.
 function(lumel_spirv target shader)
@@ -62,21 +62,30 @@ function(lumel_spirv target shader)
     target_sources(${target} PRIVATE ${output}.inc)
 endfunction()
 
-# One C source with the words of all of a target's shaders, for its headers to name.
+# One source with the words of all of a target's shaders, for its headers to name.
 function(lumel_spirv_source target)
     get_target_property(paths ${target} LUMEL_SHADERS)
-    set(source ${PROJECT_BINARY_DIR}/shaders/${target}.c)
-    set(text "#include <stddef.h>\n#include <stdint.h>\n")
+    set(source ${PROJECT_BINARY_DIR}/shaders/${target}.cpp)
+    set(text "#include <cstddef>\n#include <cstdint>\n#include <iterator>\n")
     set(words "")
     foreach(path ${paths})
         string(REGEX REPLACE "[^A-Za-z0-9]" "_" symbol lumel_spirv_${path})
         set(file ${PROJECT_BINARY_DIR}/shaders/${path}.inc)
         list(APPEND words ${file})
-        string(APPEND text "\nconst uint32_t ${symbol}[] = {\n#include \"${file}\"\n};\n"
-                           "const size_t ${symbol}_words = sizeof ${symbol} / sizeof ${symbol}[0];\n")
+        string(APPEND text "
+extern \"C\" {
+extern const std::uint32_t ${symbol}[];
+extern const std::size_t ${symbol}_words;
+}
+const std::uint32_t ${symbol}[] = {
+#include \"${file}\"
+};
+const std::size_t ${symbol}_words = std::size(${symbol});
+")
     endforeach()
     file(CONFIGURE OUTPUT ${source} CONTENT "${text}" @ONLY)
-    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${words}")
+    set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${words}"
+                                SKIP_PRECOMPILE_HEADERS ON)
     target_sources(${target} PRIVATE ${source})
 endfunction()
 

@@ -23,7 +23,7 @@ layout(scalar) readonly buffer Column { uint column[]; };
 layout(scalar) readonly buffer Factor { float factor[]; };
 layout(scalar) readonly buffer Source { vec3 source[]; };
 
-// Pairs closer than this, in sizes of the larger, are looked at between so many points.
+// Pairs closer than this, in sizes of the larger, are sampled between this number of points.
 const float kClose = 4.0;
 const uint kPoints = 8u;
 // A sender that lies lower than this part of its size, on the whole, is cut by the receiver's

@@ -15,6 +15,7 @@
 #include "solve/glossy.receive.comp.h"
 #include "solve/glossy.select.comp.h"
 #include "solve/glossy.shared.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
 
@@ -32,7 +33,7 @@ public:
     /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
     /// outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const NearField& near, const SolverOptions& options,
+                       const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
 
@@ -95,7 +96,7 @@ private:
     void evaluate(gpu::Commands& commands);
     void take_figures();
 
-    SolverOptions options_;
+    GlossyOptions options_;
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;  ///< K
     bool paper_;

@@ -27,8 +27,8 @@ struct GlossyReceiveParams {
     EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
-    uint count;  ///< N
-    uint shots;  ///< K
+    uint count;       ///< N
+    uint shots;       ///< K
     uint half_index;  ///< 0 or 1: which half-solution takes this batch
     uint iteration;
     uint seed;

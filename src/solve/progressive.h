@@ -2,6 +2,7 @@
 // Progressive refinement radiosity [Hoef13] 4.3. See progressive.cpp.
 
 #include "shooting/figures.h"
+#include "solve/options.h"
 #include "solve/progressive.power.comp.h"
 #include "solve/progressive.receive.comp.h"
 #include "solve/progressive.residual.comp.h"
@@ -17,7 +18,7 @@ namespace lumel {
 class ProgressiveRadiosity final : public Solver {
 public:
     ProgressiveRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                         const NearField& near, const SolverOptions& options);
+                         const NearField& near, const ProgressiveOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

@@ -5,6 +5,7 @@
 #include "shooting/iteration.h"
 #include "shooting/power_pyramid.h"
 #include "shooting/shooters.select.comp.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "solve/stochastic.receive.comp.h"
 #include "solve/stochastic.shared.h"
@@ -16,7 +17,7 @@ namespace lumel {
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                        const NearField& near, const SolverOptions& options,
+                        const NearField& near, const StochasticOptions& options,
                         std::span<const glm::vec3> known = {});
 
     void step() override;
@@ -31,7 +32,7 @@ private:
     void build_source_pyramid();
     std::uint32_t emission_shots_of_batch();
 
-    SolverOptions options_;
+    StochasticOptions options_;
     std::uint32_t atlas_width_;  ///< [texels]
     bool paper_;
     float near_radius_;

@@ -14,7 +14,7 @@ layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Sending { vec3 sending[]; };
 
-// From so many times the patch's size away it counts as one point.
+// Beyond this many times the patch's size it counts as one point.
 const float kFar = 4.0;
 
 // [Hoef13] Eq. (2.2.8), with the disc of each lumel where the patch is close (adaptive form factor

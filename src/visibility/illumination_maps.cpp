@@ -13,7 +13,7 @@ namespace {
 /// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
 /// map, several times.
 constexpr std::uint64_t kFragmentsPerPixel = 4;
-/// And at least so many (48 MiB): few maps do not even out what single views need.
+/// And at least this number (48 MiB): few maps do not even out the needs of single views.
 constexpr std::uint64_t kLeastFragments = 4u << 20;
 
 /// Fewer tiles if lists of that many would not fit an array.

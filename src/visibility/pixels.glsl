@@ -1,8 +1,8 @@
 #ifndef LUMEL_VISIBILITY_PIXELS_GLSL
 #define LUMEL_VISIBILITY_PIXELS_GLSL
 
-// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes. Declares
-// the image of all eyes, `views`. A Kernel's variant says the projection.
+// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes.
+// Declares the image of all eyes, `views`. A Kernel's variant selects the projection.
 
 #include "visibility/eye_views.shared.h"
 #include "visibility/hemisphere.glsl"
@@ -38,7 +38,7 @@ ViewPoint project_to_hemicube(EyeViewLayout tiling, vec3 local)
     return f;
 }
 
-// The centre of a pixel that is asked lies at least so far inside the disc's rim [pixels]: what
+// The centre of a pixel that is read lies at least this far inside the disc's rim [pixels]: what
 // stands on the eye's plane ends at the rim, and its chords half a pixel before.
 const float kRim = 0.5;
 

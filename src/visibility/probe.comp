@@ -2,7 +2,7 @@
 #include "visibility/probe.shared.h"
 #include "visibility/sees.glsl"
 
-// What one eye answers to a list of questions.
+// Which of a list of points one eye sees.
 
 layout(local_size_x = kProbeGroup) in;
 layout(push_constant, scalar) uniform Params { ProbeParams p; };
