@@ -10,6 +10,8 @@
 #include <fmt/core.h>
 
 #include "bench/papers/matrix_case.h"
+#include "bench/papers/matrix_speed.reflect.comp.h"
+#include "bench/papers/matrix_speed.row.comp.h"
 #include "bench/papers/matrix_speed.shared.h"
 #include "bench/stopwatch.h"
 #include "core/error.h"
@@ -17,13 +19,6 @@
 
 namespace lumel::bench {
 namespace {
-
-constexpr std::uint32_t kRowSpirv[] = {
-#include "../bench/papers/matrix_speed.row.comp.inc"
-};
-constexpr std::uint32_t kReflectSpirv[] = {
-#include "../bench/papers/matrix_speed.reflect.comp.inc"
-};
 
 constexpr int kStretches = 3;  // the fastest counts
 constexpr double kGigabyte = 1e9;
@@ -64,8 +59,7 @@ public:
           received_(device, std::size_t(width_) * 3),
           gather_(device, count_, width_, {}, matrix_case.elements.color),
           product_(device, Code::float32, std::span(&words_of(matrix_case), 1), count_, count_, {}),
-          reflect_(device, "matrix_speed.reflect", kReflectSpirv, 4, sizeof(ReflectParams),
-                   kRowLanes)
+          reflect_(device)
     {
         words_.clear();
     }
@@ -77,8 +71,9 @@ public:
         gather_.record(commands, x, sent_, 1);
         for (int bounce = 0; bounce < bounces; ++bounce) {
             product_.record(commands, sent_, received_, width_, 1);
-            commands.dispatch(reflect_, {color_, received_, sent_, y},
-                              ReflectParams{count_, width_}, count_);
+            commands.dispatch(
+                reflect_, {.color = color_, .incident = received_, .excident = sent_, .total = y},
+                ReflectParams{count_, width_}, count_);
         }
     }
 
@@ -97,7 +92,7 @@ private:
     gpu::Array<float> sent_, received_;
     Gather gather_;
     RowsProduct product_;
-    gpu::Kernel reflect_;
+    gpu::Kernel<shaders::MatrixSpeedReflect> reflect_;
 };
 
 double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
@@ -189,7 +184,7 @@ public:
     RowByRow(const gpu::Device& device, const CodedMatrix& matrix)
         : quads_(filled_up(matrix.size) / 4),
           rows_(matrix.size),
-          kernel_(device, "matrix_speed.row", kRowSpirv, 3, sizeof(RowParams), kRowLanes)
+          kernel_(device)
     {
         const std::size_t row_words = std::size_t(quads_) * 4;
         const std::uint32_t most = std::min(
@@ -208,9 +203,10 @@ public:
     void record(gpu::Commands& commands, const gpu::Array<float>& in, const gpu::Array<float>& out)
     {
         for (const Part& part : parts_)
-            commands.dispatch(kernel_, {part.words, in, out},
-                              RowParams{quads_, part.first_row, rows_},
-                              std::size_t(part.rows) * kRowLanes);
+            commands.dispatch(
+                kernel_,
+                {.matrix = gpu::packed(part.words), .vectors = gpu::packed(in), .result = out},
+                RowParams{quads_, part.first_row, rows_}, std::size_t(part.rows) * kRowLanes);
     }
 
 private:
@@ -221,7 +217,7 @@ private:
 
     std::uint32_t quads_, rows_;
     std::vector<Part> parts_;
-    gpu::Kernel kernel_;
+    gpu::Kernel<shaders::MatrixSpeedRow> kernel_;
 };
 
 /// Bytes per second that a copy on the device reads and writes.

@@ -5,10 +5,10 @@
 
 layout(local_size_x = kRowLanes) in;
 layout(push_constant, scalar) uniform Params { ReflectParams p; };
-layout(binding = 0, scalar) readonly buffer Color { vec3 color[]; };        // [n]
-layout(binding = 1, scalar) readonly buffer Incident { float incident[]; };  // [3][width]
-layout(binding = 2, scalar) writeonly buffer Excident { float excident[]; };
-layout(binding = 3, scalar) buffer Total { vec3 total[]; };  // [n]
+layout(scalar) readonly buffer Color { vec3 color[]; };  // [n]
+layout(scalar) readonly buffer Incident { float incident[]; };  // [3][width]
+layout(scalar) writeonly buffer Excident { float excident[]; };
+layout(scalar) buffer Total { vec3 total[]; };  // [n]
 
 void main()
 {

@@ -5,9 +5,9 @@
 
 layout(local_size_x = kRowLanes) in;
 layout(push_constant, scalar) uniform Params { RowParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { vec4 matrix[]; };
-layout(binding = 1, scalar) readonly buffer Vectors { vec4 vectors[]; };
-layout(binding = 2, scalar) writeonly buffer Result { float result[]; };
+layout(scalar) readonly buffer Matrix { vec4 matrix[]; };
+layout(scalar) readonly buffer Vectors { vec4 vectors[]; };
+layout(scalar) writeonly buffer Result { float result[]; };
 
 shared float sums[kRowLanes];
 

@@ -11,6 +11,7 @@
 
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
+#include "bench/papers/selection.draw.comp.h"
 #include "bench/stopwatch.h"
 #include "shooting/lumel_arrays.h"
 #include "shooting/power_pyramid.h"
@@ -18,19 +19,9 @@
 namespace lumel::bench {
 namespace {
 
-constexpr std::uint32_t kDrawSpirv[] = {
-#include "../bench/papers/selection.draw.comp.inc"
-};
-
 constexpr int kStretches = 3;  ///< of draws; the fastest counts
 
 /// Push constants of selection.draw.comp.
-struct DrawParams {
-    PyramidLayout layout_;
-    float u;
-    std::uint32_t draw;
-};
-
 struct Power {
     std::vector<glm::vec3> radiosity;  ///< [N] B
     std::vector<glm::vec4> surface;    ///< [N] ρ, A
@@ -102,12 +93,12 @@ DrawCost on_device(const gpu::Device& device, const Power& power, const std::vec
     const gpu::Array<glm::vec3> source(device, view(power.radiosity));
     const gpu::Array<glm::vec4> surface(device, view(power.surface));
     const gpu::Array<std::uint32_t> lumels(device, numbers.size());
-    const gpu::Kernel draw(device, "selection.draw", kDrawSpirv, 2, sizeof(DrawParams), 1);
+    const gpu::Kernel<shaders::SelectionDraw> draw(device);
     PowerPyramid pyramid(device, source.size());
     gpu::Commands commands(device);
     DrawCost cost = time_draws(numbers, [&](std::size_t k) {
         pyramid.build(commands, source, surface, 0.0f, 0.0f);
-        commands.dispatch(draw, {pyramid.array(), lumels},
+        commands.dispatch(draw, {.weights = pyramid.array(), .lumels = lumels},
                           DrawParams{pyramid.layout(), numbers[k], std::uint32_t(k)}, 1);
         commands.run();
     });

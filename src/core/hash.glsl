@@ -1,3 +1,6 @@
+#ifndef LUMEL_CORE_HASH_GLSL
+#define LUMEL_CORE_HASH_GLSL
+
 // Integer hashing and conversion to floats.
 
 // A bijection of 32 bits with good avalanche (the "lowbias32" constants of C. Wellons).
@@ -16,3 +19,5 @@ float unit_float(uint x)
 {
     return float(x >> 8) * (1.0 / 16777216.0);
 }
+
+#endif

@@ -14,33 +14,21 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "directional/directional.near.comp.h"
+#include "directional/directional.receive.comp.h"
 #include "directional/directional.shared.h"
 #include "nearfield/near_rows.h"
 #include "shooting/lumel_arrays.h"
 #include "shooting/power_pyramid.h"
+#include "shooting/shooters.select.comp.h"
 #include "shooting/shooters.shared.h"
 #include "visibility/eye_views.h"
 
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kSelectSpirv[] = {
-#include "shooting/shooters.select.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "directional/directional.receive.comp.inc"
-};
-constexpr std::uint32_t kNearSpirv[] = {
-#include "directional/directional.near.comp.inc"
-};
-
 /// Shooters, whatever the solve took, and before a stop is heeded.
 constexpr std::uint64_t kFewestShots = 1024, kMostShots = 4096, kShotsBeforeStop = 256;
-
-constexpr gpu::Slot kReceiveSlots[] = {
-    gpu::Slot::array,     gpu::Slot::array,   gpu::Slot::constants,
-    gpu::Slot::constants, gpu::Slot::texture, gpu::Slot::array,
-    gpu::Slot::array,     gpu::Slot::array,   gpu::Slot::array};
 
 /// B = E + ρH [N]; what is buried sends nothing.
 std::vector<glm::vec3> radiosity_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
@@ -64,12 +52,9 @@ public:
           batch_(std::clamp(options.batch, 1u, kMostBatch)),
           near_radius_(near.radius),
           world_(&world),
-          select_(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
-          receive_(device, "directional.receive", kReceiveSpirv, kReceiveSlots,
-                   sizeof(DirectionalReceiveParams), kDirectionalGroup,
-                   std::uint32_t(options.projection)),
-          near_(device, "directional.near", kNearSpirv, 10, sizeof(DirectionalNearParams),
-                kDirectionalGroup),
+          select_(device),
+          receive_(device, std::uint32_t(options.projection)),
+          near_(device),
           views_(device, world, options.projection, options.hemicube, batch_),
           eyes_(device, kMostBatch),
           shots_(device, kMostBatch),
@@ -105,15 +90,23 @@ public:
     /// Ends the gathering: coefficients [4 or 9][N]. Waits for the device.
     std::vector<std::vector<glm::vec3>> finish()
     {
-        pacer_.work(
-            "directional near", count_, kProbeLumels,
-            [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                commands.dispatch(
-                    near_,
-                    {world_->lumels(), near_rows_.first(), near_rows_.column(), near_rows_.factor(),
-                     source_, fit_, bands_[0], bands_[1], bands_[2], world_->pieces()},
-                    DirectionalNearParams{first, last, count_, order_, float(sent_)}, last - first);
-            });
+        pacer_.work("directional near", count_, kProbeLumels,
+                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                        commands.dispatch(
+                            near_,
+                            {.lumels = world_->lumels(),
+                             .pieces = world_->pieces(),
+                             .fit = fit_,
+                             .band0 = bands_[0],
+                             .band1 = bands_[1],
+                             .band2 = bands_[2],
+                             .first = near_rows_.first(),
+                             .column = near_rows_.column(),
+                             .factor = near_rows_.factor(),
+                             .source = source_},
+                            DirectionalNearParams{first, last, count_, order_, float(sent_)},
+                            last - first);
+                    });
         pacer_.finish();
         std::vector<std::vector<glm::vec3>> coefficients;
         for (std::uint32_t l = 0; l <= order_; ++l) {
@@ -129,7 +122,7 @@ public:
 private:
     void select()
     {
-        const SelectParams params{.layout_ = pyramid_.layout(),
+        const SelectParams params{.pyramid = pyramid_.layout(),
                                   .count = batch_,
                                   .emission_count = 0,
                                   .source_index = std::uint32_t(sent_),
@@ -139,8 +132,14 @@ private:
                                   .channels = world_->has_coloured_glass() ? 1u : 0u};
         pacer_.work("select", [&](gpu::Commands& commands) {
             commands.dispatch(select_,
-                              {world_->lumels(), world_->pieces(), source_, source_,
-                               pyramid_.array(), pyramid_.array(), eyes_, shots_},
+                              {.lumels = world_->lumels(),
+                               .pieces = world_->pieces(),
+                               .emission = source_,
+                               .source = source_,
+                               .emission_power = pyramid_.array(),
+                               .source_power = pyramid_.array(),
+                               .eyes = eyes_,
+                               .shots = shots_},
                               params, batch_);
         });
     }
@@ -160,15 +159,15 @@ private:
                         params.first = first;
                         params.last = last;
                         commands.dispatch(receive_,
-                                          {world_->lumels(),
-                                           world_->pieces(),
-                                           eyes_,
-                                           shots_,
-                                           {views_.image(), views_.sampler()},
-                                           fit_,
-                                           bands_[0],
-                                           bands_[1],
-                                           bands_[2]},
+                                          {.lumels = world_->lumels(),
+                                           .pieces = world_->pieces(),
+                                           .views = {views_.image(), views_.sampler()},
+                                           .eyes = eyes_,
+                                           .shots = shots_,
+                                           .fit = fit_,
+                                           .band0 = bands_[0],
+                                           .band1 = bands_[1],
+                                           .band2 = bands_[2]},
                                           params, last - first);
                     });
     }
@@ -179,7 +178,9 @@ private:
     std::uint32_t batch_;  ///< K
     float near_radius_;
     const World* world_;
-    gpu::Kernel select_, receive_, near_;
+    gpu::Kernel<shaders::ShootersSelect> select_;
+    gpu::Kernel<shaders::DirectionalReceive> receive_;
+    gpu::Kernel<shaders::DirectionalNear> near_;
     EyeViews views_;
     gpu::Array<Eye> eyes_;
     gpu::Array<Shot> shots_;

@@ -1,5 +1,14 @@
-// Sums of spherical harmonics for one lumel. The includer declares `FitRow fit[]` and the bands
-// `vec3 band0[]`, `band1[]` and `band2[]`, [2l + 1][N] each.
+#ifndef LUMEL_DIRECTIONAL_DIRECTIONAL_GLSL
+#define LUMEL_DIRECTIONAL_DIRECTIONAL_GLSL
+
+// Sums of spherical harmonics for one lumel. Declares the bands that they are kept in, and `fit`.
+
+#include "directional/directional.shared.h"
+
+layout(scalar) readonly buffer Fit { FitRow fit[]; };
+layout(scalar) buffer Band0 { vec3 band0[]; };  // [2l + 1][N] each
+layout(scalar) buffer Band1 { vec3 band1[]; };
+layout(scalar) buffer Band2 { vec3 band2[]; };
 
 vec3 sums[9];
 
@@ -10,7 +19,7 @@ FitRow fit_row(float z)
     const float f = at - float(row);
     const FitRow a = fit[row], b = fit[row + 1u];
     return FitRow(mix(a.zero, b.zero, f), mix(a.along, b.along, f), mix(a.across, b.across, f),
-                  mix(a.axial, b.axial, f), mix(a.skew, b.skew, f), mix(a.flat_, b.flat_, f));
+                  mix(a.axial, b.axial, f), mix(a.skew, b.skew, f), mix(a.planar, b.planar, f));
 }
 
 // What light of radiance × solid angle 1 from unit direction `from` adds to the coefficients of a
@@ -27,10 +36,10 @@ void coefficients_of(vec3 from, vec3 n, uint order, out float c[9])
     c[3] = u.x;
     if (order < 2u)
         return;
-    const float even = 0.5 * row.flat_ * dot(t, t);
-    const vec3 square = (row.axial + even) * n * n + 2.0 * row.skew * n * t + row.flat_ * t * t -
+    const float even = 0.5 * row.planar * dot(t, t);
+    const vec3 square = (row.axial + even) * n * n + 2.0 * row.skew * n * t + row.planar * t * t -
                         (row.axial / 3.0 + even);
-    const vec3 a = (row.axial + even) * n + row.skew * t, b = row.skew * n + row.flat_ * t;
+    const vec3 a = (row.axial + even) * n + row.skew * t, b = row.skew * n + row.planar * t;
     const vec3 product = a * n.yzx + b * t.yzx;  // xy, yz, zx
     c[4] = kY2 * product.x;
     c[5] = kY2 * product.y;
@@ -97,3 +106,5 @@ void scale_sums(float by)
     sums[7] *= by;
     sums[8] *= by;
 }
+
+#endif

@@ -1,6 +1,9 @@
 #version 460
 #include "directional/directional.shared.h"
 #include "atlas/lumel.shared.h"
+#include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "directional/directional.glsl"
 
 // The mean of all shots, and the light of near pairs: F_ij X_j / cosθ_i is the radiance times the
 // solid angle of lumel j. Where it comes from is looked at between points of both lumels, each
@@ -15,20 +18,10 @@
 
 layout(local_size_x = kDirectionalGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalNearParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer First { uint first[]; };
-layout(binding = 2, scalar) readonly buffer Column { uint column[]; };
-layout(binding = 3, scalar) readonly buffer Factor { float factor[]; };
-layout(binding = 4, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 5, scalar) readonly buffer Fit { FitRow fit[]; };
-layout(binding = 6, scalar) buffer Band0 { vec3 band0[]; };
-layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
-layout(binding = 8, scalar) buffer Band2 { vec3 band2[]; };
-layout(binding = 9, scalar) readonly buffer Pieces { Piece pieces[]; };
-
-#include "shooting/radiosity.glsl"
-#include "world/lumel.glsl"
-#include "directional/directional.glsl"
+layout(scalar) readonly buffer First { uint first[]; };
+layout(scalar) readonly buffer Column { uint column[]; };
+layout(scalar) readonly buffer Factor { float factor[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
 
 // Pairs closer than this, in sizes of the larger, are sampled between this number of points.
 const float kClose = 4.0;

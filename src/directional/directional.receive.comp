@@ -3,6 +3,11 @@
 #include "shooting/shooters.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "shooting/shot.glsl"
+#include "directional/directional.glsl"
 
 // Every lumel i adds up where the light of K shots comes from. A shot gives it the irradiance
 // dH = X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π), so dH / cosθ_i is the radiance times
@@ -10,21 +15,6 @@
 
 layout(local_size_x = kDirectionalGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
-layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Fit { FitRow fit[]; };
-layout(binding = 6, scalar) buffer Band0 { vec3 band0[]; };
-layout(binding = 7, scalar) buffer Band1 { vec3 band1[]; };
-layout(binding = 8, scalar) buffer Band2 { vec3 band2[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "shooting/shot.glsl"
-#include "directional/directional.glsl"
 
 void main()
 {

@@ -23,7 +23,7 @@ LUMEL_CONST uint kElevations = 129u;  ///< rows of the fit's table, z = -1…1
 struct FitRow {
     float zero;
     float along, across;
-    float axial, skew, flat_;
+    float axial, skew, planar;
 };
 
 /// Push constants of directional.receive.comp.

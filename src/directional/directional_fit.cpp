@@ -145,7 +145,7 @@ DirectionalFit::DirectionalFit(int order) : order_(order), rows_(kElevations)
         row.across = float(d[1][1] / s);
         row.axial = float(d[0][2] / (2.0 * double(kY20)));
         row.skew = float(d[1][2] / (double(kY2) * s));
-        row.flat_ = float(d[2][2] / (double(kY22) * s * s));
+        row.planar = float(d[2][2] / (double(kY22) * s * s));
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "gpu/names.h"
 
@@ -32,6 +33,14 @@ VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32
     return {.imageSubresource = {.aspectMask = aspect_of(target.pixel()), .layerCount = 1},
             .imageOffset = {0, int(first), 0},
             .imageExtent = {target.width(), count, 1}};
+}
+
+/// Textures are not told apart by type, so that what their texels are is checked here.
+void check_texture(const Layout& layout, const Slot& slot, const Target& texture)
+{
+    if ((slot.kind == SlotKind::uint_texture) != (texture.pixel() == Pixel::rg32u))
+        throw std::logic_error(std::string(layout.name()) +
+                               " was given a texture of other texels than it declares");
 }
 
 }  // namespace
@@ -136,24 +145,24 @@ void Commands::barrier()
     vkCmdPipelineBarrier2(buffer_, &info);
 }
 
-void Commands::bind(const Layout& layout, VkPipelineBindPoint point,
-                    std::span<const Binding> bindings)
+void Commands::bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> given)
 {
-    if (bindings.size() != layout.slots().size())
-        throw std::logic_error("a shader was given other bindings than it declares");
-    std::vector<VkDescriptorBufferInfo> buffers(bindings.size());
-    std::vector<VkDescriptorImageInfo> images(bindings.size());
+    const std::span<const Slot> slots = layout.slots();
+    std::vector<VkDescriptorBufferInfo> buffers(slots.size());
+    std::vector<VkDescriptorImageInfo> images(slots.size());
     std::vector<VkWriteDescriptorSet> writes;
-    for (std::size_t i = 0; i < bindings.size(); ++i) {
-        const Binding& binding = bindings[i];
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const Slot& slot = slots[i];
+        const Binding& binding = given[slot.member];
         VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                   .dstBinding = std::uint32_t(i),
+                                   .dstBinding = slot.binding,
                                    .descriptorCount = 1,
-                                   .descriptorType = descriptor_type(layout.slots()[i])};
+                                   .descriptorType = descriptor_type(slot.kind)};
         if (binding.buffer) {
             buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
             write.pBufferInfo = &buffers[i];
         } else {
+            check_texture(layout, slot, *binding.texture);
             images[i] = {binding.sampler->handle(), binding.texture->view(),
                          VK_IMAGE_LAYOUT_GENERAL};
             write.pImageInfo = &images[i];
@@ -165,22 +174,21 @@ void Commands::bind(const Layout& layout, VkPipelineBindPoint point,
                                   writes.data());
 }
 
-void Commands::push_params(const Layout& layout, const void* params, std::uint32_t bytes)
+void Commands::push_params(const Layout& layout, Bytes params)
 {
-    if (bytes != layout.param_bytes())
-        throw std::logic_error("a shader was given other parameters than it declares");
-    if (bytes > 0)
-        vkCmdPushConstants(buffer_, layout.handle(), layout.stages(), 0, bytes, params);
+    if (!params.empty())
+        vkCmdPushConstants(buffer_, layout.handle(), layout.stages(), 0,
+                           std::uint32_t(params.size()), params.data());
 }
 
-void Commands::dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings,
-                              const void* params, std::uint32_t bytes, std::size_t threads)
+void Commands::dispatch_groups(const Pipeline& kernel, std::span<const Binding> given, Bytes params,
+                               std::size_t threads, std::uint32_t group_size)
 {
     begin();
-    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-    bind(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, bindings);
-    push_params(kernel.layout(), params, bytes);
-    const std::size_t groups = (threads + kernel.group_size() - 1) / kernel.group_size();
+    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.handle());
+    bind(kernel.layout(), VK_PIPELINE_BIND_POINT_COMPUTE, given);
+    push_params(kernel.layout(), params);
+    const std::size_t groups = (threads + group_size - 1) / group_size;
     if (groups > device_->max_groups())
         throw Error(ErrorKind::device, device_->info().name,
                     "cannot work on " + std::to_string(threads) +
@@ -301,23 +309,23 @@ void Commands::viewport(const Area& area)
     vkCmdSetScissor(buffer_, 0, 1, &scissor);
 }
 
-void Commands::use(const Raster& raster, std::span<const Binding> bindings, const Mesh& mesh)
+void Commands::use_pipeline(const Pipeline& raster, std::span<const Binding> given,
+                            std::span<const Binding> streams, const Buffer& indices)
 {
-    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, raster.pipeline());
-    bind(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, bindings);
-    std::uint32_t stream = 0;
-    for (const Buffer* buffer : mesh.streams) {
-        const VkBuffer handle = buffer->handle();
+    vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, raster.handle());
+    bind(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, given);
+    for (std::uint32_t i = 0; i < streams.size(); ++i) {
+        const VkBuffer handle = streams[i].buffer->handle();
         const VkDeviceSize offset = 0;
-        vkCmdBindVertexBuffers(buffer_, stream++, 1, &handle, &offset);
+        vkCmdBindVertexBuffers(buffer_, i, 1, &handle, &offset);
     }
-    vkCmdBindIndexBuffer(buffer_, mesh.indices->handle(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(buffer_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
     layout_in_use_ = &raster.layout();
 }
 
-void Commands::draw_bytes(const void* params, std::uint32_t bytes, const Range& range)
+void Commands::draw(Bytes params, const Range& range)
 {
-    push_params(*layout_in_use_, params, bytes);
+    push_params(*layout_in_use_, params);
     vkCmdDrawIndexed(buffer_, range.count, 1, range.first, 0, 0);
     ++device_->recorded().draws;
 }

@@ -3,7 +3,6 @@
 // what was recorded before it, through the one barrier helper in commands.cpp.
 
 #include <array>
-#include <initializer_list>
 #include <map>
 #include <span>
 #include <string>
@@ -16,32 +15,12 @@
 
 namespace lumel::gpu {
 
-/// What a shader's binding is given: an array, or a texture with a sampler.
-struct Binding {
-    template <class T>
-    Binding(const Array<T>& array) : buffer(&array.buffer())
-    {
-    }
-    Binding(const Buffer& any) : buffer(&any) {}
-    Binding(const Target& target, const Sampler& how) : texture(&target), sampler(&how) {}
-
-    const Buffer* buffer = nullptr;
-    const Target* texture = nullptr;
-    const Sampler* sampler = nullptr;
-};
-
 /// A rectangle of a target [pixels].
 struct Area {
     std::uint32_t x, y, width, height;
 };
 
-/// An indexed triangle list.
-struct Mesh {
-    std::initializer_list<const Buffer*> streams;  ///< as the Raster's VertexStreams
-    const Buffer* indices;                         ///< uint32
-};
-
-/// A part of its indices.
+/// A part of a mesh's indices.
 struct Range {
     std::uint32_t first, count;
 };
@@ -50,6 +29,21 @@ struct Range {
 using StageTimes = std::map<std::string, double>;
 
 enum class Timing { on, off };
+
+class Commands;
+
+/// Draws with the Raster that Commands::use() was given, until another is used.
+template <class Shaders>
+class Drawing {
+public:
+    void draw(const typename Shaders::Params& params, const Range& range) const;
+
+private:
+    friend class Commands;
+    explicit Drawing(Commands& commands) : commands_(&commands) {}
+
+    Commands* commands_;
+};
 
 /// One command buffer with its fence and timestamps. Record, then run() or submit() and wait();
 /// after either it records anew.
@@ -67,12 +61,12 @@ public:
     bool has_room_for_stages() const;
 
     /// Runs the kernel over at least `threads` invocations (rounded up to whole groups).
-    template <class Params>
-    void dispatch(const Kernel& kernel, std::initializer_list<Binding> bindings,
-                  const Params& params, std::size_t threads)
+    template <class Shader>
+    void dispatch(const Kernel<Shader>& kernel, const typename Shader::Bindings& given,
+                  const typename Shader::Params& params, std::size_t threads)
     {
-        static_assert(std::is_standard_layout_v<Params> && sizeof(Params) <= kMaxParamBytes);
-        dispatch_bytes(kernel, bindings, &params, sizeof(Params), threads);
+        dispatch_groups(kernel.pipeline(), Shader::list(given), bytes_of(params), threads,
+                        Shader::kGroupSize);
     }
 
     void fill(const Buffer& buffer, std::uint32_t word = 0);
@@ -90,16 +84,14 @@ public:
     void begin_pass(const Target* color, const Target& depth, const Area& area,
                     std::array<float, 4> clear = {});
     void viewport(const Area& area);
-    /// What the following draws of this pass use.
-    void use(const Raster& raster, std::initializer_list<Binding> bindings, const Mesh& mesh)
+    /// What the following draws of this pass use. An indexed triangle list.
+    template <class Shaders>
+    Drawing<Shaders> use(const Raster<Shaders>& raster, const typename Shaders::Bindings& given,
+                         const typename Shaders::Mesh& mesh, const Array<std::uint32_t>& indices)
     {
-        use(raster, std::span(bindings.begin(), bindings.size()), mesh);
-    }
-    template <class Params>
-    void draw(const Params& params, const Range& range)
-    {
-        static_assert(std::is_standard_layout_v<Params> && sizeof(Params) <= kMaxParamBytes);
-        draw_bytes(&params, sizeof(Params), range);
+        use_pipeline(raster.pipeline(), Shaders::list(given), Shaders::list(mesh),
+                     indices.buffer());
+        return Drawing<Shaders>(*this);
     }
     void end_pass();
 
@@ -120,18 +112,25 @@ private:
     void begin_stage(const char* name);
     void end_stage();
     void barrier();
-    void bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings);
-    void push_params(const Layout& layout, const void* params, std::uint32_t bytes);
-    void use(const Raster& raster, std::span<const Binding> bindings, const Mesh& mesh);
-    void dispatch_bytes(const Kernel& kernel, std::span<const Binding> bindings, const void* params,
-                        std::uint32_t bytes, std::size_t threads);
-    void draw_bytes(const void* params, std::uint32_t bytes, const Range& range);
-    void dispatch_bytes(const Kernel& kernel, std::initializer_list<Binding> bindings,
-                        const void* params, std::uint32_t bytes, std::size_t threads)
+
+    template <class Shaders>
+    friend class Drawing;
+
+    using Bytes = std::span<const std::byte>;
+    template <class Params>
+    static Bytes bytes_of(const Params& params)
     {
-        dispatch_bytes(kernel, std::span(bindings.begin(), bindings.size()), params, bytes,
-                       threads);
+        static_assert(std::is_standard_layout_v<Params>);
+        return std::as_bytes(std::span(&params, 1)).first(kParamBytes<Params>);
     }
+
+    void bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> given);
+    void push_params(const Layout& layout, Bytes params);
+    void dispatch_groups(const Pipeline& kernel, std::span<const Binding> given, Bytes params,
+                         std::size_t threads, std::uint32_t group_size);
+    void use_pipeline(const Pipeline& raster, std::span<const Binding> given,
+                      std::span<const Binding> streams, const Buffer& indices);
+    void draw(Bytes params, const Range& range);
 
     const Device* device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
@@ -144,5 +143,11 @@ private:
     StageTimes times_;
     double last_milliseconds_ = 0.0;
 };
+
+template <class Shaders>
+void Drawing<Shaders>::draw(const typename Shaders::Params& params, const Range& range) const
+{
+    commands_->draw(Commands::bytes_of(params), range);
+}
 
 }  // namespace lumel::gpu

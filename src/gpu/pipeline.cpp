@@ -18,14 +18,6 @@ VkShaderModule make_module(const Device& device, Spirv spirv)
     return module;
 }
 
-VkShaderStageFlags stages_of(const RasterState& state)
-{
-    const VkShaderStageFlags tessellation =
-        VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT | VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT;
-    return VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
-           (state.control.empty() ? 0u : tessellation);
-}
-
 VkFormat stream_format(std::uint32_t components)
 {
     constexpr VkFormat formats[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT,
@@ -35,24 +27,33 @@ VkFormat stream_format(std::uint32_t components)
 
 }  // namespace
 
-VkDescriptorType descriptor_type(Slot slot)
+VkDescriptorType descriptor_type(SlotKind kind)
 {
-    return slot == Slot::array       ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
-           : slot == Slot::constants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
-                                     : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    return kind == SlotKind::array       ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+           : kind == SlotKind::constants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                         : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 }
 
-Layout::Layout(const Device& device, std::span<const Slot> slots, std::uint32_t param_bytes,
-               VkShaderStageFlags stages)
+VkShaderStageFlags flags_of(const Stages& stages)
+{
+    const VkShaderStageFlags tessellation =
+        VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT | VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT;
+    return VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT |
+           (stages.control.empty() ? 0u : tessellation);
+}
+
+Layout::Layout(const Device& device, const char* name, std::span<const Slot> slots,
+               std::uint32_t param_bytes, VkShaderStageFlags stages)
     : device_(&device),
+      name_(name),
       stages_(stages),
       param_bytes_(param_bytes),
-      slots_(slots.begin(), slots.end())
+      slots_(slots)
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (std::size_t i = 0; i < slots.size(); ++i)
-        bindings.push_back({.binding = std::uint32_t(i),
-                            .descriptorType = descriptor_type(slots[i]),
+    for (const Slot& slot : slots)
+        bindings.push_back({.binding = slot.binding,
+                            .descriptorType = descriptor_type(slot.kind),
                             .descriptorCount = 1,
                             .stageFlags = stages});
     const VkDescriptorSetLayoutCreateInfo set{
@@ -82,19 +83,18 @@ Layout::~Layout()
 
 Layout::Layout(Layout&& other) noexcept
     : device_(other.device_),
+      name_(other.name_),
       set_(other.set_),
       layout_(std::exchange(other.layout_, VK_NULL_HANDLE)),
       stages_(other.stages_),
       param_bytes_(other.param_bytes_),
-      slots_(std::move(other.slots_))
+      slots_(other.slots_)
 {
 }
 
-Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
-               std::uint32_t param_bytes, std::uint32_t group_size, std::uint32_t variant)
-    : layout_(device, slots, param_bytes, VK_SHADER_STAGE_COMPUTE_BIT),
-      group_size_(group_size)
+Pipeline::Pipeline(Layout layout, Spirv spirv, std::uint32_t variant) : layout_(std::move(layout))
 {
+    const Device& device = layout_.device();
     const VkShaderModule module = make_module(device, spirv);
     const VkSpecializationMapEntry constant{.constantID = 0, .size = sizeof(variant)};
     const VkSpecializationInfo specialization{.mapEntryCount = 1,
@@ -113,33 +113,15 @@ Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::span<co
         vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
     vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, "vkCreateComputePipelines");
-    set_name(device, pipeline_, name);
+    set_name(device, pipeline_, layout_.name());
 }
 
-Kernel::Kernel(const Device& device, const char* name, Spirv spirv, std::size_t array_count,
-               std::uint32_t param_bytes, std::uint32_t group_size)
-    : Kernel(device, name, spirv, std::vector<Slot>(array_count, Slot::array), param_bytes,
-             group_size)
+Pipeline::Pipeline(Layout layout, const Stages& shaders, const RasterState& state)
+    : layout_(std::move(layout))
 {
-}
-
-Kernel::~Kernel()
-{
-    if (pipeline_)
-        vkDestroyPipeline(layout_.device().handle(), pipeline_, nullptr);
-}
-
-Kernel::Kernel(Kernel&& other) noexcept
-    : layout_(std::move(other.layout_)),
-      pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)),
-      group_size_(other.group_size_)
-{
-}
-
-Raster::Raster(const Device& device, const char* name, const RasterState& state)
-    : layout_(device, state.slots, state.param_bytes, stages_of(state))
-{
-    const bool tessellated = !state.control.empty();
+    const Device& device = layout_.device();
+    const RasterOptions& options = state.options;
+    const bool tessellated = !shaders.control.empty();
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     const auto add_stage = [&](VkShaderStageFlagBits stage, Spirv spirv) {
         if (!spirv.empty())
@@ -148,17 +130,17 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
                               .module = make_module(device, spirv),
                               .pName = "main"});
     };
-    add_stage(VK_SHADER_STAGE_VERTEX_BIT, state.vertex);
-    add_stage(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, state.control);
-    add_stage(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, state.evaluation);
-    add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, state.fragment);
+    add_stage(VK_SHADER_STAGE_VERTEX_BIT, shaders.vertex);
+    add_stage(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaders.control);
+    add_stage(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaders.evaluation);
+    add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, shaders.fragment);
 
     std::vector<VkVertexInputBindingDescription> bindings;
     std::vector<VkVertexInputAttributeDescription> attributes;
-    for (std::uint32_t i = 0; i < state.streams.size(); ++i) {
-        bindings.push_back({.binding = i, .stride = state.streams[i].components * 4});
-        attributes.push_back(
-            {.location = i, .binding = i, .format = stream_format(state.streams[i].components)});
+    for (std::uint32_t i = 0; i < state.components.size(); ++i) {
+        const std::uint32_t components = state.components[i];
+        bindings.push_back({.binding = i, .stride = components * std::uint32_t(sizeof(float))});
+        attributes.push_back({.location = i, .binding = i, .format = stream_format(components)});
     }
     const VkPipelineVertexInputStateCreateInfo vertices{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO,
@@ -183,26 +165,26 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
         .lineWidth = 1.0f};
     const VkPipelineMultisampleStateCreateInfo multisample{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO,
-        .rasterizationSamples = VkSampleCountFlagBits(state.samples)};
+        .rasterizationSamples = VkSampleCountFlagBits(options.samples)};
     const VkPipelineDepthStencilStateCreateInfo depth{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO,
-        .depthTestEnable = state.depth_test ? VK_TRUE : VK_FALSE,
-        .depthWriteEnable = state.depth_test ? VK_TRUE : VK_FALSE,
+        .depthTestEnable = options.depth_test ? VK_TRUE : VK_FALSE,
+        .depthWriteEnable = options.depth_test ? VK_TRUE : VK_FALSE,
         .depthCompareOp = VK_COMPARE_OP_GREATER};
     const VkPipelineColorBlendAttachmentState blend_attachment{.colorWriteMask = 0xf};
     const VkPipelineColorBlendStateCreateInfo blend{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO,
-        .attachmentCount = state.color ? 1u : 0u,
+        .attachmentCount = state.has_color ? 1u : 0u,
         .pAttachments = &blend_attachment};
     const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     const VkPipelineDynamicStateCreateInfo dynamic{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO,
         .dynamicStateCount = 2,
         .pDynamicStates = dynamic_states};
-    const VkFormat color_format = format_of(state.color_pixel);
+    const VkFormat color_format = format_of(options.color_pixel);
     const VkPipelineRenderingCreateInfo rendering{
         .sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
-        .colorAttachmentCount = state.color ? 1u : 0u,
+        .colorAttachmentCount = state.has_color ? 1u : 0u,
         .pColorAttachmentFormats = &color_format,
         .depthAttachmentFormat = format_of(Pixel::depth)};
     const VkGraphicsPipelineCreateInfo info{
@@ -225,16 +207,16 @@ Raster::Raster(const Device& device, const char* name, const RasterState& state)
     for (const VkPipelineShaderStageCreateInfo& stage : stages)
         vkDestroyShaderModule(device.handle(), stage.module, nullptr);
     check(result, "vkCreateGraphicsPipelines");
-    set_name(device, pipeline_, name);
+    set_name(device, pipeline_, layout_.name());
 }
 
-Raster::~Raster()
+Pipeline::~Pipeline()
 {
     if (pipeline_)
         vkDestroyPipeline(layout_.device().handle(), pipeline_, nullptr);
 }
 
-Raster::Raster(Raster&& other) noexcept
+Pipeline::Pipeline(Pipeline&& other) noexcept
     : layout_(std::move(other.layout_)),
       pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE))
 {

@@ -1,34 +1,37 @@
 #pragma once
-// Shaders with their fixed state: compute kernels and raster passes. Arrays and textures are
-// pushed by position: the n-th binding given is the shader's binding n.
+// Shaders with their fixed state: compute kernels and raster passes. Each is typed by what the
+// build read of its shaders, see gpu/shader.h.
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
-#include "gpu/texture.h"
+#include "gpu/shader.h"
 
 namespace lumel::gpu {
-
-using Spirv = std::span<const std::uint32_t>;
-
-/// constants: a small array that every invocation reads at the same index (a uniform block).
-enum class Slot : std::uint8_t { array, constants, texture };
 
 /// Vulkan guarantees this many bytes of push constants.
 inline constexpr std::uint32_t kMaxParamBytes = 128;
 
-VkDescriptorType descriptor_type(Slot slot);
+template <class Params>
+inline constexpr std::uint32_t kParamBytes = std::is_empty_v<Params>
+                                                 ? 0u
+                                                 : std::uint32_t(sizeof(Params));
+
+VkDescriptorType descriptor_type(SlotKind kind);
 
 /// Descriptor set layout and pipeline layout shared by kernels and raster passes.
 class Layout {
 public:
-    Layout(const Device& device, std::span<const Slot> slots, std::uint32_t param_bytes,
-           VkShaderStageFlags stages);
+    /// name, slots: constants of the generated header.
+    Layout(const Device& device, const char* name, std::span<const Slot> slots,
+           std::uint32_t param_bytes, VkShaderStageFlags stages);
     ~Layout();
     Layout(Layout&& other) noexcept;
     Layout& operator=(Layout&&) = delete;
 
     const Device& device() const { return *device_; }
+    const char* name() const { return name_; }  ///< path of the shader
     VkPipelineLayout handle() const { return layout_; }
     VkShaderStageFlags stages() const { return stages_; }
     std::uint32_t param_bytes() const { return param_bytes_; }
@@ -36,70 +39,84 @@ public:
 
 private:
     const Device* device_;
+    const char* name_;
     VkDescriptorSetLayout set_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkShaderStageFlags stages_;
     std::uint32_t param_bytes_;
-    std::vector<Slot> slots_;
+    std::span<const Slot> slots_;
 };
 
-/// A compute shader. `name` labels it in debuggers. `variant` becomes its specialization constant
-/// 0, if it has one.
+/// A layout with the shaders and the state that work with it. Its name, in debuggers, is the path
+/// of the shader.
+class Pipeline {
+public:
+    struct RasterState;
+
+    Pipeline(Layout layout, Spirv spirv, std::uint32_t variant);              ///< of a kernel
+    Pipeline(Layout layout, const Stages& stages, const RasterState& state);  ///< of a raster pass
+    ~Pipeline();
+    Pipeline(Pipeline&& other) noexcept;
+    Pipeline& operator=(Pipeline&&) = delete;
+
+    const Layout& layout() const { return layout_; }
+    VkPipeline handle() const { return pipeline_; }
+
+private:
+    Layout layout_;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+/// What a raster pass is drawn with beside its shaders.
+struct RasterOptions {
+    Pixel color_pixel = Pixel::srgba8;  ///< of its colour target, if the shaders have one
+    bool depth_test = true;             ///< false: every fragment counts, and no depth is written
+    std::uint32_t samples = 1;          ///< of its targets
+};
+
+struct Pipeline::RasterState {
+    std::span<const std::uint32_t> components;  ///< floats of a vertex in each stream
+    bool has_color;
+    RasterOptions options;
+};
+
+/// A compute shader.
+template <class Shader>
 class Kernel {
 public:
-    Kernel(const Device& device, const char* name, Spirv spirv, std::span<const Slot> slots,
-           std::uint32_t param_bytes, std::uint32_t group_size, std::uint32_t variant = 0);
-    /// All bindings are arrays.
-    Kernel(const Device& device, const char* name, Spirv spirv, std::size_t array_count,
-           std::uint32_t param_bytes, std::uint32_t group_size);
-    ~Kernel();
-    Kernel(Kernel&& other) noexcept;
-    Kernel& operator=(Kernel&&) = delete;
+    /// `variant` becomes its specialization constant 0, if it has one.
+    explicit Kernel(const Device& device, std::uint32_t variant = 0)
+        : pipeline_({device, Shader::kName, Shader::kSlots, kParamBytes<typename Shader::Params>,
+                     VK_SHADER_STAGE_COMPUTE_BIT},
+                    Shader::spirv(), variant)
+    {
+        static_assert(kParamBytes<typename Shader::Params> <= kMaxParamBytes);
+    }
 
-    const Layout& layout() const { return layout_; }
-    VkPipeline pipeline() const { return pipeline_; }
-    std::uint32_t group_size() const { return group_size_; }
+    const Pipeline& pipeline() const { return pipeline_; }
 
 private:
-    Layout layout_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
-    std::uint32_t group_size_;
+    Pipeline pipeline_;
 };
 
-/// One vertex stream: tightly packed floats, `components` of them a vertex.
-struct VertexStream {
-    std::uint32_t components;
-};
+VkShaderStageFlags flags_of(const Stages& stages);
 
-struct RasterState {
-    Spirv vertex;
-    Spirv control,
-        evaluation;  ///< of tessellated triangles (Device::can_tessellate); or both empty
-    Spirv fragment;  ///< empty: depth only
-    std::span<const Slot> slots;
-    std::uint32_t param_bytes = 0;
-    std::span<const VertexStream> streams;  ///< stream n is attribute location n
-    bool color = false;                     ///< draws into a colour target
-    Pixel color_pixel = Pixel::srgba8;
-    bool depth_test = true;     ///< false: every fragment counts, and no depth is written
-    std::uint32_t samples = 1;  ///< of its targets
-};
-
-/// A graphics pipeline for triangles: depth test on, nothing culled, nearer has the larger depth
-/// (reversed z).
+/// A graphics pipeline for triangles: nothing culled, nearer has the larger depth (reversed z).
+template <class Shaders>
 class Raster {
 public:
-    Raster(const Device& device, const char* name, const RasterState& state);
-    ~Raster();
-    Raster(Raster&& other) noexcept;
-    Raster& operator=(Raster&&) = delete;
+    explicit Raster(const Device& device, const RasterOptions& options = {})
+        : pipeline_({device, Shaders::kName, Shaders::kSlots, kParamBytes<typename Shaders::Params>,
+                     flags_of(Shaders::stages())},
+                    Shaders::stages(), {Shaders::kComponents, Shaders::kHasColor, options})
+    {
+        static_assert(kParamBytes<typename Shaders::Params> <= kMaxParamBytes);
+    }
 
-    const Layout& layout() const { return layout_; }
-    VkPipeline pipeline() const { return pipeline_; }
+    const Pipeline& pipeline() const { return pipeline_; }
 
 private:
-    Layout layout_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    Pipeline pipeline_;
 };
 
 }  // namespace lumel::gpu

@@ -10,18 +10,11 @@
 #include "core/frame.h"
 #include "core/lattice.h"
 #include "core/sphere.h"
+#include "lights/lamps.receive.comp.h"
 #include "lights/lamps.shared.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "lights/lamps.receive.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
-                                       gpu::Slot::array};
 
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Between the keys of one lamp's random numbers and the next's.
@@ -125,8 +118,7 @@ struct LampStage {
           lamps(on, std::span<const Lamp>(all)),
           profiles(on, std::span<const float>(profiles_of(scene))),
           views(on, in, Projection::hemicube, given.hemicube, batch_of(given)),
-          receive(on, "lamps.receive", kReceiveSpirv, kReceiveSlots, sizeof(LampReceiveParams),
-                  kLampGroup, std::uint32_t(Projection::hemicube))
+          receive(on, std::uint32_t(Projection::hemicube))
     {
     }
 
@@ -147,13 +139,13 @@ struct LampStage {
                                                       .seed = options->seed,
                                                       .centre = options->centre ? 1u : 0u};
                        commands.dispatch(receive,
-                                         {world->lumels(),
-                                          world->pieces(),
-                                          eyes,
-                                          lamps,
-                                          profiles,
-                                          {views.image(), views.sampler()},
-                                          light.sums()},
+                                         {.lumels = world->lumels(),
+                                          .pieces = world->pieces(),
+                                          .views = {views.image(), views.sampler()},
+                                          .eyes = eyes,
+                                          .lamps = lamps,
+                                          .candela = profiles,
+                                          .sums = light.sums()},
                                          params, end - begin);
                    });
     }
@@ -164,7 +156,7 @@ struct LampStage {
     gpu::Array<Lamp> lamps;
     gpu::Array<float> profiles;
     EyeViews views;
-    gpu::Kernel receive;
+    gpu::Kernel<shaders::LampsReceive> receive;
     std::deque<gpu::Array<Eye>> in_flight;  ///< until the pacer has finished
 };
 

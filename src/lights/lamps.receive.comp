@@ -3,6 +3,12 @@
 #include "scene/photometry.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
+#include "visibility/pixels.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_from.glsl"
 
 // Every lumel takes the light of K eyes at a lamp:
 //
@@ -17,20 +23,10 @@
 
 layout(local_size_x = kLampGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Lamps { Lamp lamps[]; };
-layout(binding = 4, scalar) readonly buffer Profiles { float candela[]; };
-layout(binding = 5) uniform sampler2D views;
-layout(binding = 6, scalar) buffer Sums { LightSums sums[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/channel.glsl"
-#include "visibility/pixels.glsl"
-#include "visibility/first_met.glsl"
-#include "visibility/piece_from.glsl"
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Lamps { Lamp lamps[]; };
+layout(scalar) readonly buffer Profiles { float candela[]; };
+layout(scalar) buffer Sums { LightSums sums[]; };
 
 const float kPi = 3.14159265;
 
@@ -96,10 +92,10 @@ vec3 open_light(Lamp lamp, Eye eye, LumelPoint point)
     const float squared = dot(d, d), away = dot(d, eye.normal), facing = -dot(d, point.normal);
     if (away <= 0.0 || facing <= 0.0 || dot(d, point.facing) >= 0.0)
         return vec3(0.0);
-    const float distance_ = sqrt(squared);
-    const float ball = lamp.radius > 0.0 ? 4.0 * away / distance_ : 1.0;
-    return intensity_towards(lamp, d / distance_) *
-           (lamp.share * ball * range_window(lamp, squared) * facing / (squared * distance_));
+    const float reach = sqrt(squared);
+    const float ball = lamp.radius > 0.0 ? 4.0 * away / reach : 1.0;
+    return intensity_towards(lamp, d / reach) *
+           (lamp.share * ball * range_window(lamp, squared) * facing / (squared * reach));
 }
 
 // Looks for a ray of eye k's hemicube that meets the piece the point lies on. `seen`: nothing is

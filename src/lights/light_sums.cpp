@@ -3,17 +3,12 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kFinishSpirv[] = {
-#include "lights/light_sums.finish.comp.inc"
-};
-
 }  // namespace
 
 SummedLight::SummedLight(const gpu::Device& device, std::size_t lumels)
     : sums_(device, lumels),
       irradiance_(device, lumels),
-      finish_(device, "light_sums.finish", kFinishSpirv, 2, sizeof(FinishLightParams),
-              kLightSumsGroup)
+      finish_(device)
 {
     gpu::Commands commands(device);
     commands.fill(sums_.buffer());
@@ -24,7 +19,8 @@ SummedLight::SummedLight(const gpu::Device& device, std::size_t lumels)
 void SummedLight::finish_source(gpu::Pacer& pacer)
 {
     pacer.work("sum of a source", [&](gpu::Commands& commands) {
-        commands.dispatch(finish_, {sums_, irradiance_}, FinishLightParams{lumels()}, lumels());
+        commands.dispatch(finish_, {.sums = sums_, .irradiance = irradiance_},
+                          FinishLightParams{lumels()}, lumels());
     });
 }
 

@@ -5,8 +5,8 @@
 
 layout(local_size_x = kLightSumsGroup) in;
 layout(push_constant, scalar) uniform Params { FinishLightParams p; };
-layout(binding = 0, scalar) buffer Sums { LightSums sums[]; };
-layout(binding = 1, scalar) buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) buffer Sums { LightSums sums[]; };
+layout(scalar) buffer Irradiance { vec3 irradiance[]; };
 
 void main()
 {

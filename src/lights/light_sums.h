@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "gpu/pacer.h"
+#include "lights/light_sums.finish.comp.h"
 #include "lights/light_sums.shared.h"
 
 namespace lumel {
@@ -37,7 +38,7 @@ public:
 private:
     gpu::Array<LightSums> sums_;
     gpu::Array<glm::vec3> irradiance_;
-    gpu::Kernel finish_;
+    gpu::Kernel<shaders::LightSumsFinish> finish_;
     gpu::StageTimes times_;
 };
 

@@ -18,16 +18,10 @@
 #include "core/frame.h"
 #include "core/lattice.h"
 #include "core/sphere.h"
+#include "lights/parallel_light.receive.comp.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "lights/parallel_light.receive.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array};
 
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Keys of the points drawn, see lattice_point.
@@ -133,8 +127,7 @@ bool add_parallel_light(const gpu::Device& device, const World& world,
     const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
     const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
     ParallelViews images(device, world, options.side, batch_of(options));
-    const gpu::Kernel receive(device, "parallel_light.receive", kReceiveSpirv, kReceiveSlots,
-                              sizeof(ParallelReceiveParams), kParallelGroup);
+    const gpu::Kernel<shaders::ParallelLightReceive> receive(device);
     gpu::Pacer pacer(device);  // after all that its work uses: it waits when it ends
 
     const auto total = std::uint32_t(views.size());
@@ -145,7 +138,7 @@ bool add_parallel_light(const gpu::Device& device, const World& world,
         images.look_along(pacer, view_array, begin, count);
         pacer.work("parallel light", light.lumels(), kProbeLumels,
                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                       const ParallelReceiveParams params{.layout_ = images.layout(),
+                       const ParallelReceiveParams params{.tiling = images.layout(),
                                                           .first = first,
                                                           .last = last,
                                                           .first_view = begin,
@@ -154,12 +147,12 @@ bool add_parallel_light(const gpu::Device& device, const World& world,
                                                           .seed = options.seed,
                                                           .centre = options.centre ? 1u : 0u};
                        commands.dispatch(receive,
-                                         {world.lumels(),
-                                          world.pieces(),
-                                          view_array,
-                                          source_array,
-                                          {images.image(), images.sampler()},
-                                          light.sums()},
+                                         {.lumels = world.lumels(),
+                                          .pieces = world.pieces(),
+                                          .views = view_array,
+                                          .sources = source_array,
+                                          .parallel_image = {images.image(), images.sampler()},
+                                          .sums = light.sums()},
                                          params, last - first);
                    });
         going = go_on(double(begin + count) / double(total));

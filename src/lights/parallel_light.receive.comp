@@ -2,6 +2,13 @@
 #include "lights/parallel_light.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
+#include "visibility/parallel.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_along.glsl"
+#include "visibility/rays_along.glsl"
 
 // Every lumel takes the light of K directions:
 //
@@ -13,20 +20,10 @@
 
 layout(local_size_x = kParallelGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Views { ParallelView views[]; };
-layout(binding = 3, scalar) readonly buffer Sources { ParallelSource sources[]; };
-layout(binding = 4) uniform sampler2D parallel_image;
-layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/channel.glsl"
-#include "visibility/parallel.glsl"
-#include "visibility/first_met.glsl"
-#include "visibility/piece_along.glsl"
-#include "visibility/rays_along.glsl"
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Sources { ParallelSource sources[]; };
+uniform sampler2D parallel_image;
+layout(scalar) buffer Sums { LightSums sums[]; };
 
 // Pieces of a lumel that are tested: all, or this number chosen at random.
 const uint kMostPieces = 4u;
@@ -35,7 +32,7 @@ const float kMostRays = 64.0;
 
 bool is_lit(PieceInView piece, uint tile, vec2 pixel)
 {
-    const ivec2 place = ivec2(tile_corner(p.layout_, tile)) + ivec2(pixel);
+    const ivec2 place = ivec2(tile_corner(p.tiling, tile)) + ivec2(pixel);
     return is_first(piece, RayMet(pixel, 1.0), texelFetch(parallel_image, place, 0).x);
 }
 
@@ -44,12 +41,12 @@ bool is_lit(PieceInView piece, uint tile, vec2 pixel)
 vec2 rays_of(ParallelView view, uint tile, Piece piece, uint random)
 {
     const PieceInView s = piece_along(view, piece);
-    const RaysAlong rays = rays_along(view, p.layout_, piece, s);
+    const RaysAlong rays = rays_along(view, p.tiling, piece, s);
     const float stride = max(ceil(sqrt(rays.area / kMostRays)), 1.0);
     const vec2 start = floor(stride * vec2(unit_float(random), unit_float(hash(random))));
     float met = 0.0, lit = 0.0;
     for (float y = rays.rows.x + start.y; y <= rays.rows.y; y += stride) {
-        const vec2 columns = columns_of(rays, p.layout_, y);
+        const vec2 columns = columns_of(rays, p.tiling, y);
         for (float x = columns.x + start.x; x <= columns.y; x += stride) {
             met += 1.0;
             if (is_lit(s, tile, vec2(x, y)))
@@ -64,7 +61,7 @@ vec2 ray_of(ParallelView view, uint tile, Piece piece, vec3 middle)
 {
     const PieceInView s = piece_along(view, piece);
     RayMet ray;
-    if (!find_ray(s, place_in(view, middle), vec2(p.layout_.side), ray))
+    if (!find_ray(s, place_in(view, middle), vec2(p.tiling.side), ray))
         return vec2(0.0);
     return vec2(1.0, is_lit(s, tile, ray.pixel) ? 1.0 : 0.0) / ray.chance;
 }

@@ -14,7 +14,7 @@ struct ParallelSource {
 
 /// Push constants of parallel_light.receive.comp.
 struct ParallelReceiveParams {
-    ParallelLayout layout_;
+    ParallelLayout tiling;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint first_view;  ///< views [first_view, first_view + views), drawn into tiles 0, 1, …

@@ -1,4 +1,9 @@
-// Where the pixels of back hemicubes lie. Needs cross.shared.h.
+#ifndef LUMEL_LIVE_CROSS_BACK_GLSL
+#define LUMEL_LIVE_CROSS_BACK_GLSL
+
+// Where the pixels of back hemicubes lie.
+
+#include "live/cross.shared.h"
 
 uint back_side(BackLayout b, uint level)
 {
@@ -19,3 +24,5 @@ uint back_pixel(BackLayout b, uint hemicube, uint level, uvec2 pixel)
 {
     return back_start(b, hemicube, level) + pixel.y * 2u * back_side(b, level) + pixel.x;
 }
+
+#endif

@@ -5,8 +5,8 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { BackEyesParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 1, scalar) writeonly buffer BackEyes { Eye back_eyes[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) writeonly buffer BackEyes { Eye back_eyes[]; };
 
 void main()
 {

@@ -36,33 +36,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kBackEyesSpirv[] = {
-#include "live/cross.back_eyes.comp.inc"
-};
-constexpr std::uint32_t kResolveSpirv[] = {
-#include "live/cross.resolve.comp.inc"
-};
-constexpr std::uint32_t kGatherSpirv[] = {
-#include "live/cross.gather.comp.inc"
-};
-constexpr std::uint32_t kSendSpirv[] = {
-#include "live/cross.send.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "live/cross.receive.comp.inc"
-};
-constexpr std::uint32_t kSettleSpirv[] = {
-#include "live/cross.settle.comp.inc"
-};
-
-using gpu::Slot;
-constexpr Slot kResolveSlots[] = {Slot::texture, Slot::array};
-constexpr Slot kGatherSlots[] = {Slot::array,   Slot::array, Slot::array,
-                                 Slot::texture, Slot::array, Slot::array};
-constexpr Slot kReceiveSlots[] = {Slot::array,   Slot::array, Slot::array, Slot::array,
-                                  Slot::texture, Slot::array, Slot::array, Slot::array,
-                                  Slot::array,   Slot::array, Slot::array};
-
 /// Of a back hemicube's front face [pixels]: the thesis goes as low as 16. Divisible by
 /// 2^kBackLevels, so that faces stay apart in all levels.
 constexpr std::uint32_t kBackSide = 32;
@@ -120,16 +93,12 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
-      back_eyes_kernel_(device, "cross.back_eyes", kBackEyesSpirv, 2, sizeof(BackEyesParams),
-                        kPatchGroup),
-      resolve_(device, "cross.resolve", kResolveSpirv, kResolveSlots, sizeof(ResolveParams),
-               kPatchGroup),
-      gather_(device, "cross.gather", kGatherSpirv, kGatherSlots, sizeof(CrossGatherParams),
-              kPatchGroup, std::uint32_t(solver.shots().views().projection())),
-      send_(device, "cross.send", kSendSpirv, 6, sizeof(BackEyesParams), kPatchGroup),
-      receive_(device, "cross.receive", kReceiveSpirv, kReceiveSlots, sizeof(CrossReceiveParams),
-               kPatchGroup, std::uint32_t(solver.shots().views().projection())),
-      settle_(device, "cross.settle", kSettleSpirv, 3, sizeof(CrossSettleParams), kPatchGroup),
+      back_eyes_kernel_(device),
+      resolve_(device),
+      gather_(device, std::uint32_t(solver.shots().views().projection())),
+      send_(device),
+      receive_(device, std::uint32_t(solver.shots().views().projection())),
+      settle_(device),
       back_views_(device, world, kBackSide, solver.shots().views().layout().near,
                   solver.shots().batch()),
       batch_(solver.shots().batch()),
@@ -182,8 +151,9 @@ bool CrossRedistribution::step()
     if (!under_way_) {
         const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
         solver_->pacer().work("settle", [&](gpu::Commands& commands) {
-            commands.dispatch(settle_, {fresh_, crossing_, solver_->light().far}, params,
-                              params.count);
+            commands.dispatch(settle_,
+                              {.fresh = fresh_, .crossing = crossing_, .far = solver_->light().far},
+                              params, params.count);
         });
     }
     return under_way_;
@@ -195,8 +165,8 @@ void CrossRedistribution::look_from_fronts()
     gpu::Pacer& pacer = solver_->pacer();
     pacer.work("take", [&](gpu::Commands& commands) {
         shots.take(commands, solver_->light(), list_, next_);
-        commands.dispatch(back_eyes_kernel_, {shots.eyes(), back_eyes_}, BackEyesParams{batch_},
-                          batch_);
+        commands.dispatch(back_eyes_kernel_, {.eyes = shots.eyes(), .back_eyes = back_eyes_},
+                          BackEyesParams{batch_}, batch_);
     });
     world_->show_movers(true);
     shots.look(pacer);
@@ -213,17 +183,21 @@ void CrossRedistribution::gather()
                                    .near_radius = solver_->near_radius()};
     solver_->pacer().work("gather", [&](gpu::Commands& commands) {
         commands.dispatch(gather_,
-                          {world_->lumels(),
-                           shots.eyes(),
-                           shots.shots(),
-                           {views.image(), views.sampler()},
-                           light.shot,
-                           light.far},
+                          {.views = {views.image(), views.sampler()},
+                           .lumels = world_->lumels(),
+                           .eyes = shots.eyes(),
+                           .shots = shots.shots(),
+                           .shot = light.shot,
+                           .far = light.far},
                           params, std::size_t(batch_) * kPatchGroup);
-        commands.dispatch(
-            send_,
-            {shots.shots(), light.surface, light.emission, light.far, light.near, light.shot},
-            BackEyesParams{batch_}, batch_);
+        commands.dispatch(send_,
+                          {.shots = shots.shots(),
+                           .surface = light.surface,
+                           .emission = light.emission,
+                           .far = light.far,
+                           .near = light.near,
+                           .shot = light.shot},
+                          BackEyesParams{batch_}, batch_);
     });
 }
 
@@ -243,13 +217,14 @@ void CrossRedistribution::resolve_backs()
     solver_->pacer().work("resolve", [&](gpu::Commands& commands) {
         for (std::uint32_t level = 0; level < kBackLevels; ++level) {
             const std::uint32_t side = kBackSide >> level;
-            commands.dispatch(resolve_, {{back_views_.image(), back_views_.sampler()}, back_},
-                              ResolveParams{.views = back_views_.layout(),
-                                            .back = back_layout_,
-                                            .level = level,
-                                            .batch = batch_,
-                                            .samples = gpu::kManySamples},
-                              std::size_t(batch_) * 3 * side * side);
+            commands.dispatch(
+                resolve_, {.views = {back_views_.image(), back_views_.sampler()}, .back = back_},
+                ResolveParams{.views = back_views_.layout(),
+                              .back = back_layout_,
+                              .level = level,
+                              .batch = batch_,
+                              .samples = gpu::kManySamples},
+                std::size_t(batch_) * 3 * side * side);
         }
     });
 }
@@ -268,17 +243,17 @@ void CrossRedistribution::receive()
                                                               .near_radius =
                                                                   solver_->near_radius()};
                               commands.dispatch(receive_,
-                                                {world_->lumels(),
-                                                 world_->pieces(),
-                                                 shots.eyes(),
-                                                 shots.shots(),
-                                                 {views.image(), views.sampler()},
-                                                 solver_->light().shot,
-                                                 back_,
-                                                 near_first_,
-                                                 near_column_,
-                                                 near_factor_,
-                                                 fresh_},
+                                                {.lumels = world_->lumels(),
+                                                 .pieces = world_->pieces(),
+                                                 .views = {views.image(), views.sampler()},
+                                                 .near_first = near_first_,
+                                                 .near_column = near_column_,
+                                                 .near_factors = near_factor_,
+                                                 .eyes = shots.eyes(),
+                                                 .shots = shots.shots(),
+                                                 .shot = solver_->light().shot,
+                                                 .back = back_,
+                                                 .fresh = fresh_},
                                                 params, last - first);
                           });
 }

@@ -3,6 +3,8 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "visibility/sees.glsl"
+#include "nearfield/near_pairs.glsl"
 
 // What arrives at the lumels of moving patches, R_g(C, M) and R(M, M) of [Hoef13] 4.5.1:
 //
@@ -12,15 +14,11 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossGatherParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 2, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 3) uniform sampler2D views;
-layout(binding = 4, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 5, scalar) buffer Far { vec3 far[]; };
-
-#include "visibility/sees.glsl"
-#include "nearfield/near_pairs.glsl"
+layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sent { vec3 shot[]; };
+layout(scalar) buffer Far { vec3 far[]; };
 
 vec3 plus(vec3 a, vec3 b)
 {
@@ -34,7 +32,7 @@ void main()
 {
     const uint k = gl_WorkGroupID.x, me = gl_LocalInvocationID.x;
     const PatchShot s = shots[k];
-    if (s.side_ < 0.0)
+    if (s.facing < 0.0)
         return;
     const Eye eye = eyes[k];
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);

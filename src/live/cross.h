@@ -2,6 +2,12 @@
 // Cross-redistribution radiosity [Hoef13] 4.5: what moves is lit, sends light and hides light, at
 // the cost of hemicubes on what moves alone. See cross.cpp.
 
+#include "live/cross.back_eyes.comp.h"
+#include "live/cross.gather.comp.h"
+#include "live/cross.receive.comp.h"
+#include "live/cross.resolve.comp.h"
+#include "live/cross.send.comp.h"
+#include "live/cross.settle.comp.h"
 #include "live/cross.shared.h"
 #include "solve/progressive.h"
 #include "visibility/lit_views.h"
@@ -37,7 +43,12 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    gpu::Kernel back_eyes_kernel_, resolve_, gather_, send_, receive_, settle_;
+    gpu::Kernel<shaders::CrossBackEyes> back_eyes_kernel_;
+    gpu::Kernel<shaders::CrossResolve> resolve_;
+    gpu::Kernel<shaders::CrossGather> gather_;
+    gpu::Kernel<shaders::CrossSend> send_;
+    gpu::Kernel<shaders::CrossReceive> receive_;
+    gpu::Kernel<shaders::CrossSettle> settle_;
     LitViews back_views_;
     std::uint32_t batch_;  ///< K
     BackLayout back_layout_;

@@ -2,6 +2,13 @@
 #include "live/cross.shared.h"
 #include "atlas/lumel.shared.h"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "visibility/sees.glsl"
+#include "visibility/hemicube.glsl"
+#include "live/cross.back.glsl"
+#include "nearfield/near_pairs.glsl"
+#include "nearfield/near_factor.glsl"
+#include "shooting/receiver.glsl"
 
 // What the patches j of what moves do to the lumels i of what stays [Hoef13] Eq. (3.3.1):
 //
@@ -14,25 +21,11 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 6, scalar) readonly buffer Back { BackPixel back[]; };
-layout(binding = 7, scalar) readonly buffer NearFirst { uint near_first[]; };  // [N + 1]
-layout(binding = 8, scalar) readonly buffer NearColumn { uint near_column[]; };
-layout(binding = 9, scalar) readonly buffer NearFactor { float near_factors[]; };
-layout(binding = 10, scalar) buffer Fresh { vec3 fresh[]; };
-
-#include "world/lumel.glsl"
-#include "visibility/sees.glsl"
-#include "visibility/hemicube.glsl"
-#include "live/cross.back.glsl"
-#include "nearfield/near_pairs.glsl"
-#include "nearfield/near_factor.glsl"
-#include "shooting/receiver.glsl"
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer Back { BackPixel back[]; };
+layout(scalar) buffer Fresh { vec3 fresh[]; };
 
 // Rays through a lumel, along each of its sides, for each radian that it measures from the
 // receiver; and at most.
@@ -100,7 +93,7 @@ vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
 float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
 {
     const Lumel from = lumels[j];
-    const bool is_back = shots[k].side_ < 0.0;
+    const bool is_back = shots[k].facing < 0.0;
     if (!is_back && is_near(r.centre, r.size, from.position, from.size, p.near_radius))
         return near_factor(r.lumel, j);
     if (!is_eye_seen)
@@ -108,18 +101,18 @@ float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
     // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
     const float disc = is_back ? from.area / kPi : 0.0;
     return from.area / kPi *
-           point_factor(r.x - from.position, shots[k].side_ * from.normal, r.normal, disc);
+           point_factor(r.x - from.position, shots[k].facing * from.normal, r.normal, disc);
 }
 
 // Of all lumels of patch k.
 vec3 crossing_light(Receiver r, uint k)
 {
     const PatchShot s = shots[k];
-    const bool is_eye_seen = is_seen(r, k, p.views);
+    const bool is_eye_seen = is_seen(r, eyes[k], k, p.views);
     vec3 sum = vec3(0.0);
     for (uint j = s.first; j < s.first + s.count; ++j) {
         const float factor = factor_of(r, k, j, is_eye_seen);
-        const vec3 sent = s.side_ < 0.0 ? vec3(0.0) : shot[j];
+        const vec3 sent = s.facing < 0.0 ? vec3(0.0) : shot[j];
         sum += factor * (sent - light_behind(k, r, lumels[j], factor > 0.0));
     }
     return sum;

@@ -1,16 +1,15 @@
 #version 460
 #include "live/cross.shared.h"
+#include "visibility/hemicube.glsl"
+#include "live/cross.back.glsl"
 
 // Back hemicubes with their mipmaps, [Hoef13] 4.5.2: level 0 is the mean of each pixel's samples,
 // the others that of four pixels. Faces lie at even pixels: no pixel mixes two of them.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ResolveParams p; };
-layout(binding = 0) uniform sampler2DMS views;
-layout(binding = 1, scalar) buffer Back { BackPixel back[]; };
-
-#include "visibility/hemicube.glsl"
-#include "live/cross.back.glsl"
+uniform sampler2DMS views;
+layout(scalar) buffer Back { BackPixel back[]; };
 
 BackPixel drawn_at(uint k, uvec2 pixel)
 {

@@ -5,17 +5,17 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { BackEyesParams p; };
-layout(binding = 0, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 1, scalar) readonly buffer Surface { vec4 surface[]; };
-layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 3, scalar) readonly buffer Far { vec3 far[]; };
-layout(binding = 4, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 5, scalar) writeonly buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Near { vec3 near[]; };
+layout(scalar) writeonly buffer Sent { vec3 shot[]; };
 
 void main()
 {
     const uint k = gl_GlobalInvocationID.x;
-    if (k >= p.batch || shots[k].side_ < 0.0)
+    if (k >= p.batch || shots[k].facing < 0.0)
         return;
     for (uint j = shots[k].first; j < shots[k].first + shots[k].count; ++j)
         shot[j] = emission[j] + surface[j].rgb * (far[j] + near[j]);

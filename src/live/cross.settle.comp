@@ -6,9 +6,9 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossSettleParams p; };
-layout(binding = 0, scalar) readonly buffer Fresh { vec3 fresh[]; };
-layout(binding = 1, scalar) buffer Crossing { vec3 crossing[]; };
-layout(binding = 2, scalar) buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Fresh { vec3 fresh[]; };
+layout(scalar) buffer Crossing { vec3 crossing[]; };
+layout(scalar) buffer Far { vec3 far[]; };
 
 void main()
 {

@@ -32,17 +32,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "live/incremental.receive.comp.inc"
-};
-constexpr std::uint32_t kResetSpirv[] = {
-#include "live/incremental.reset.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array};
-
 /// Pixels by which an edge may seem to stand out: the test of visibility reads pixels around a
 /// point.
 constexpr float kEdgePixels = 3.0f;
@@ -81,9 +70,8 @@ IncrementalRedistribution::IncrementalRedistribution(const gpu::Device& device, 
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
-      receive_(device, "incremental.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(RedistributeParams), kPatchGroup, std::uint32_t(projection)),
-      reset_(device, "incremental.reset", kResetSpirv, 3, sizeof(ResetParams), kPatchGroup),
+      receive_(device, std::uint32_t(projection)),
+      reset_(device),
       moved_(device, world.placements().size()),
       boxes_(device, 1),
       list_(device, 1)
@@ -149,9 +137,9 @@ bool IncrementalRedistribution::step()
     PatchShots& shots = solver_->shots();
     pacer.work("redistribute", [&](gpu::Commands& commands) {
         if (sign_ > 0.0f && next_ == 0)
-            commands.dispatch(reset_, {world_->lumels(), moved_, solver_->light().far},
-                              ResetParams{std::uint32_t(world_->lumels().size())},
-                              world_->lumels().size());
+            commands.dispatch(
+                reset_, {.lumels = world_->lumels(), .moved = moved_, .far = solver_->light().far},
+                ResetParams{std::uint32_t(world_->lumels().size())}, world_->lumels().size());
         shots.take(commands, solver_->light(), list_, next_);
     });
     shots.look(pacer);
@@ -185,17 +173,17 @@ void IncrementalRedistribution::receive()
                                                    .near_radius = solver_->near_radius(),
                                                    .boxes = std::uint32_t(boxes_.size()),
                                                    .slack = edge_slack(views.layout()),
-                                                   .sign_ = sign_};
+                                                   .sign_factor = sign_};
                    commands.dispatch(receive_,
-                                     {world_->lumels(),
-                                      world_->pieces(),
-                                      shots.eyes(),
-                                      shots.shots(),
-                                      {views.image(), views.sampler()},
-                                      shots.sending(),
-                                      solver_->light().far,
-                                      moved_,
-                                      boxes_},
+                                     {.lumels = world_->lumels(),
+                                      .pieces = world_->pieces(),
+                                      .views = {views.image(), views.sampler()},
+                                      .eyes = shots.eyes(),
+                                      .shots = shots.shots(),
+                                      .sending = shots.sending(),
+                                      .far = solver_->light().far,
+                                      .moved = moved_,
+                                      .boxes = boxes_},
                                      params, last - first);
                });
 }

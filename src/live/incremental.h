@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "live/incremental.receive.comp.h"
+#include "live/incremental.reset.comp.h"
 #include "live/incremental.shared.h"
 #include "solve/progressive.h"
 
@@ -39,7 +41,8 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    gpu::Kernel receive_, reset_;
+    gpu::Kernel<shaders::IncrementalReceive> receive_;
+    gpu::Kernel<shaders::IncrementalReset> reset_;
     gpu::Array<std::uint32_t> moved_;
     gpu::Array<MovedBox> boxes_;
     gpu::Array<ChosenPatch> list_;

@@ -3,6 +3,10 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "transport/patch_light.glsl"
 
 // Redistributes what the patches of a batch have shot [Hoef13] 4.4, Eq. (3.2.1):
 //
@@ -14,20 +18,9 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { RedistributeParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Sending { vec3 sending[]; };
-layout(binding = 6, scalar) buffer Far { vec3 far[]; };
-layout(binding = 7, scalar) readonly buffer Moved { uint moved[]; };      // [instances]
-layout(binding = 8, scalar) readonly buffer Boxes { MovedBox boxes[]; };  // [p.boxes]
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "transport/patch_light.glsl"
+layout(scalar) buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Moved { uint moved[]; };  // [instances]
+layout(scalar) readonly buffer Boxes { MovedBox boxes[]; };  // [p.boxes]
 
 const uint kWordBits = 32u;
 // No point of a lumel is farther from its position than this many times its size (lumel.shared.h).
@@ -74,12 +67,12 @@ void main()
         return;
     const Lumel lumel = lumels[i];
     const bool i_moved = moved[lumel.instance] != 0u;
-    if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.sign_ < 0.0))
+    if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.sign_factor < 0.0))
         return;
     // First which, then their light: a group takes as many rounds as one lumel of it has shots.
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < p.shots; first += kWordBits)
         for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)
             sum += light_of(first + uint(findLSB(left)), lumel, i, p.near_radius, p.views);
-    far[i] += p.sign_ * sum;
+    far[i] += p.sign_factor * sum;
 }

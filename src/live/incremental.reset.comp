@@ -6,9 +6,9 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ResetParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Moved { uint moved[]; };  // [instances]
-layout(binding = 2, scalar) buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) readonly buffer Moved { uint moved[]; };  // [instances]
+layout(scalar) buffer Far { vec3 far[]; };
 
 void main()
 {

@@ -18,7 +18,7 @@ struct RedistributeParams {
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
     uint boxes;         ///< of what moved, before and after
     float slack;        ///< angle [rad] by which views may show them larger
-    float sign_;        ///< -1: takes light back, 1: sends it anew
+    float sign_factor;  ///< -1: takes light back, 1: sends it anew
 };
 
 /// Push constants of incremental.reset.comp.

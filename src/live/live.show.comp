@@ -7,12 +7,12 @@
 
 layout(local_size_x = kShowGroup) in;
 layout(push_constant, scalar) uniform Params { ShowParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Far { vec3 far[]; };
-layout(binding = 2, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 3, scalar) writeonly buffer Shown { vec3 shown[]; };
-layout(binding = 4, scalar) writeonly buffer Texels { vec4 texels[]; };
-layout(binding = 5, scalar) readonly buffer Direct { vec3 direct[]; };
+layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) readonly buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Near { vec3 near[]; };
+layout(scalar) writeonly buffer Shown { vec3 shown[]; };
+layout(scalar) writeonly buffer Texels { vec4 texels[]; };
+layout(scalar) readonly buffer Direct { vec3 direct[]; };
 
 void main()
 {

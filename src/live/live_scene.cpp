@@ -12,10 +12,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kShowSpirv[] = {
-#include "live/live.show.comp.inc"
-};
-
 gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
 {
     return {device, gpu::Pixel::rgba32, std::uint32_t(atlas.width), std::uint32_t(atlas.height)};
@@ -118,7 +114,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       shown_(device, lumels_.lumels.size()),
       texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
       images_{image_of(device, atlas_), image_of(device, atlas_)},
-      show_(device, "live.show", kShowSpirv, 6, sizeof(ShowParams), kShowGroup)
+      show_(device)
 {
     solver_.pacer().work("prepare", [&](gpu::Commands& commands) {
         commands.fill(texels_.buffer());
@@ -347,10 +343,14 @@ void LiveScene::show()
     gpu::Pacer& pacer = solver_.pacer();
     pacer.work("show", [&](gpu::Commands& commands) {
         const ShowParams params{std::uint32_t(lumels_.lumels.size())};
-        commands.dispatch(
-            show_,
-            {world_.lumels(), solver_.light().far, solver_.light().near, shown_, texels_, direct_},
-            params, params.count);
+        commands.dispatch(show_,
+                          {.lumels = world_.lumels(),
+                           .far = solver_.light().far,
+                           .near = solver_.light().near,
+                           .shown = shown_,
+                           .texels = texels_,
+                           .direct = direct_},
+                          params, params.count);
         shown_image_ = 1 - shown_image_;
         commands.copy(texels_.buffer(), images_[shown_image_]);
     });

@@ -10,6 +10,7 @@
 #include "atlas/atlas.h"
 #include "live/cross.h"
 #include "live/incremental.h"
+#include "live/live.show.comp.h"
 #include "live/live_lamps.h"
 
 namespace lumel {
@@ -127,7 +128,7 @@ private:
     gpu::Array<glm::vec4> texels_;   ///< [height][width] of the image
     std::array<gpu::Target, 2> images_;
     std::size_t shown_image_ = 0;
-    gpu::Kernel show_;
+    gpu::Kernel<shaders::LiveShow> show_;
 };
 
 }  // namespace lumel

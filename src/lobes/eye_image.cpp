@@ -3,14 +3,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "lobes/eye_image.receive.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {
-    gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants, gpu::Slot::texture,
-    gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array};
-
 /// Points tried first when the work is timed (see gpu::Pacer).
 constexpr std::uint32_t kProbePoints = 4096;
 
@@ -21,8 +13,7 @@ EyeImage::EyeImage(const gpu::Device& device, Projection projection,
                    const EyeSampling& sampling)
     : sampling_(sampling),
       brightness_(device, brightness),
-      receive_(device, "eye_image.receive", kReceiveSpirv, kReceiveSlots, sizeof(EyeParams),
-               kEyeGroup, std::uint32_t(projection))
+      receive_(device, std::uint32_t(projection))
 {
     for (std::size_t set = 0; set < sampling_.sets(); ++set) {
         const std::size_t begin = sampling_.first[set], count = sampling_.first[set + 1] - begin;
@@ -63,13 +54,13 @@ void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Arra
                    params.first = first;
                    params.last = last;
                    commands.dispatch(receive_,
-                                     {points_[set],
-                                      eyes,
-                                      shots,
-                                      {views.image(), views.sampler()},
-                                      brightness_,
-                                      sums_[set],
-                                      lobes},
+                                     {.lobes_sent = lobes,
+                                      .views = {views.image(), views.sampler()},
+                                      .points = points_[set],
+                                      .eyes = eyes,
+                                      .shots = shots,
+                                      .density = brightness_,
+                                      .sums = sums_[set]},
                                      params, last - first);
                });
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/pacer.h"
+#include "lobes/eye_image.receive.comp.h"
 #include "lobes/eye_image.shared.h"
 #include "lobes/lobes.shared.h"
 #include "visibility/eye_views.h"
@@ -50,7 +51,7 @@ private:
     std::vector<gpu::Array<EyePoint>> points_;  ///< of each set
     gpu::Array<float> brightness_;
     std::vector<gpu::Array<glm::vec3>> sums_;  ///< of each set
-    gpu::Kernel receive_;
+    gpu::Kernel<shaders::EyeImageReceive> receive_;
     std::uint64_t iterations_ = 0;
 };
 

@@ -2,6 +2,9 @@
 #include "lobes/eye_image.shared.h"
 #include "lobes/lobes.shared.h"
 #include "shooting/radiosity.glsl"
+#include "lobes/phong.lobe.glsl"
+#include "lobes/lobes.glsl"
+#include "visibility/sees.glsl"
 
 // What the K shooters of an iteration make points reflect to the eye ([BSS05] Eq. (6)):
 //
@@ -17,17 +20,11 @@
 
 layout(local_size_x = kEyeGroup) in;
 layout(push_constant, scalar) uniform Params { EyeParams p; };
-layout(binding = 0, scalar) readonly buffer Points { EyePoint points[]; };
-layout(binding = 1, scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
-layout(binding = 2, scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
-layout(binding = 3) uniform sampler2D views;
-layout(binding = 4, scalar) readonly buffer Density { float density[]; };  // [N] 𝓛(B_j)/Φ [1/m²]
-layout(binding = 5, scalar) buffer Sums { vec3 sums[]; };                  // [P] C
-layout(binding = 6, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
-
-#include "lobes/phong.lobe.glsl"
-#include "lobes/lobes.glsl"
-#include "visibility/sees.glsl"
+layout(scalar) readonly buffer Points { EyePoint points[]; };
+layout(scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
+layout(scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
+layout(scalar) readonly buffer Density { float density[]; };  // [N] 𝓛(B_j)/Φ [1/m²]
+layout(scalar) buffer Sums { vec3 sums[]; };  // [P] C
 
 vec3 reflect_to_eye(EyePoint x, uint k)
 {

@@ -1,5 +1,12 @@
-// The lobes of a shooter. The includer declares `GlossyLobe lobes_sent[]` and includes
-// phong.lobe.glsl.
+#ifndef LUMEL_LOBES_LOBES_GLSL
+#define LUMEL_LOBES_LOBES_GLSL
+
+// The lobes of shooters. Declares `lobes_sent`.
+
+#include "lobes/lobes.shared.h"
+#include "lobes/phong.lobe.glsl"
+
+layout(scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][kMostLobes]
 
 // What the lobes of shooter k, taken for as wide as that shininess, send along a unit direction:
 // radiance × A_j / (p_j K).
@@ -12,3 +19,5 @@ vec3 lobes_toward(uint k, GlossyShot shot, Eye eye, vec3 direction, float shinin
     }
     return sum;
 }
+
+#endif

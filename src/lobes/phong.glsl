@@ -1,8 +1,12 @@
-// The stretched Phong model [NNS99] with its albedo; see phong.h. The includer declares
-// `float albedo_table[]`.
+#ifndef LUMEL_LOBES_PHONG_GLSL
+#define LUMEL_LOBES_PHONG_GLSL
+
+// The stretched Phong model [NNS99] with its albedo; see phong.h. Declares `albedo_table`.
 
 #include "lobes/phong.lobe.glsl"
 #include "lobes/phong.shared.h"
+
+layout(scalar) readonly buffer Table { float albedo_table[]; };
 
 float albedo_row(float shininess)
 {
@@ -33,3 +37,5 @@ float phong_mean_albedo(float shininess)
 {
     return albedo_between(albedo_row(shininess), float(kAlbedoCosines));
 }
+
+#endif

@@ -1,4 +1,9 @@
-// The stretched Phong model [NNS99]; see phong.h. Needs radiosity.glsl.
+#ifndef LUMEL_LOBES_PHONG_LOBE_GLSL
+#define LUMEL_LOBES_PHONG_LOBE_GLSL
+
+// The stretched Phong model [NNS99]; see phong.h.
+
+#include "shooting/radiosity.glsl"
 
 // f_r without ρ_s, for ρ_d = 0. Unit vectors away from the surface; `normal` on their side.
 float phong_lobe(vec3 to_light, vec3 to_eye, vec3 normal, float shininess)
@@ -9,3 +14,5 @@ float phong_lobe(vec3 to_light, vec3 to_eye, vec3 normal, float shininess)
         return 0.0;
     return (shininess + 1.0) * (0.5 / kPi) * pow(mirrored, shininess) / max(cos_in, cos_out);
 }
+
+#endif

@@ -6,16 +6,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kProjectSpirv[] = {
-#include "matrix/multiply_tiles.project.comp.inc"
-};
-constexpr std::uint32_t kProductSpirv[] = {
-#include "matrix/multiply_tiles.product.comp.inc"
-};
-constexpr std::uint32_t kExpandSpirv[] = {
-#include "matrix/multiply_tiles.expand.comp.inc"
-};
-
 using Words = std::vector<std::uint32_t>;
 
 gpu::Array<std::uint32_t> on_device(const gpu::Device& device, const Words& words,
@@ -106,9 +96,9 @@ MultiplyTiles::MultiplyTiles(const gpu::Device& device, const TiledMatrix& matri
       codes16_(on_device(device, codes_of(tiles[2]))),
       scatter_(device, matrix.size, clusters_ * kCluster, matrix.order,
                received_weights(matrix.root_area), {}),
-      project_(device, "multiply_tiles.project", kProjectSpirv, 5, sizeof(TileParams), kCluster),
-      product_(device, "multiply_tiles.product", kProductSpirv, 7, sizeof(TileParams), kTileGroup),
-      expand_(device, "multiply_tiles.expand", kExpandSpirv, 5, sizeof(TileParams), kCluster)
+      project_(device),
+      product_(device),
+      expand_(device)
 {
 }
 
@@ -118,10 +108,29 @@ void MultiplyTiles::record(gpu::Commands& commands, const gpu::Array<glm::vec3>&
     const TileParams params{clusters_, states, unit_};
     const std::size_t patches = std::size_t(states) * clusters_ * kCluster;
     gather_.record(commands, x, in_, states);
-    commands.dispatch(project_, {first_basis_, basis_, basis_unit_, in_, seen_}, params, patches);
-    commands.dispatch(product_, {first_, place_, codes4_, codes8_, codes16_, seen_, sent_}, params,
-                      patches / kTile * kTileLanes);
-    commands.dispatch(expand_, {first_basis_, basis_, basis_unit_, sent_, out_}, params, patches);
+    commands.dispatch(project_,
+                      {.first_basis = first_basis_,
+                       .basis = basis_,
+                       .unit = basis_unit_,
+                       .patches = in_,
+                       .coefficients = seen_},
+                      params, patches);
+    commands.dispatch(product_,
+                      {.first = first_,
+                       .place = place_,
+                       .codes4 = gpu::packed(codes4_),
+                       .codes8 = gpu::packed(codes8_),
+                       .codes16 = gpu::packed(codes16_),
+                       .seen = gpu::packed(seen_),
+                       .sent = gpu::packed(sent_)},
+                      params, patches / kTile * kTileLanes);
+    commands.dispatch(expand_,
+                      {.first_basis = first_basis_,
+                       .basis = basis_,
+                       .unit = basis_unit_,
+                       .coefficients = sent_,
+                       .patches = out_},
+                      params, patches);
     scatter_.record(commands, out_, x, y, states);
 }
 

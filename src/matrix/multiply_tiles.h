@@ -2,6 +2,9 @@
 // A matrix of tiles in local bases times colours of patches, on the GPU.
 
 #include "matrix/compressed_tiles.h"
+#include "matrix/multiply_tiles.expand.comp.h"
+#include "matrix/multiply_tiles.product.comp.h"
+#include "matrix/multiply_tiles.project.comp.h"
 #include "matrix/vectors.h"
 
 namespace lumel {
@@ -30,7 +33,9 @@ private:
     gpu::Array<std::uint32_t> place_;        ///< of all tiles
     gpu::Array<std::uint32_t> codes4_, codes8_, codes16_;
     Scatter scatter_;
-    gpu::Kernel project_, product_, expand_;
+    gpu::Kernel<shaders::MultiplyTilesProject> project_;
+    gpu::Kernel<shaders::MultiplyTilesProduct> product_;
+    gpu::Kernel<shaders::MultiplyTilesExpand> expand_;
 };
 
 }  // namespace lumel

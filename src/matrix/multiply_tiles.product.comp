@@ -6,13 +6,13 @@
 
 layout(local_size_x = kTileGroup) in;
 layout(push_constant, scalar) uniform Params { TileParams p; };
-layout(binding = 0, scalar) readonly buffer First { uint first[]; };  // [bits][axis][rows + 1]
-layout(binding = 1, scalar) readonly buffer Place { uint place[]; };  // of all tiles
-layout(binding = 2, scalar) readonly buffer Codes4 { uvec2 codes4[]; };  // one each
-layout(binding = 3, scalar) readonly buffer Codes8 { uvec4 codes8[]; };
-layout(binding = 4, scalar) readonly buffer Codes16 { uvec4 codes16[][2]; };
-layout(binding = 5, scalar) readonly buffer In { vec4 seen[]; };    // [states][3][rows]
-layout(binding = 6, scalar) writeonly buffer Out { vec4 sent[]; };  // the same
+layout(scalar) readonly buffer First { uint first[]; };  // [bits][axis][rows + 1]
+layout(scalar) readonly buffer Place { uint place[]; };  // of all tiles
+layout(scalar) readonly buffer Codes4 { uvec2 codes4[]; };  // one each
+layout(scalar) readonly buffer Codes8 { uvec4 codes8[]; };
+layout(scalar) readonly buffer Codes16 { uvec4 codes16[][2]; };
+layout(scalar) readonly buffer In { vec4 seen[]; };  // [states][3][rows]
+layout(scalar) writeonly buffer Out { vec4 sent[]; };  // the same
 
 // Four rows' light, for each channel.
 struct Light { vec4 channel[3]; };

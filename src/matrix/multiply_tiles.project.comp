@@ -6,11 +6,11 @@
 
 layout(local_size_x = kCluster) in;
 layout(push_constant, scalar) uniform Params { TileParams p; };
-layout(binding = 0, scalar) readonly buffer First { uint first_basis[]; };
-layout(binding = 1, scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 4]
-layout(binding = 2, scalar) readonly buffer Unit { float unit[]; };  // of each row
-layout(binding = 3, scalar) readonly buffer In { float patches[]; };
-layout(binding = 4, scalar) writeonly buffer Out { float coefficients[]; };
+layout(scalar) readonly buffer First { uint first_basis[]; };
+layout(scalar) readonly buffer Basis { uint basis[]; };  // [kept][kCluster / 4]
+layout(scalar) readonly buffer Unit { float unit[]; };  // of each row
+layout(scalar) readonly buffer In { float patches[]; };
+layout(scalar) writeonly buffer Out { float coefficients[]; };
 
 shared vec3 light[kCluster];
 

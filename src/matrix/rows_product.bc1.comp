@@ -1,14 +1,11 @@
 #version 460
-#include "matrix/log_code.shared.h"
-#include "matrix/rows_product.shared.h"
+#define PLANES 3u
+#include "matrix/rows_product.glsl"
 #include "matrix/log_code.glsl"
 
 // Logarithms of all channels in BC1 blocks, [rows / 4][columns / 4], decoded here.
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { uvec2 matrix[]; };
-
-const uint kPlanes = 3u;
+layout(scalar) readonly buffer Matrix { uvec2 matrix[]; };
 
 // One channel of a colour of 5, 6 and 5 bits, the upper bits repeated below the last.
 float channel_of(uint color, uint plane)
@@ -41,5 +38,3 @@ mat4 block(uint block_row, uint quad, uint plane)
     return mat4(texels(words.y, palette), texels(words.y >> 8, palette),
                 texels(words.y >> 16, palette), texels(words.y >> 24, palette));
 }
-
-#include "matrix/rows_product.glsl"

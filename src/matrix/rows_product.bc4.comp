@@ -1,14 +1,11 @@
 #version 460
-#include "matrix/log_code.shared.h"
-#include "matrix/rows_product.shared.h"
+#define PLANES 1u
+#include "matrix/rows_product.glsl"
 #include "matrix/log_code.glsl"
 
 // Logarithms in BC4 blocks, [rows / 4][columns / 4].
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { uvec2 matrix[]; };
-
-const uint kPlanes = 1u;
+layout(scalar) readonly buffer Matrix { uvec2 matrix[]; };
 
 // Index 0 and 1 name the ends, 2 to 7 what lies between; or, where the first end is not the larger,
 // 2 to 5 do and 6 and 7 are 0 and 255.
@@ -35,5 +32,3 @@ mat4 block(uint block_row, uint quad, uint plane)
                 texels(words.y >> 8, first, second, plane),
                 texels(words.y >> 20, first, second, plane));
 }
-
-#include "matrix/rows_product.glsl"

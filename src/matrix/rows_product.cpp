@@ -12,25 +12,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kFloatSpirv[] = {
-#include "matrix/rows_product.float.comp.inc"
-};
-constexpr std::uint32_t kHalfSpirv[] = {
-#include "matrix/rows_product.half.comp.inc"
-};
-constexpr std::uint32_t kLog8Spirv[] = {
-#include "matrix/rows_product.log8.comp.inc"
-};
-constexpr std::uint32_t kBc4Spirv[] = {
-#include "matrix/rows_product.bc4.comp.inc"
-};
-constexpr std::uint32_t kBc1Spirv[] = {
-#include "matrix/rows_product.bc1.comp.inc"
-};
-constexpr std::uint32_t kTextureSpirv[] = {
-#include "matrix/rows_product.texture.comp.inc"
-};
-
 /// Vectors that a kernel takes at once: each has a sum for every row of a group in registers.
 constexpr std::uint32_t kMostVectors = 4, kMostColorVectors = 1;
 
@@ -47,26 +28,14 @@ std::size_t block_row_words(Code code, std::uint32_t quads)
     return std::size_t(quads) * kBlockTexels * bits_of(code) / 32;
 }
 
-gpu::Spirv spirv_of(Code code, bool texture)
-{
-    switch (code) {
-    case Code::float32:
-        return kFloatSpirv;
-    case Code::float16:
-        return kHalfSpirv;
-    case Code::log8:
-        return kLog8Spirv;
-    case Code::bc4:
-        return kBc4Spirv;
-    case Code::bc1:
-        return texture ? gpu::Spirv(kTextureSpirv) : gpu::Spirv(kBc1Spirv);
-    }
-    return {};
-}
-
 std::uint32_t whole_groups(std::uint32_t rows)
 {
     return (rows + kProductRows - 1) / kProductRows * kProductRows;
+}
+
+std::size_t lanes_for(std::uint32_t rows)
+{
+    return std::size_t(rows / kProductRows) * kProductLanes;
 }
 
 /// Software reads blocks faster itself than through its sampler.
@@ -133,17 +102,54 @@ void RowsProduct::upload_texture(const std::vector<std::uint32_t>& words)
     texture_->upload(image.data());
 }
 
-gpu::Kernel& RowsProduct::kernel(std::uint32_t vectors)
+RowsProduct::ProductKernel RowsProduct::make_kernel(std::uint32_t vectors) const
+{
+    switch (code_) {
+    case Code::float32:
+        return gpu::Kernel<shaders::RowsProductFloat>(*device_, vectors);
+    case Code::float16:
+        return gpu::Kernel<shaders::RowsProductHalf>(*device_, vectors);
+    case Code::log8:
+        return gpu::Kernel<shaders::RowsProductLog8>(*device_, vectors);
+    case Code::bc4:
+        return gpu::Kernel<shaders::RowsProductBc4>(*device_, vectors);
+    case Code::bc1:
+        break;
+    }
+    if (texture_)
+        return gpu::Kernel<shaders::RowsProductTexture>(*device_, vectors);
+    return gpu::Kernel<shaders::RowsProductBc1>(*device_, vectors);
+}
+
+const RowsProduct::ProductKernel& RowsProduct::kernel(std::uint32_t vectors)
 {
     const auto found = kernels_.find(vectors);
     if (found != kernels_.end())
         return found->second;
-    const std::array slots = {texture_ ? gpu::Slot::texture : gpu::Slot::array, gpu::Slot::array,
-                              gpu::Slot::array};
-    return kernels_
-        .try_emplace(vectors, *device_, "rows_product", spirv_of(code_, texture_.has_value()),
-                     slots, std::uint32_t(sizeof(ProductParams)), kProductLanes, vectors)
-        .first->second;
+    return kernels_.emplace(vectors, make_kernel(vectors)).first->second;
+}
+
+void RowsProduct::record_all(gpu::Commands& commands,
+                             const gpu::Kernel<shaders::RowsProductTexture>& kernel,
+                             const gpu::Array<float>& x, const gpu::Array<float>& y,
+                             ProductParams params)
+{
+    commands.dispatch(kernel,
+                      {.vectors = gpu::packed(x), .result = y, .matrix = {*texture_, sampler_}},
+                      params, lanes_for(plane_rows_));
+}
+
+template <class Shader>
+void RowsProduct::record_all(gpu::Commands& commands, const gpu::Kernel<Shader>& kernel,
+                             const gpu::Array<float>& x, const gpu::Array<float>& y,
+                             ProductParams params)
+{
+    for (const Part& part : parts_) {
+        params.first_row = part.first_row;
+        commands.dispatch(
+            kernel, {.vectors = gpu::packed(x), .result = y, .matrix = gpu::packed(part.words)},
+            params, lanes_for(part.rows));
+    }
 }
 
 void RowsProduct::record(gpu::Commands& commands, const gpu::Array<float>& x,
@@ -167,16 +173,8 @@ void RowsProduct::record(gpu::Commands& commands, const gpu::Array<float>& x,
     for (std::uint32_t first = 0; first < vectors; first += most) {
         const std::uint32_t at_once = std::min(most, vectors - first);
         params.first_vector = first * params.vector_step;
-        const auto groups = [](std::uint32_t rows) {
-            return std::size_t(rows / kProductRows) * kProductLanes;
-        };
-        if (texture_)
-            commands.dispatch(kernel(at_once), {{*texture_, sampler_}, x, y}, params,
-                              groups(plane_rows_));
-        for (const Part& part : parts_) {
-            params.first_row = part.first_row;
-            commands.dispatch(kernel(at_once), {part.words, x, y}, params, groups(part.rows));
-        }
+        std::visit([&](const auto& product) { record_all(commands, product, x, y, params); },
+                   kernel(at_once));
     }
 }
 

@@ -1,12 +1,10 @@
 #version 460
-#include "matrix/rows_product.shared.h"
+#define PLANES 1u
+#include "matrix/rows_product.glsl"
 
 // Entries as floats, [rows][columns].
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { vec4 matrix[]; };
-
-const uint kPlanes = 1u;
+layout(scalar) readonly buffer Matrix { vec4 matrix[]; };
 
 mat4 block(uint block_row, uint quad, uint plane)
 {
@@ -14,5 +12,3 @@ mat4 block(uint block_row, uint quad, uint plane)
     return mat4(matrix[first], matrix[first + p.quads], matrix[first + 2u * p.quads],
                 matrix[first + 3u * p.quads]);
 }
-
-#include "matrix/rows_product.glsl"

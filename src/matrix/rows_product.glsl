@@ -1,18 +1,31 @@
+#ifndef LUMEL_MATRIX_ROWS_PRODUCT_GLSL
+#define LUMEL_MATRIX_ROWS_PRODUCT_GLSL
+
 // result ← matrix vectors. A group has 8 rows; what a lane reads of the vectors serves all of them.
 // Each team of lanes goes through a strip of columns of its own, so that memory is read in order,
 // a line or more at a time. Sums end in an order that never changes.
 //
-// Before this: kPlanes, how many planes a block holds, and
-//     mat4 block(uint block_row, uint quad, uint plane)
-// four rows' entries in columns 4 quad … + 3 (of this part of the matrix), a row in each column of
+// Its argument is the macro PLANES, how many planes a block holds. Declares the parameters `p` and
+// `block`, which whoever includes this defines.
+
+#include "matrix/rows_product.shared.h"
+
+#ifndef PLANES
+#error "rows_product.glsl: define PLANES"
+#endif
+
+layout(push_constant, scalar) uniform Params { ProductParams p; };
+
+// Four rows' entries in columns 4 quad … + 3 (of this part of the matrix), a row in each column of
 // the mat4, so that x · block is their dot products with x.
+mat4 block(uint block_row, uint quad, uint plane);
 
 layout(constant_id = 0) const uint kVectors = 1u;
-const uint kSums = kPlanes * kVectors;  // of a row
+const uint kSums = PLANES * kVectors;  // of a row
 
 layout(local_size_x = kProductLanes) in;
-layout(binding = 1, scalar) readonly buffer Vectors { vec4 vectors[]; };
-layout(binding = 2, scalar) writeonly buffer Result { float result[]; };
+layout(scalar) readonly buffer Vectors { vec4 vectors[]; };
+layout(scalar) writeonly buffer Result { float result[]; };
 
 const uint kBlocks = kProductRows / 4u;
 
@@ -34,7 +47,7 @@ void main()
     const uint strip = (p.quads + kProductLanes - 1u) / kProductLanes * kTeam;
     const uint begin = lane / kTeam * strip, end = min(begin + strip, p.quads);
     for (uint quad = begin + lane % kTeam; quad < end; quad += kTeam)
-        for (uint plane = 0u; plane < kPlanes; ++plane) {
+        for (uint plane = 0u; plane < PLANES; ++plane) {
             vec4 x[kVectors];
             for (uint v = 0u; v < kVectors; ++v)
                 x[v] = vectors[vector_of(v, first_plane + plane) * p.in_quads + quad];
@@ -61,3 +74,5 @@ void main()
                 sums[s / 4u][0][s % 4u];
     }
 }
+
+#endif

@@ -4,11 +4,18 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <variant>
 
 #include <glm/glm.hpp>
 
 #include "gpu/commands.h"
 #include "matrix/coded_matrix.h"
+#include "matrix/rows_product.bc1.comp.h"
+#include "matrix/rows_product.bc4.comp.h"
+#include "matrix/rows_product.float.comp.h"
+#include "matrix/rows_product.half.comp.h"
+#include "matrix/rows_product.log8.comp.h"
+#include "matrix/rows_product.texture.comp.h"
 
 namespace lumel {
 
@@ -50,7 +57,18 @@ private:
 
     void upload(std::span<const std::vector<std::uint32_t>> words);
     void upload_texture(const std::vector<std::uint32_t>& words);
-    gpu::Kernel& kernel(std::uint32_t vectors);
+    using ProductKernel =
+        std::variant<gpu::Kernel<shaders::RowsProductFloat>, gpu::Kernel<shaders::RowsProductHalf>,
+                     gpu::Kernel<shaders::RowsProductLog8>, gpu::Kernel<shaders::RowsProductBc4>,
+                     gpu::Kernel<shaders::RowsProductBc1>,
+                     gpu::Kernel<shaders::RowsProductTexture>>;
+    ProductKernel make_kernel(std::uint32_t vectors) const;
+    const ProductKernel& kernel(std::uint32_t vectors);
+    void record_all(gpu::Commands& commands, const gpu::Kernel<shaders::RowsProductTexture>& kernel,
+                    const gpu::Array<float>& x, const gpu::Array<float>& y, ProductParams params);
+    template <class Shader>
+    void record_all(gpu::Commands& commands, const gpu::Kernel<Shader>& kernel,
+                    const gpu::Array<float>& x, const gpu::Array<float>& y, ProductParams params);
 
     const gpu::Device* device_;
     Code code_;
@@ -61,7 +79,7 @@ private:
     std::vector<Part> parts_;
     std::optional<gpu::Target> texture_;
     gpu::Sampler sampler_;
-    std::map<std::uint32_t, gpu::Kernel> kernels_;  ///< by the vectors that they take at once
+    std::map<std::uint32_t, ProductKernel> kernels_;  ///< by the vectors that they take at once
 };
 
 }  // namespace lumel

@@ -1,12 +1,10 @@
 #version 460
-#include "matrix/rows_product.shared.h"
+#define PLANES 1u
+#include "matrix/rows_product.glsl"
 
 // Entries as half floats, [rows][columns].
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { uvec2 matrix[]; };
-
-const uint kPlanes = 1u;
+layout(scalar) readonly buffer Matrix { uvec2 matrix[]; };
 
 vec4 floats(uvec2 words)
 {
@@ -20,5 +18,3 @@ mat4 block(uint block_row, uint quad, uint plane)
            mat4(floats(matrix[first]), floats(matrix[first + p.quads]),
                 floats(matrix[first + 2u * p.quads]), floats(matrix[first + 3u * p.quads]));
 }
-
-#include "matrix/rows_product.glsl"

@@ -1,14 +1,11 @@
 #version 460
-#include "matrix/log_code.shared.h"
-#include "matrix/rows_product.shared.h"
+#define PLANES 1u
+#include "matrix/rows_product.glsl"
 #include "matrix/log_code.glsl"
 
 // Logarithms of 8 bits, [rows][columns].
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0, scalar) readonly buffer Matrix { uint matrix[]; };
-
-const uint kPlanes = 1u;
+layout(scalar) readonly buffer Matrix { uint matrix[]; };
 
 vec4 entries(uint word, uint plane)
 {
@@ -22,5 +19,3 @@ mat4 block(uint block_row, uint quad, uint plane)
                 entries(matrix[first + 2u * p.quads], plane),
                 entries(matrix[first + 3u * p.quads], plane));
 }
-
-#include "matrix/rows_product.glsl"

@@ -1,14 +1,11 @@
 #version 460
-#include "matrix/log_code.shared.h"
-#include "matrix/rows_product.shared.h"
+#define PLANES 3u
+#include "matrix/rows_product.glsl"
 #include "matrix/log_code.glsl"
 
 // Logarithms of all channels in a texture of BC1 blocks, decoded by the hardware.
 
-layout(push_constant, scalar) uniform Params { ProductParams p; };
-layout(binding = 0) uniform sampler2D matrix;
-
-const uint kPlanes = 3u;
+uniform sampler2D matrix;
 
 vec4 entries(uint row, uint quad, uint plane)
 {
@@ -24,5 +21,3 @@ mat4 block(uint block_row, uint quad, uint plane)
     return mat4(entries(row, quad, plane), entries(row + 1u, quad, plane),
                 entries(row + 2u, quad, plane), entries(row + 3u, quad, plane));
 }
-
-#include "matrix/rows_product.glsl"

@@ -7,13 +7,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kGatherSpirv[] = {
-#include "matrix/vectors.gather.comp.inc"
-};
-constexpr std::uint32_t kScatterSpirv[] = {
-#include "matrix/vectors.scatter.comp.inc"
-};
-
 std::vector<std::uint32_t> as_is(std::uint32_t count)
 {
     std::vector<std::uint32_t> order(count);
@@ -77,15 +70,15 @@ Gather::Gather(const gpu::Device& device, std::uint32_t count, std::uint32_t wid
       width_(width),
       order_(on_device(device, or_as_is(order, count))),
       weight_(on_device(device, or_ones(weight, count))),
-      kernel_(device, "vectors.gather", kGatherSpirv, 4, sizeof(GatherParams), kVectorGroup)
+      kernel_(device)
 {
 }
 
 void Gather::record(gpu::Commands& commands, const gpu::Array<glm::vec3>& x,
                     const gpu::Array<float>& planes, std::uint32_t states) const
 {
-    commands.dispatch(kernel_, {order_, weight_, x, planes}, GatherParams{count_, width_, states},
-                      std::size_t(states) * width_);
+    commands.dispatch(kernel_, {.order = order_, .weight = weight_, .colors = x, .planes = planes},
+                      GatherParams{count_, width_, states}, std::size_t(states) * width_);
 }
 
 Scatter::Scatter(const gpu::Device& device, std::uint32_t count, std::uint32_t width,
@@ -98,7 +91,7 @@ Scatter::Scatter(const gpu::Device& device, std::uint32_t count, std::uint32_t w
       weight_(on_device(device, or_ones(weight, count))),
       columns_(on_device(device, all_columns(exact))),
       values_(on_device(device, all_values(exact))),
-      kernel_(device, "vectors.scatter", kScatterSpirv, 7, sizeof(ScatterParams), kVectorGroup)
+      kernel_(device)
 {
 }
 
@@ -106,7 +99,14 @@ void Scatter::record(gpu::Commands& commands, const gpu::Array<float>& planes,
                      const gpu::Array<glm::vec3>& x, const gpu::Array<glm::vec3>& y,
                      std::uint32_t states) const
 {
-    commands.dispatch(kernel_, {place_, weight_, planes, columns_, values_, x, y},
+    commands.dispatch(kernel_,
+                      {.place = place_,
+                       .weight = weight_,
+                       .planes = planes,
+                       .columns = columns_,
+                       .values = values_,
+                       .source = x,
+                       .result = y},
                       ScatterParams{count_, width_, states, per_row_},
                       std::size_t(states) * count_ * kScatterLanes);
 }

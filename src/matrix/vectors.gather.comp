@@ -6,10 +6,10 @@
 
 layout(local_size_x = kVectorGroup) in;
 layout(push_constant, scalar) uniform Params { GatherParams p; };
-layout(binding = 0, scalar) readonly buffer Order { uint order[]; };    // [n] patch at each place
-layout(binding = 1, scalar) readonly buffer Weight { vec3 weight[]; };  // [n] by patch
-layout(binding = 2, scalar) readonly buffer Colors { vec3 colors[]; };
-layout(binding = 3, scalar) writeonly buffer Planes { float planes[]; };
+layout(scalar) readonly buffer Order { uint order[]; };  // [n] patch at each place
+layout(scalar) readonly buffer Weight { vec3 weight[]; };  // [n] by patch
+layout(scalar) readonly buffer Colors { vec3 colors[]; };
+layout(scalar) writeonly buffer Planes { float planes[]; };
 
 void main()
 {

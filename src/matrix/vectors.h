@@ -6,6 +6,8 @@
 
 #include "gpu/commands.h"
 #include "matrix/sparse_part.h"
+#include "matrix/vectors.gather.comp.h"
+#include "matrix/vectors.scatter.comp.h"
 
 namespace lumel {
 
@@ -23,7 +25,7 @@ private:
     std::uint32_t count_, width_;
     gpu::Array<std::uint32_t> order_;
     gpu::Array<glm::vec3> weight_;
-    gpu::Kernel kernel_;
+    gpu::Kernel<shaders::VectorsGather> kernel_;
 };
 
 /// From planes to the caller's colours, the exact part added.
@@ -44,7 +46,7 @@ private:
     gpu::Array<float> weight_;
     gpu::Array<std::uint32_t> columns_;
     gpu::Array<float> values_;
-    gpu::Kernel kernel_;
+    gpu::Kernel<shaders::VectorsScatter> kernel_;
 };
 
 }  // namespace lumel

@@ -6,13 +6,13 @@
 
 layout(local_size_x = kVectorGroup) in;
 layout(push_constant, scalar) uniform Params { ScatterParams p; };
-layout(binding = 0, scalar) readonly buffer Place { uint place[]; };    // [n] of each patch
-layout(binding = 1, scalar) readonly buffer Weight { float weight[]; };  // [n]
-layout(binding = 2, scalar) readonly buffer Planes { float planes[]; };
-layout(binding = 3, scalar) readonly buffer Columns { uint columns[]; };  // 16 bits each
-layout(binding = 4, scalar) readonly buffer Values { float values[]; };  // [3][n][per_row]
-layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };   // x, [states][n]
-layout(binding = 6, scalar) writeonly buffer Result { vec3 result[]; };  // y
+layout(scalar) readonly buffer Place { uint place[]; };  // [n] of each patch
+layout(scalar) readonly buffer Weight { float weight[]; };  // [n]
+layout(scalar) readonly buffer Planes { float planes[]; };
+layout(scalar) readonly buffer Columns { uint columns[]; };  // 16 bits each
+layout(scalar) readonly buffer Values { float values[]; };  // [3][n][per_row]
+layout(scalar) readonly buffer Source { vec3 source[]; };  // x, [states][n]
+layout(scalar) writeonly buffer Result { vec3 result[]; };  // y
 
 shared vec3 parts[kVectorGroup];
 

@@ -1,5 +1,13 @@
-// Form factors of the near field. The includer declares its rows: `uint near_first[]`,
-// `uint near_column[]`, `float near_factors[]`.
+#ifndef LUMEL_NEARFIELD_NEAR_FACTOR_GLSL
+#define LUMEL_NEARFIELD_NEAR_FACTOR_GLSL
+
+// Form factors of the near field. Declares its rows.
+
+#include "core/shared.h"
+
+layout(scalar) readonly buffer NearFirst { uint near_first[]; };  // [N + 1]
+layout(scalar) readonly buffer NearColumn { uint near_column[]; };
+layout(scalar) readonly buffer NearFactor { float near_factors[]; };
 
 // F_ij of a near pair, 0 if the table has none: the columns of a row ascend.
 float near_factor(uint i, uint j)
@@ -14,3 +22,5 @@ float near_factor(uint i, uint j)
     }
     return low < near_first[i + 1u] && near_column[low] == j ? near_factors[low] : 0.0;
 }
+
+#endif

@@ -1,3 +1,6 @@
+#ifndef LUMEL_NEARFIELD_NEAR_PAIRS_GLSL
+#define LUMEL_NEARFIELD_NEAR_PAIRS_GLSL
+
 // Which pairs of lumels belong to the near field. Twin of is_near() in nearfield/near_pairs.h.
 
 bool is_near(vec3 centre_i, float size_i, vec3 centre_j, float size_j, float radius)
@@ -6,3 +9,5 @@ bool is_near(vec3 centre_i, float size_i, vec3 centre_j, float size_j, float rad
     const float reach = radius * max(size_i, size_j);
     return dot(way, way) < reach * reach;
 }
+
+#endif

@@ -5,11 +5,11 @@
 
 layout(local_size_x = kNearGroup) in;
 layout(push_constant, scalar) uniform Params { NearParams p; };
-layout(binding = 0, scalar) readonly buffer First { uint first[]; };
-layout(binding = 1, scalar) readonly buffer Column { uint column[]; };
-layout(binding = 2, scalar) readonly buffer Factor { float factor[]; };
-layout(binding = 3, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 4, scalar) writeonly buffer Near { vec3 near[]; };
+layout(scalar) readonly buffer First { uint first[]; };
+layout(scalar) readonly buffer Column { uint column[]; };
+layout(scalar) readonly buffer Factor { float factor[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
+layout(scalar) writeonly buffer Near { vec3 near[]; };
 
 void main()
 {

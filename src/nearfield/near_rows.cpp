@@ -5,10 +5,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kSpirv[] = {
-#include "nearfield/near_rows.comp.inc"
-};
-
 /// Rows without entries where there is no near field.
 std::vector<std::uint32_t> starts_of(const NearField& near, std::size_t count)
 {
@@ -23,7 +19,7 @@ NearRows::NearRows(const gpu::Device& device, const NearField& near, std::size_t
       first_(device, starts_of(near, lumel_count)),
       column_(device, near.column),
       factor_(device, near.factor),
-      kernel_(device, "near_rows", kSpirv, 5, sizeof(NearParams), kNearGroup)
+      kernel_(device)
 {
 }
 
@@ -43,8 +39,10 @@ void NearRows::replace(const NearField& near)
 void NearRows::light(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
                      const gpu::Array<glm::vec3>& result) const
 {
-    commands.dispatch(kernel_, {first_, column_, factor_, source, result}, NearParams{count_},
-                      count_);
+    commands.dispatch(
+        kernel_,
+        {.first = first_, .column = column_, .factor = factor_, .source = source, .near = result},
+        NearParams{count_}, count_);
 }
 
 }  // namespace lumel

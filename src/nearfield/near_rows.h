@@ -3,6 +3,7 @@
 
 #include "gpu/commands.h"
 #include "nearfield/near_field.h"
+#include "nearfield/near_rows.comp.h"
 
 namespace lumel {
 
@@ -29,7 +30,7 @@ private:
     std::uint32_t count_;
     gpu::Array<std::uint32_t> first_, column_;
     gpu::Array<float> factor_;
-    gpu::Kernel kernel_;
+    gpu::Kernel<shaders::NearRows> kernel_;
 };
 
 }  // namespace lumel

@@ -5,17 +5,11 @@
 #include <map>
 
 #include "gpu/commands.h"
+#include "preview/preview.raster.h"
 #include "preview/preview.shared.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::uint32_t kVertexSpirv[] = {
-#include "preview/preview.vert.inc"
-};
-constexpr std::uint32_t kFragmentSpirv[] = {
-#include "preview/preview.frag.inc"
-};
 
 constexpr int kSupersample = 2;
 constexpr float kNearOfDiagonal = 1e-3f;
@@ -204,16 +198,7 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
     const gpu::Target color(device, gpu::Pixel::rgba32, wide, high);
     const gpu::Target depth(device, gpu::Pixel::depth, wide, high);
 
-    constexpr gpu::VertexStream streams[] = {{3}, {4}, {2}, {4}};
-    constexpr gpu::Slot slots[] = {gpu::Slot::texture, gpu::Slot::texture, gpu::Slot::texture};
-    const gpu::Raster raster(device, "preview",
-                             {.vertex = kVertexSpirv,
-                              .fragment = kFragmentSpirv,
-                              .slots = slots,
-                              .param_bytes = sizeof(PreviewParams),
-                              .streams = streams,
-                              .color = true,
-                              .color_pixel = gpu::Pixel::rgba32});
+    const gpu::Raster<shaders::Preview> raster(device, {.color_pixel = gpu::Pixel::rgba32});
     gpu::Commands commands(device);
     commands.begin_pass(&color, depth, {0, 0, wide, high});
     for (const auto& [index, range] : vertices.materials) {
@@ -224,15 +209,16 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
                                                                       : 0.5f;
         const PreviewParams params{projection(view, diagonal), material.base_color,
                                    material.emitted, cutoff, material.double_sided ? 1u : 0u};
-        commands.use(
-            raster,
-            {{textures.of(material.base_color_texture),
-              textures.sampler(material.base_color_texture)},
-             {textures.of(material.emissive_texture), textures.sampler(material.emissive_texture)},
-             {lightmap, bilinear}},
-            {{&positions.buffer(), &looks.buffer(), &places.buffer(), &colors.buffer()},
-             &indices.buffer()});
-        commands.draw(params, {range.first, range.count});
+        const TextureUse& base = material.base_color_texture;
+        const TextureUse& emissive = material.emissive_texture;
+        commands
+            .use(raster,
+                 {.base_color = {textures.of(base), textures.sampler(base)},
+                  .emissive = {textures.of(emissive), textures.sampler(emissive)},
+                  .irradiance = {lightmap, bilinear}},
+                 {.position = positions, .look = looks, .lightmap = places, .color = colors},
+                 indices)
+            .draw(params, {range.first, range.count});
     }
     commands.end_pass();
     commands.run();

@@ -4,9 +4,9 @@
 // Reflected plus emitted radiance of a diffuse surface:  L = ρ H / π + L_e.
 
 layout(push_constant, scalar) uniform Params { PreviewParams p; };
-layout(binding = 0) uniform sampler2D base_color;
-layout(binding = 1) uniform sampler2D emissive;
-layout(binding = 2) uniform sampler2D irradiance;
+uniform sampler2D base_color;
+uniform sampler2D emissive;
+uniform sampler2D irradiance;
 layout(location = 0) in vec4 look;
 layout(location = 1) in vec2 lightmap;
 layout(location = 2) in vec4 color;

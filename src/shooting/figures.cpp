@@ -8,10 +8,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kTotalSpirv[] = {
-#include "shooting/figures.total.comp.inc"
-};
-
 /// Figures are asked for each time the iterations have grown by this factor.
 constexpr double kGrowth = 1.12;
 /// Iterations between asking and taking.
@@ -31,7 +27,7 @@ Figures::Figures(const gpu::Device& device, std::size_t lumel_count)
     : parts_(device, (lumel_count + kSumGroup - 1) / kSumGroup),
       sums_(device, 1),
       host_(device, 1, gpu::Buffer::Place::host),
-      total_(device, "figures.total", kTotalSpirv, 2, sizeof(TotalParams), kSumGroup)
+      total_(device)
 {
 }
 
@@ -43,8 +39,8 @@ std::uint64_t Figures::device_bytes(std::size_t lumel_count)
 
 void Figures::add_up(gpu::Commands& commands, const gpu::Array<Terms>& totals) const
 {
-    commands.dispatch(total_, {parts_, totals}, TotalParams{std::uint32_t(parts_.size())},
-                      kSumGroup);
+    commands.dispatch(total_, {.parts = parts_, .totals = totals},
+                      TotalParams{std::uint32_t(parts_.size())}, kSumGroup);
 }
 
 void Figures::ask(gpu::Pacer& pacer, std::uint64_t iteration,

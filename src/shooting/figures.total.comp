@@ -5,8 +5,8 @@
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { TotalParams p; };
-layout(binding = 0, scalar) readonly buffer Parts { Terms parts[]; };
-layout(binding = 1, scalar) writeonly buffer Totals { Terms totals[]; };
+layout(scalar) readonly buffer Parts { Terms parts[]; };
+layout(scalar) writeonly buffer Totals { Terms totals[]; };
 
 #include "shooting/sum.glsl"
 

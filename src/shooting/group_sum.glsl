@@ -1,5 +1,12 @@
-// Adds up over a workgroup, in an order that never changes. The includer defines SUMMAND, the type
-// that is added up, and `SUMMAND plus(SUMMAND a, SUMMAND b)`. The group's size is a power of two.
+// Adds up over a workgroup, in an order that never changes. Its argument is the macro SUMMAND, the
+// type that is added up. Declares `plus`, which whoever includes this defines. The group's size,
+// declared before, is a power of two. May be included for one type only.
+
+#ifndef SUMMAND
+#error "group_sum.glsl: define SUMMAND"
+#endif
+
+SUMMAND plus(SUMMAND a, SUMMAND b);
 
 shared SUMMAND summands[gl_WorkGroupSize.x];
 

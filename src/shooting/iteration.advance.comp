@@ -1,5 +1,6 @@
 #version 460
 #include "shooting/iteration.shared.h"
+#include "shooting/iteration.glsl"
 
 // The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average),
 // and, at the end of a phase, this phase's far light (for unit power) folded into that of
@@ -7,15 +8,12 @@
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 2, scalar) readonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 3, scalar) readonly buffer Totals { Terms totals[]; };
-layout(binding = 4, scalar) buffer Indirect { vec3 indirect[]; };
-layout(binding = 5, scalar) buffer Earlier { vec3 earlier[]; };
-layout(binding = 6, scalar) writeonly buffer Source { vec3 source[]; };
-
-#include "shooting/iteration.glsl"
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) buffer Indirect { vec3 indirect[]; };
+layout(scalar) buffer Earlier { vec3 earlier[]; };
+layout(scalar) writeonly buffer Source { vec3 source[]; };
 
 void main()
 {

@@ -1,20 +1,20 @@
 #version 460
 #include "shooting/iteration.shared.h"
+#include "shooting/iteration.balance.glsl"
 
 // Sums of the energy balance, column by column as iteration.glsl reads them.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Direct { vec3 direct[]; };
-layout(binding = 2, scalar) readonly buffer Indirect { vec3 indirect[]; };
-layout(binding = 3, scalar) readonly buffer NearEmission { vec3 near_emission[]; };
-layout(binding = 4, scalar) readonly buffer NearSource { vec3 near_source[]; };
-layout(binding = 5, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 6, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N] U
-layout(binding = 7, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Direct { vec3 direct[]; };
+layout(scalar) readonly buffer Indirect { vec3 indirect[]; };
+layout(scalar) readonly buffer NearEmission { vec3 near_emission[]; };
+layout(scalar) readonly buffer NearSource { vec3 near_source[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
+layout(scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N] U
+layout(scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "shooting/iteration.balance.glsl"
 #include "shooting/sum.glsl"
 
 void main()

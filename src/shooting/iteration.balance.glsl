@@ -1,3 +1,6 @@
+#ifndef LUMEL_SHOOTING_ITERATION_BALANCE_GLSL
+#define LUMEL_SHOOTING_ITERATION_BALANCE_GLSL
+
 // What the energy balance is made of.
 
 vec3 mean(vec3 sum, float shots)
@@ -11,3 +14,5 @@ const uint kPhaseColumn = 2u;    // [2] Σ A ρ T X, the mean of this phase's sh
 const uint kSourceColumn = 4u;   // Σ A X
 const uint kEarlierColumn = 5u;  // [2] Σ A ρ U
 const uint kNearColumn = 7u;     // Σ A ρ N, near light of X
+
+#endif

@@ -29,22 +29,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kBalanceSpirv[] = {
-#include "shooting/iteration.balance.comp.inc"
-};
-constexpr std::uint32_t kEvaluateSpirv[] = {
-#include "shooting/iteration.evaluate.comp.inc"
-};
-constexpr std::uint32_t kAdvanceSpirv[] = {
-#include "shooting/iteration.advance.comp.inc"
-};
-constexpr std::uint32_t kPolishSpirv[] = {
-#include "shooting/iteration.polish.comp.inc"
-};
-constexpr std::uint32_t kFadeSpirv[] = {
-#include "shooting/iteration.fade.comp.inc"
-};
-
 /// Shots of the first phase, all from E.
 constexpr std::uint32_t kFirstPhaseShots = 64;
 /// How much a shot of an earlier phase counts beside one of the phase after it: its source was
@@ -86,12 +70,11 @@ Iteration::Iteration(const gpu::Device& device, const Lumels& lumels, const Near
       kept_(kept_by_batch(options, batch)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       known_sum_(irradiance_sum(known)),
-      balance_(device, "iteration.balance", kBalanceSpirv, 8, sizeof(AverageParams), kSumGroup),
-      evaluate_(device, "iteration.evaluate", kEvaluateSpirv, 11, sizeof(AverageParams), kSumGroup),
-      advance_(device, "iteration.advance", kAdvanceSpirv, 7, sizeof(AdvanceParams),
-               kIterationGroup),
-      polish_(device, "iteration.polish", kPolishSpirv, 6, sizeof(PolishParams), kIterationGroup),
-      fade_(device, "iteration.fade", kFadeSpirv, 2, sizeof(FadeParams), kIterationGroup),
+      balance_(device),
+      evaluate_(device),
+      advance_(device),
+      polish_(device),
+      fade_(device),
       surface_(device, view(surfaces_of(lumels))),
       emission_(device, view(emission_of(lumels))),
       known_(device, count_),
@@ -167,14 +150,29 @@ void Iteration::evaluate(gpu::Commands& commands)
     const AverageParams params{averages(), count_, float(kDimShare * mean_irradiance_)};
     if (!paper_) {
         commands.dispatch(balance_,
-                          {surface_, direct_, indirect_, near_emission_, near_source_, source_,
-                           earlier_, figures_.parts()},
+                          {.surface = surface_,
+                           .direct = direct_,
+                           .indirect = indirect_,
+                           .near_emission = near_emission_,
+                           .near_source = near_source_,
+                           .source = source_,
+                           .earlier = earlier_,
+                           .parts = figures_.parts()},
                           params, count_);
         figures_.add_up(commands, totals_);
     }
     commands.dispatch(evaluate_,
-                      {surface_, direct_, indirect_, near_emission_, near_source_, earlier_,
-                       totals_, known_, far_, irradiance_, figures_.parts()},
+                      {.totals = totals_,
+                       .surface = surface_,
+                       .direct = direct_,
+                       .indirect = indirect_,
+                       .near_emission = near_emission_,
+                       .near_source = near_source_,
+                       .earlier = earlier_,
+                       .known = known_,
+                       .far = far_,
+                       .irradiance = irradiance_,
+                       .parts = figures_.parts()},
                       params, count_);
     figures_.add_up(commands);
 }
@@ -183,9 +181,16 @@ void Iteration::advance(gpu::Pacer& pacer)
 {
     pacer.work("advance", [&](gpu::Commands& commands) {
         evaluate(commands);
-        commands.dispatch(
-            advance_, {surface_, emission_, irradiance_, totals_, indirect_, earlier_, source_},
-            AdvanceParams{averages(), count_, paper_ ? 0u : 1u, paper_ ? 1u : 0u}, count_);
+        commands.dispatch(advance_,
+                          {.totals = totals_,
+                           .surface = surface_,
+                           .emission = emission_,
+                           .irradiance = irradiance_,
+                           .indirect = indirect_,
+                           .earlier = earlier_,
+                           .source = source_},
+                          AdvanceParams{averages(), count_, paper_ ? 0u : 1u, paper_ ? 1u : 0u},
+                          count_);
         if (!paper_)
             near_rows_.light(commands, source_, near_source_);
     });
@@ -221,8 +226,8 @@ void Iteration::begin_batch(gpu::Pacer& pacer)
     take_figures(pacer);
     if (leaks())
         pacer.work("fade", [&](gpu::Commands& commands) {
-            commands.dispatch(fade_, {direct_, indirect_}, FadeParams{2 * count_, float(kept_)},
-                              2 * count_);
+            commands.dispatch(fade_, {.direct = direct_, .indirect = indirect_},
+                              FadeParams{2 * count_, float(kept_)}, 2 * count_);
         });
 }
 
@@ -266,7 +271,12 @@ std::vector<glm::vec3> Iteration::irradiance(gpu::Pacer& pacer)
             return;
         const auto sweep = [&](const gpu::Array<glm::vec3>& near) {
             commands.dispatch(polish_,
-                              {surface_, far_, near_emission_, near, irradiance_, scratch_source_},
+                              {.surface = surface_,
+                               .far = far_,
+                               .near_emission = near_emission_,
+                               .near_source = near,
+                               .irradiance = irradiance_,
+                               .source = scratch_source_},
                               PolishParams{count_}, count_);
         };
         sweep(near_source_);

@@ -1,6 +1,7 @@
 #version 460
 #include "shooting/iteration.shared.h"
 #include "shooting/radiosity.glsl"
+#include "shooting/iteration.glsl"
 
 // The solution as it stands, and how far its two independent halves are apart:
 //
@@ -12,19 +13,17 @@
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Direct { vec3 direct[]; };
-layout(binding = 2, scalar) readonly buffer Indirect { vec3 indirect[]; };
-layout(binding = 3, scalar) readonly buffer NearEmission { vec3 near_emission[]; };
-layout(binding = 4, scalar) readonly buffer NearSource { vec3 near_source[]; };
-layout(binding = 5, scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N]
-layout(binding = 6, scalar) readonly buffer Totals { Terms totals[]; };
-layout(binding = 7, scalar) readonly buffer Known { vec3 known[]; };  // H beside what is found here
-layout(binding = 8, scalar) writeonly buffer Far { vec3 far[]; };
-layout(binding = 9, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 10, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Direct { vec3 direct[]; };
+layout(scalar) readonly buffer Indirect { vec3 indirect[]; };
+layout(scalar) readonly buffer NearEmission { vec3 near_emission[]; };
+layout(scalar) readonly buffer NearSource { vec3 near_source[]; };
+layout(scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N]
+layout(scalar) readonly buffer Known { vec3 known[]; };  // H beside what is found here
+layout(scalar) writeonly buffer Far { vec3 far[]; };
+layout(scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "shooting/iteration.glsl"
 #include "shooting/sum.glsl"
 
 void main()
@@ -32,23 +31,23 @@ void main()
     const uint i = gl_GlobalInvocationID.x;
     Terms terms = no_terms();
     if (i < p.count && surface[i].w > 0.0) {
-        vec3 half_[2], near = vec3(0.0);
+        vec3 halves[2], near = vec3(0.0);
         for (uint h = 0u; h < 2u; ++h) {
             // A half that has no shots yet takes the other's.
             const uint e = p.averages.emission_shots[h] > 0.0 ? h : 1u - h;
             const uint s = has_indirect(p.averages, h) ? h : 1u - h;
             const uint at = s * p.count + i;
             const vec3 near_light = level(p.averages, s) * near_source[i];
-            half_[h] = mean(direct[e * p.count + i], p.averages.emission_shots[e]) +
-                       far_indirect(p.averages, s, indirect[at], earlier[at]) + near_light;
+            halves[h] = mean(direct[e * p.count + i], p.averages.emission_shots[e]) +
+                        far_indirect(p.averages, s, indirect[at], earlier[at]) + near_light;
             near += 0.5 * near_light;
         }
-        const vec3 mean_ = 0.5 * (half_[0] + half_[1]);
-        const vec3 h_i = mean_ + near_emission[i];
-        far[i] = mean_ - near;
+        const vec3 average = 0.5 * (halves[0] + halves[1]);
+        const vec3 h_i = average + near_emission[i];
+        far[i] = average - near;
         irradiance[i] = h_i;
 
-        const vec3 d = 0.5 * (half_[0] - half_[1]);
+        const vec3 d = 0.5 * (halves[0] - halves[1]);
         terms.column[0] = vec4(dot(d, d), h_i.r + h_i.g + h_i.b, 1.0,
                                surface[i].w * luminance(surface[i].rgb * h_i));
         const vec3 all_light = h_i + known[i];

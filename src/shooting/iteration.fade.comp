@@ -5,8 +5,8 @@
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { FadeParams p; };
-layout(binding = 0, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
-layout(binding = 1, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
+layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 
 void main()
 {

@@ -1,7 +1,12 @@
-// Running averages and the energy balance, shared by the kernels that read them. The includer
-// declares `Terms totals[]`.
+#ifndef LUMEL_SHOOTING_ITERATION_GLSL
+#define LUMEL_SHOOTING_ITERATION_GLSL
+
+// Running averages and the energy balance, shared by the kernels that read them. Declares `totals`.
 
 #include "shooting/iteration.balance.glsl"
+#include "shooting/iteration.shared.h"
+
+layout(scalar) readonly buffer Totals { Terms totals[]; };
 
 // True if half-solution h has shots of indirect light.
 bool has_indirect(Averages averages, uint h)
@@ -65,3 +70,5 @@ vec3 far_indirect(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
                ? pattern
                : level(averages, h) * totals[0].column[kSourceColumn].rgb * pattern;
 }
+
+#endif

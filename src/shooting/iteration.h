@@ -10,6 +10,11 @@
 #include "gpu/pacer.h"
 #include "nearfield/near_rows.h"
 #include "shooting/figures.h"
+#include "shooting/iteration.advance.comp.h"
+#include "shooting/iteration.balance.comp.h"
+#include "shooting/iteration.evaluate.comp.h"
+#include "shooting/iteration.fade.comp.h"
+#include "shooting/iteration.polish.comp.h"
 #include "shooting/iteration.shared.h"
 #include "shooting/solver_state.h"
 
@@ -85,7 +90,11 @@ private:
     double emitted_power_;  ///< Σ A 𝓛(E) [lm]
     double known_sum_;      ///< Σ of `known` [lx]
 
-    gpu::Kernel balance_, evaluate_, advance_, polish_, fade_;
+    gpu::Kernel<shaders::IterationBalance> balance_;
+    gpu::Kernel<shaders::IterationEvaluate> evaluate_;
+    gpu::Kernel<shaders::IterationAdvance> advance_;
+    gpu::Kernel<shaders::IterationPolish> polish_;
+    gpu::Kernel<shaders::IterationFade> fade_;
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission_;  ///< E
     gpu::Array<glm::vec3> known_;     ///< H that is received beside what is found here

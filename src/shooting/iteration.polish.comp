@@ -6,12 +6,12 @@
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { PolishParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Far { vec3 far[]; };
-layout(binding = 2, scalar) readonly buffer NearEmission { vec3 near_emission[]; };
-layout(binding = 3, scalar) readonly buffer NearSource { vec3 near_source[]; };
-layout(binding = 4, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 5, scalar) writeonly buffer Source { vec3 source[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer NearEmission { vec3 near_emission[]; };
+layout(scalar) readonly buffer NearSource { vec3 near_source[]; };
+layout(scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) writeonly buffer Source { vec3 source[]; };
 
 void main()
 {

@@ -1,8 +1,13 @@
-// Owen-scrambled Sobol points, computed on the spot. Needs core/hash.glsl.
+#ifndef LUMEL_SHOOTING_LOW_DISCREPANCY_GLSL
+#define LUMEL_SHOOTING_LOW_DISCREPANCY_GLSL
+
+// Owen-scrambled Sobol points, computed on the spot.
 //
 //   [Owen95] A. Owen. Randomly permuted (t,m,s)-nets and (t,s)-sequences. 1995.
 //   [LK11]   S. Laine, T. Karras. Stratified sampling for stochastic transparency. 2011
 //            (the hash below is their nested uniform scramble).
+
+#include "core/hash.glsl"
 
 // Bit-reversed x is scrambled so that each bit is flipped depending on the bits above it.
 uint owen_scramble(uint x, uint seed)
@@ -46,3 +51,5 @@ vec3 low_discrepancy_point(uint index, uint seed)
                 unit_float(owen_scramble(sobol(index, 1u), hash(seed ^ 0x02e5be93u))),
                 unit_float(owen_scramble(sobol(index, 2u), hash(seed ^ 0x967a889bu))));
 }
+
+#endif

@@ -3,13 +3,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kLeavesSpirv[] = {
-#include "shooting/power_pyramid.leaves.comp.inc"
-};
-constexpr std::uint32_t kSumSpirv[] = {
-#include "shooting/power_pyramid.sum.comp.inc"
-};
-
 PyramidLayout make_layout(std::size_t leaves)
 {
     PyramidLayout layout{};
@@ -41,9 +34,8 @@ PowerPyramid::PowerPyramid(const gpu::Device& device, std::size_t lumel_count)
     : layout_(make_layout(lumel_count)),
       array_(device, node_count(layout_)),
       power_(device, 1),
-      leaves_(device, "power_pyramid.leaves", kLeavesSpirv, 4, sizeof(PyramidLeafParams),
-              kPyramidGroup),
-      sum_(device, "power_pyramid.sum", kSumSpirv, 1, sizeof(PyramidSumParams), kPyramidGroup),
+      leaves_(device),
+      sum_(device),
       count_(lumel_count)
 {
 }
@@ -51,7 +43,7 @@ PowerPyramid::PowerPyramid(const gpu::Device& device, std::size_t lumel_count)
 void PowerPyramid::sum_levels(gpu::Commands& commands)
 {
     for (std::uint32_t level = 1; level < layout_.levels; ++level)
-        commands.dispatch(sum_, {array_},
+        commands.dispatch(sum_, {.pyramid = array_},
                           PyramidSumParams{layout_.first[level - 1], layout_.count[level - 1],
                                            layout_.first[level], layout_.count[level]},
                           layout_.count[level]);
@@ -61,8 +53,9 @@ void PowerPyramid::build(gpu::Commands& commands, const gpu::Array<glm::vec3>& s
                          const gpu::Array<glm::vec4>& surface, float by_area, float area_sum)
 {
     const auto leaves = [&](float share) {
-        commands.dispatch(leaves_, {source, surface, power_, array_},
-                          PyramidLeafParams{std::uint32_t(count_), share, area_sum}, count_);
+        commands.dispatch(
+            leaves_, {.source = source, .surface = surface, .power = power_, .pyramid = array_},
+            PyramidLeafParams{std::uint32_t(count_), share, area_sum}, count_);
         sum_levels(commands);
     };
     // Power first: the defensive share is relative to it.

@@ -2,7 +2,9 @@
 // Sums of power over the lumels, on the GPU, for importance sampling ([BSS05] section 4.1).
 
 #include "gpu/commands.h"
+#include "shooting/power_pyramid.leaves.comp.h"
 #include "shooting/power_pyramid.shared.h"
+#include "shooting/power_pyramid.sum.comp.h"
 
 namespace lumel {
 
@@ -31,7 +33,8 @@ private:
 
     PyramidLayout layout_;
     gpu::Array<float> array_, power_;
-    gpu::Kernel leaves_, sum_;
+    gpu::Kernel<shaders::PowerPyramidLeaves> leaves_;
+    gpu::Kernel<shaders::PowerPyramidSum> sum_;
     std::size_t count_;
 };
 

@@ -12,10 +12,10 @@
 
 layout(local_size_x = kPyramidGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidLeafParams p; };
-layout(binding = 0, scalar) readonly buffer Source { vec3 source[]; };      // X
-layout(binding = 1, scalar) readonly buffer Surface { vec4 surface[]; };    // ρ, A
-layout(binding = 2, scalar) readonly buffer Power { float power[]; };       // Φ
-layout(binding = 3, scalar) writeonly buffer Pyramid { float pyramid[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };  // X
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Power { float power[]; };  // Φ
+layout(scalar) writeonly buffer Pyramid { float pyramid[]; };
 
 void main()
 {

@@ -5,7 +5,7 @@
 
 layout(local_size_x = kPyramidGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidSumParams p; };
-layout(binding = 0, scalar) buffer Pyramid { float pyramid[]; };
+layout(scalar) buffer Pyramid { float pyramid[]; };
 
 void main()
 {

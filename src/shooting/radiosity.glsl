@@ -1,3 +1,6 @@
+#ifndef LUMEL_SHOOTING_RADIOSITY_GLSL
+#define LUMEL_SHOOTING_RADIOSITY_GLSL
+
 // What the shaders of every solver need.
 
 const float kPi = 3.14159265358979;
@@ -16,3 +19,5 @@ float point_factor(vec3 d, vec3 normal_j, vec3 normal_i, float disc)
     const float cosines = max(dot(d, normal_j), 0.0) * max(-dot(d, normal_i), 0.0);
     return cosines > 0.0 ? cosines / (r2 * (r2 + disc)) : 0.0;
 }
+
+#endif

@@ -1,11 +1,16 @@
-// Where shooters stand and look. Needs visibility/eye_views.shared.h.
+#ifndef LUMEL_SHOOTING_SHOOTER_GLSL
+#define LUMEL_SHOOTING_SHOOTER_GLSL
+
+// Where shooters stand and look.
 
 #include "shooting/low_discrepancy.glsl"
+#include "shooting/radiosity.glsl"
+#include "visibility/eye_views.shared.h"
 
 // A point of the unit cube for shooter k, independent of all others or from a sequence.
-vec3 draw_point(uint index, uint stream, uint seed_, bool random)
+vec3 draw_point(uint index, uint stream, uint base_seed, bool random)
 {
-    const uint seed = hash(hash(seed_) ^ stream);
+    const uint seed = hash(hash(base_seed) ^ stream);
     if (!random)
         return low_discrepancy_point(index, seed);
     const uint a = hash(seed ^ hash(index));
@@ -23,3 +28,5 @@ Eye make_eye(vec3 position, vec3 normal, uint random, uint channel)
     const vec3 t = cos(angle) * t0 + sin(angle) * b0;
     return Eye(position, t, cross(normal, t), normal, random, channel);
 }
+
+#endif

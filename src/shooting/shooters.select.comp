@@ -4,6 +4,9 @@
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
 #include "shooting/power_pyramid.glsl"
+#include "world/lumel.glsl"
+#include "shooting/shooter.glsl"
+#include "visibility/channel.glsl"
 
 // Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
 // point y uniform on lumel j, the hemicube turned at random about the normal.
@@ -17,18 +20,12 @@
 
 layout(local_size_x = kSelectGroup) in;
 layout(push_constant, scalar) uniform Params { SelectParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 3, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 4, scalar) readonly buffer EmissionPower { float emission_power[]; };
-layout(binding = 5, scalar) readonly buffer SourcePower { float source_power[]; };
-layout(binding = 6, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 7, scalar) writeonly buffer Shots { Shot shots[]; };
-
-#include "world/lumel.glsl"
-#include "shooting/shooter.glsl"
-#include "visibility/channel.glsl"
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
+layout(scalar) readonly buffer EmissionPower { float emission_power[]; };
+layout(scalar) readonly buffer SourcePower { float source_power[]; };
+layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(scalar) writeonly buffer Shots { Shot shots[]; };
 
 struct Merged {
     vec3 power;    // Σ X_m A_m
@@ -48,13 +45,13 @@ Merged merged_with(uint j)
 {
     const Lumel lumel = lumels[j];
     const uint reach = (1u << (2u * p.merge)) - 1u;
-    const uint last = min(j + reach, p.layout_.count[0] - 1u);
+    const uint last = min(j + reach, p.pyramid.count[0] - 1u);
     Merged sum = Merged(vec3(0.0), 0.0, 0.0);
     for (uint m = j - min(j, reach); m <= last; ++m)
         if (is_merged_with(lumel, lumels[m])) {
             sum.power += source[m] * lumels[m].area;
             sum.area += lumels[m].area;
-            sum.weight += source_power[p.layout_.first[0] + m];
+            sum.weight += source_power[p.pyramid.first[0] + m];
         }
     return sum;
 }
@@ -70,12 +67,11 @@ void main()
     const uint point = p.channels != 0u ? index / kChannels : index;
     const vec3 u = draw_point(point, emits ? 0u : 1u, p.seed, p.random != 0u);
 
-    const PyramidLayout layout_ = p.layout_;
     Drawn drawn;
     if (emits)
-        DRAW_FROM(emission_power, u.x)
+        DRAW_FROM(emission_power, p.pyramid, u.x, drawn)
     else
-        DRAW_FROM(source_power, u.x)
+        DRAW_FROM(source_power, p.pyramid, u.x, drawn)
 
     const uint j = drawn.lumel;
     const Lumel lumel = lumels[j];
@@ -93,7 +89,7 @@ void main()
     float probability = drawn.probability;
     if (p.merge > 0u && !emits && probability > 0.0) {
         sent = merged_with(j);
-        probability *= sent.weight / source_power[layout_.first[0] + j];
+        probability *= sent.weight / source_power[p.pyramid.first[0] + j];
     }
     const float scale = probability > 0.0 ? 1.0 / (kPi * probability) : 0.0;
     shots[k] = Shot(sent.power * carried_in_turn(channel) * scale, lumel.position, lumel.size,

@@ -19,7 +19,7 @@ struct Shot {
 
 /// Push constants of shooters.select.comp.
 struct SelectParams {
-    PyramidLayout layout_;
+    PyramidLayout pyramid;
     uint count;           ///< K shooters
     uint emission_count;  ///< of these, the first are drawn from the emission
     uint emission_index;  ///< next point of the emission's sequence

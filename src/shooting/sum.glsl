@@ -1,4 +1,9 @@
+#ifndef LUMEL_SHOOTING_SUM_GLSL
+#define LUMEL_SHOOTING_SUM_GLSL
+
 // Adds up one Terms per invocation over the workgroup.
+
+#include "shooting/figures.shared.h"
 
 Terms no_terms()
 {
@@ -17,3 +22,5 @@ Terms plus(Terms a, Terms b)
 
 #define SUMMAND Terms
 #include "shooting/group_sum.glsl"
+
+#endif

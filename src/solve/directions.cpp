@@ -39,15 +39,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kGatherSpirv[] = {
-#include "solve/directions.gather.comp.inc"
-};
-
-constexpr gpu::Slot kGatherSlots[] = {
-    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
-    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-    gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
-
 /// Directions that are made at a time.
 constexpr std::uint32_t kChunk = 1024;
 /// Dimension pairs of a direction's random numbers.
@@ -100,8 +91,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
       world_(&world),
       maps_(maps_for(device, world, lumels, options)),
       batch_(std::bit_floor(maps_.capacity())),
-      gather_(device, "directions.gather", kGatherSpirv, kGatherSlots, sizeof(GatherParams),
-              kGatherGroup, std::uint32_t(options.layers)),
+      gather_(device, std::uint32_t(options.layers)),
       lumel_of_(device, view(lumels_by_side(lumels))),
       seen_(device,
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
@@ -212,13 +202,13 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
     pacer_.work(keep ? "keep" : "gather", iteration_.lumels(), kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                     const GatherParams params{
-                        .layout_ = maps_.layout(),
+                        .tiling = maps_.layout(),
                         .first = first,
                         .last = last,
                         .count = iteration_.lumels(),
                         .first_view = first_view,
                         .views = batch_,
-                        .half_ = iteration_.half(),
+                        .half_index = iteration_.half(),
                         .first_point = std::uint32_t(iteration_.state().shots),
                         .seed = options_.seed,
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
@@ -230,21 +220,21 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                         .slabs = maps_.slabs(),
                         .maps = maps_of_slabs(maps_.slabs())};
                     commands.dispatch(gather_,
-                                      {world_->lumels(),
-                                       world_->pieces(),
-                                       chunk.views,
-                                       chunk.directions,
-                                       {maps_.image(layer), maps_.sampler()},
-                                       maps_.heads(),
-                                       maps_.fragments(),
-                                       lumel_of_,
-                                       iteration_.emission(),
-                                       iteration_.source(),
-                                       iteration_.direct(),
-                                       iteration_.indirect(),
-                                       seen_,
-                                       news_,
-                                       heard_},
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .views = chunk.views,
+                                       .directions = chunk.directions,
+                                       .illumination_map = {maps_.image(layer), maps_.sampler()},
+                                       .heads = maps_.heads(),
+                                       .fragments = maps_.fragments(),
+                                       .lumel_of = lumel_of_,
+                                       .emission = iteration_.emission(),
+                                       .source = iteration_.source(),
+                                       .direct = iteration_.direct(),
+                                       .indirect = iteration_.indirect(),
+                                       .kept = seen_,
+                                       .news = news_,
+                                       .heard_of = heard_},
                                       params, last - first);
                 });
 }

@@ -2,6 +2,12 @@
 #include "solve/directions.shared.h"
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/channel.glsl"
+#include "visibility/parallel.glsl"
+#include "visibility/first_met.glsl"
+#include "visibility/piece_along.glsl"
 
 // Every lumel i looks along K global directions d and takes the light of what it sees first,
 // [TN11] Eq. (2) and Figure 5:
@@ -24,28 +30,19 @@
 layout(local_size_x = kGatherGroup) in;
 layout(constant_id = 0) const uint kLayers = kStochasticLayers;
 layout(push_constant, scalar) uniform Params { GatherParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Views { ParallelView views[]; };
-layout(binding = 3, scalar) readonly buffer Directions { GlobalDirection directions[]; };
-layout(binding = 4) uniform usampler2D illumination_map;
-layout(binding = 5, scalar) readonly buffer Heads { uint heads[]; };
-layout(binding = 6, scalar) readonly buffer Fragments { Fragment fragments[]; };
-layout(binding = 7, scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
-layout(binding = 8, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 9, scalar) readonly buffer Source { vec3 source[]; };
-layout(binding = 10, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
-layout(binding = 11, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
-layout(binding = 12, scalar) buffer Kept { uint kept[]; };           // [K][N] peeled: seen so far
-layout(binding = 13, scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
-layout(binding = 14, scalar) buffer HeardOf { Heard heard_of[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/channel.glsl"
-#include "visibility/parallel.glsl"
-#include "visibility/first_met.glsl"
-#include "visibility/piece_along.glsl"
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Directions { GlobalDirection directions[]; };
+uniform usampler2D illumination_map;
+layout(scalar) readonly buffer Heads { uint heads[]; };
+layout(scalar) readonly buffer Fragments { Fragment fragments[]; };
+layout(scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
+layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
+layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+layout(scalar) buffer Kept { uint kept[]; };  // [K][N] peeled: seen so far
+layout(scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
+layout(scalar) buffer HeardOf { Heard heard_of[]; };
 
 const float kPi = 3.14159265;
 // What lies higher than this above the plane is not the receiver itself [pixels' widths].
@@ -82,8 +79,8 @@ InView in_view(ParallelView view, LumelPoint point)
 // The nearest that a map shows within `reach` pixels of the point, or `before`.
 uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
 {
-    const ivec2 corner = ivec2(tile_corner(p.layout_, tile));
-    const int last = int(p.layout_.side) - 1;
+    const ivec2 corner = ivec2(tile_corner(p.tiling, tile));
+    const int last = int(p.tiling.side) - 1;
     uvec2 nearest = before;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
@@ -113,7 +110,7 @@ Seen see_by_chance(ParallelView view, uint k, LumelPoint receiver)
 
 uint nearest_listed(PieceInView piece, RayMet ray, uint tile)
 {
-    const uint side = p.layout_.side;
+    const uint side = p.tiling.side;
     uint next = heads[(tile * side + uint(ray.pixel.y)) * side + uint(ray.pixel.x)];
     uint surface = 0u;
     float first = 2.0;
@@ -135,7 +132,7 @@ uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
     const uint at = tile * p.count + i;
     if (p.keep == 0u)
         return kept[at];
-    const ivec2 place = ivec2(tile_corner(p.layout_, tile)) + ivec2(ray.pixel);
+    const ivec2 place = ivec2(tile_corner(p.tiling, tile)) + ivec2(ray.pixel);
     const uvec2 fragment = texelFetch(illumination_map, place, 0).xy;
     if (fragment.x != 0u && !is_first(piece, ray, uintBitsToFloat(fragment.y))) {
         kept[at] = fragment.x;
@@ -149,7 +146,7 @@ Seen see_exactly(ParallelView view, uint tile, LumelPoint point, uint i)
 {
     const PieceInView piece = piece_along(view, pieces[point.piece]);
     RayMet ray;
-    if (!find_ray(piece, place_in(view, point.position), vec2(p.layout_.side), ray))
+    if (!find_ray(piece, place_in(view, point.position), vec2(p.tiling.side), ray))
         return Seen(0u, 0.0);
     return Seen(kLayers == kListedLayers ? nearest_listed(piece, ray, tile)
                                          : nearest_peeled(piece, ray, tile, i),
@@ -199,7 +196,7 @@ void main()
         return;
     heard_of[i] = heard;
     const float correction = (heard.asked + kUsual) / (heard.told + kUsual);
-    const uint at = p.half_ * p.count + i;
+    const uint at = p.half_index * p.count + i;
     direct[at] += correction * of_emission;
     indirect[at] += correction * of_source;
 }

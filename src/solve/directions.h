@@ -7,6 +7,7 @@
 #include "gpu/pacer.h"
 #include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
+#include "solve/directions.gather.comp.h"
 #include "solve/directions.shared.h"
 #include "solve/options.h"
 #include "solve/solver.h"
@@ -54,7 +55,7 @@ private:
     const World* world_;
     IlluminationMaps maps_;
     std::uint32_t batch_;  ///< K, a power of two
-    gpu::Kernel gather_;
+    gpu::Kernel<shaders::DirectionsGather> gather_;
     gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2] lumel of each side, or kNoLumel
     gpu::Array<std::uint32_t> seen_;      ///< [K][N] peeled: the surface that each lumel sees
     gpu::Array<std::uint32_t> news_;      ///< [1] peeled: 1 once a layer shows something new

@@ -21,13 +21,13 @@ struct Heard {
 
 /// Push constants of directions.gather.comp.
 struct GatherParams {
-    ParallelLayout layout_;
+    ParallelLayout tiling;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint count;        ///< N
     uint first_view;   ///< views [first_view, first_view + views) in tiles 0, 1, …
     uint views;        ///< K
-    uint half_;        ///< 0 or 1: which half-solution takes this batch
+    uint half_index;   ///< 0 or 1: which half-solution takes this batch
     uint first_point;  ///< numbers the points of a lumel that receive
     uint seed;
     uint centre;         ///< 1: receive at the centroid

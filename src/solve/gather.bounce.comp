@@ -9,14 +9,14 @@
 
 layout(local_size_x = kBounceGroup) in;
 layout(push_constant, scalar) uniform Params { BounceParams p; };
-layout(binding = 0, scalar) readonly buffer Order { uint order[]; };
-layout(binding = 1, scalar) readonly buffer Gathered { vec3 gathered[]; };
-layout(binding = 2, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 3, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 4, scalar) buffer Sums { vec3 sums[]; };  // [2][N]
-layout(binding = 5, scalar) writeonly buffer Change { vec3 change[]; };
-layout(binding = 6, scalar) buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 7, scalar) writeonly buffer Radiosity { vec3 radiosity[]; };
+layout(scalar) readonly buffer Order { uint order[]; };
+layout(scalar) readonly buffer Gathered { vec3 gathered[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) buffer Sums { vec3 sums[]; };  // [2][N]
+layout(scalar) writeonly buffer Change { vec3 change[]; };
+layout(scalar) buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) writeonly buffer Radiosity { vec3 radiosity[]; };
 
 void main()
 {
@@ -28,7 +28,7 @@ void main()
     if (p.channels > 1u)
         arrived = vec3(arrived.r, gathered[m * p.channels + 1u].g, gathered[m * p.channels + 2u].b);
     if (p.averaged != 0u) {
-        sums[p.half_ * p.count + i] += arrived;
+        sums[p.half_index * p.count + i] += arrived;
         arrived = (sums[i] + sums[p.count + i]) / float(p.taken.x + p.taken.y);
     }
     change[i] = arrived - irradiance[i];

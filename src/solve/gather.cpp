@@ -40,22 +40,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kEyesSpirv[] = {
-#include "solve/gather.eyes.comp.inc"
-};
-constexpr std::uint32_t kIntegrateSpirv[] = {
-#include "solve/gather.integrate.comp.inc"
-};
-constexpr std::uint32_t kBounceSpirv[] = {
-#include "solve/gather.bounce.comp.inc"
-};
-constexpr std::uint32_t kFiguresSpirv[] = {
-#include "solve/gather.figures.comp.inc"
-};
-
-constexpr gpu::Slot kIntegrateSlots[] = {gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array,
-                                         gpu::Slot::array};
-
 /// How far eyes are lifted, as a part of the largest coordinate: ten times what rounding may put
 /// them below their own surface.
 constexpr float kLift = 2e-6f;
@@ -171,12 +155,10 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
       world_(&world),
       channels_(world.has_coloured_glass() ? kChannels : 1),
       lift_(lift_of(world)),
-      eyes_kernel_(device, "gather.eyes", kEyesSpirv, 5, sizeof(GatherEyesParams), kBounceGroup),
-      integrate_(device, "gather.integrate", kIntegrateSpirv, kIntegrateSlots,
-                 sizeof(IntegrateParams), kIntegrateGroup),
-      bounce_(device, "gather.bounce", kBounceSpirv, 8, sizeof(BounceParams), kBounceGroup),
-      figures_kernel_(device, "gather.figures", kFiguresSpirv, 5, sizeof(BounceFiguresParams),
-                      kSumGroup),
+      eyes_kernel_(device),
+      integrate_(device),
+      bounce_(device),
+      figures_kernel_(device),
       views_(device, world, std::uint32_t(options.hemicube), kNearPart * lift_,
              wanted_hemicubes(options, channels_)),
       batch_(std::max(views_.capacity() / channels_, 1u)),
@@ -246,8 +228,12 @@ void GatherRadiosity::place_eyes(std::uint32_t lumels)
                                   .lift = lift_};
     pacer_.work("eyes", [&](gpu::Commands& commands) {
         commands.dispatch(eyes_kernel_,
-                          {world_->lumels(), world_->pieces(), order_, eyes_, points_}, params,
-                          params.eyes);
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .order = order_,
+                           .eyes = eyes_,
+                           .points = points_},
+                          params, params.eyes);
     });
 }
 
@@ -255,10 +241,12 @@ void GatherRadiosity::integrate(std::uint32_t eyes)
 {
     const IntegrateParams params{.views = views_.layout(), .samples = gpu::kManySamples};
     pacer_.work("integrate", [&](gpu::Commands& commands) {
-        commands.dispatch(
-            integrate_,
-            {{views_.image(), views_.sampler()}, points_, delta_form_factors_, gathered_}, params,
-            std::size_t(eyes) * kIntegrateGroup);
+        commands.dispatch(integrate_,
+                          {.views = {views_.image(), views_.sampler()},
+                           .points = points_,
+                           .delta_form_factor = delta_form_factors_,
+                           .gathered = gathered_},
+                          params, std::size_t(eyes) * kIntegrateGroup);
     });
 }
 
@@ -271,13 +259,19 @@ void GatherRadiosity::bounce(std::uint32_t lumels)
                               .channels = channels_,
                               .count = count_,
                               .averaged = averages_ ? 1u : 0u,
-                              .half_ = half(),
+                              .half_index = half(),
                               .taken = {taken[0], taken[1]}};
     pacer_.work("bounce", [&](gpu::Commands& commands) {
-        commands.dispatch(
-            bounce_,
-            {order_, gathered_, surface_, emission_, sums_, change_, irradiance_, radiosity_},
-            params, lumels);
+        commands.dispatch(bounce_,
+                          {.order = order_,
+                           .gathered = gathered_,
+                           .surface = surface_,
+                           .emission = emission_,
+                           .sums = sums_,
+                           .change = change_,
+                           .irradiance = irradiance_,
+                           .radiosity = radiosity_},
+                          params, lumels);
     });
 }
 
@@ -289,7 +283,11 @@ void GatherRadiosity::end_bounce()
         ++taken_[half()];
     const Terms terms = figures_.hear(pacer_, [&](gpu::Commands& commands) {
         commands.dispatch(figures_kernel_,
-                          {surface_, sums_, change_, irradiance_, figures_.parts()},
+                          {.surface = surface_,
+                           .sums = sums_,
+                           .change = change_,
+                           .irradiance = irradiance_,
+                           .parts = figures_.parts()},
                           BounceFiguresParams{count_, {taken_[0], taken_[1]}}, count_);
         figures_.add_up(commands);
     });

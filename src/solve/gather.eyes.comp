@@ -3,6 +3,8 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "shooting/shooter.glsl"
 
 // Where the hemicubes of a batch stand: each at a point of its lumel, turned about the normal by an
 // angle of its own [Hoef13] 4.2, and lifted a little, so that the surface itself stays out of
@@ -10,14 +12,9 @@
 
 layout(local_size_x = kBounceGroup) in;
 layout(push_constant, scalar) uniform Params { GatherEyesParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Order { uint order[]; };
-layout(binding = 3, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 4, scalar) writeonly buffer Points { GatheringPoint points[]; };
-
-#include "world/lumel.glsl"
-#include "shooting/shooter.glsl"
+layout(scalar) readonly buffer Order { uint order[]; };
+layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(scalar) writeonly buffer Points { GatheringPoint points[]; };
 
 // A point keeps this part of its distance to the piece's middle away from the edges, where other
 // surfaces may stand closer than eyes are lifted.

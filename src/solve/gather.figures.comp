@@ -10,11 +10,11 @@
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { BounceFiguresParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Sums { vec3 sums[]; };  // [2][N]
-layout(binding = 2, scalar) readonly buffer Change { vec3 change[]; };
-layout(binding = 3, scalar) readonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Sums { vec3 sums[]; };  // [2][N]
+layout(scalar) readonly buffer Change { vec3 change[]; };
+layout(scalar) readonly buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) writeonly buffer Parts { Terms parts[]; };
 
 #include "shooting/sum.glsl"
 

@@ -7,6 +7,10 @@
 #include "gpu/pacer.h"
 #include "nearfield/solve_size.h"
 #include "shooting/figures.h"
+#include "solve/gather.bounce.comp.h"
+#include "solve/gather.eyes.comp.h"
+#include "solve/gather.figures.comp.h"
+#include "solve/gather.integrate.comp.h"
 #include "solve/gather.shared.h"
 #include "solve/options.h"
 #include "solve/solver.h"
@@ -46,7 +50,10 @@ private:
     const World* world_;
     std::uint32_t channels_;  ///< hemicubes of one lumel
     float lift_;              ///< of eyes above their surface [m]
-    gpu::Kernel eyes_kernel_, integrate_, bounce_, figures_kernel_;
+    gpu::Kernel<shaders::GatherEyes> eyes_kernel_;
+    gpu::Kernel<shaders::GatherIntegrate> integrate_;
+    gpu::Kernel<shaders::GatherBounce> bounce_;
+    gpu::Kernel<shaders::GatherFigures> figures_kernel_;
     LitViews views_;
     std::uint32_t batch_;                 ///< lumels of a batch
     gpu::Array<std::uint32_t> order_;     ///< [M] lumels that are not buried

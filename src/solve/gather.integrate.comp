@@ -1,5 +1,6 @@
 #version 460
 #include "solve/gather.shared.h"
+#include "visibility/hemicube.glsl"
 
 // What hemicubes show, multiplied by the delta form factors and summed [Hoef13] Algorithm 4.1:
 //
@@ -10,12 +11,10 @@
 
 layout(local_size_x = kIntegrateGroup) in;
 layout(push_constant, scalar) uniform Params { IntegrateParams p; };
-layout(binding = 0) uniform sampler2DMS views;
-layout(binding = 1, scalar) readonly buffer Points { GatheringPoint points[]; };
-layout(binding = 2, scalar) readonly buffer DeltaFormFactors { float delta_form_factor[]; };
-layout(binding = 3, scalar) writeonly buffer Gathered { vec3 gathered[]; };
-
-#include "visibility/hemicube.glsl"
+uniform sampler2DMS views;
+layout(scalar) readonly buffer Points { GatheringPoint points[]; };
+layout(scalar) readonly buffer DeltaFormFactors { float delta_form_factor[]; };
+layout(scalar) writeonly buffer Gathered { vec3 gathered[]; };
 
 vec3 plus(vec3 a, vec3 b)
 {

@@ -33,13 +33,13 @@ struct IntegrateParams {
 
 /// Push constants of gather.bounce.comp.
 struct BounceParams {
-    uint first;     ///< of the order
-    uint lumels;    ///< of this batch
-    uint channels;  ///< hemicubes of one lumel
-    uint count;     ///< N
-    uint averaged;  ///< 1: what arrives is added to the half-solution
-    uint half_;     ///< 0 or 1
-    uvec2 taken;    ///< bounces in each half-solution, with this one
+    uint first;       ///< of the order
+    uint lumels;      ///< of this batch
+    uint channels;    ///< hemicubes of one lumel
+    uint count;       ///< N
+    uint averaged;    ///< 1: what arrives is added to the half-solution
+    uint half_index;  ///< 0 or 1
+    uvec2 taken;      ///< bounces in each half-solution, with this one
 };
 
 /// Push constants of gather.figures.comp.

@@ -45,16 +45,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kSelectSpirv[] = {
-#include "solve/glossy.select.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "solve/glossy.receive.comp.inc"
-};
-constexpr std::uint32_t kEvaluateSpirv[] = {
-#include "solve/glossy.evaluate.comp.inc"
-};
-
 /// Iterations after which the average begins anew: what came before lacks bounces.
 constexpr std::uint64_t kRestarts[] = {8, 32};
 /// Iterations after the last restart before the error is stated.
@@ -64,22 +54,12 @@ constexpr std::size_t kShootersPerParticle = 8;
 /// Share of a frame's shooters spread by area: light may reach what was dark before.
 constexpr float kFrameByArea = 0.1f;
 
-constexpr gpu::Slot kReceiveSlots[] = {
-    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
-    gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
-    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
-    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array,
-    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::array,     gpu::Slot::array};
-
 }  // namespace
 
 GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection projection)
-    : select(device, "glossy.select", kSelectSpirv, 11, sizeof(GlossySelectParams),
-             kGlossySelectGroup),
-      receive(device, "glossy.receive", kReceiveSpirv, kReceiveSlots, sizeof(GlossyReceiveParams),
-              kGlossyReceiveGroup, std::uint32_t(projection)),
-      evaluate(device, "glossy.evaluate", kEvaluateSpirv, 5, sizeof(GlossyEvaluateParams),
-               kSumGroup)
+    : select(device),
+      receive(device, std::uint32_t(projection)),
+      evaluate(device)
 {
 }
 
@@ -192,7 +172,7 @@ void GlossyIllumination::restart()
 void GlossyIllumination::select()
 {
     const std::size_t now = state_.iterations % 2;
-    const GlossySelectParams params{.layout_ = power_.layout(),
+    const GlossySelectParams params{.pyramid = power_.layout(),
                                     .count = count_,
                                     .shots = batch_,
                                     .before = state_.iterations > 0 && !particles_ ? batch_ : 0u,
@@ -202,9 +182,17 @@ void GlossyIllumination::select()
                                     .channels = world_->has_coloured_glass() ? 1u : 0u};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(kernels_.select,
-                          {world_->lumels(), world_->pieces(), gloss_, diffuse_, last_,
-                           power_.array(), eyes_[1 - now], albedo_table_, eyes_[now], shots_,
-                           lobes_},
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .albedo_table = albedo_table_,
+                           .gloss = gloss_,
+                           .diffuse = diffuse_,
+                           .last = last_,
+                           .power = power_.array(),
+                           .before = eyes_[1 - now],
+                           .eyes = eyes_[now],
+                           .shots = shots_,
+                           .lobes_sent = lobes_},
                           params, batch_);
     });
 }
@@ -231,7 +219,7 @@ void GlossyIllumination::receive()
     GlossyReceiveParams params{.views = views_.layout(),
                                .count = count_,
                                .shots = batch_,
-                               .half_ = iteration_ % 2,
+                               .half_index = iteration_ % 2,
                                .iteration = iteration_,
                                .seed = options_.seed,
                                .centre = options_.rule == SampleRule::centre ? 1u : 0u,
@@ -242,26 +230,26 @@ void GlossyIllumination::receive()
                     params.first = first;
                     params.last = last;
                     commands.dispatch(kernels_.receive,
-                                      {world_->lumels(),
-                                       world_->pieces(),
-                                       eyes,
-                                       shots_,
-                                       {views_.image(), views_.sampler()},
-                                       gloss_,
-                                       emission_,
-                                       near_,
-                                       albedo_table_,
-                                       last_,
-                                       sums_,
-                                       exitance_,
-                                       absorbed_,
-                                       diffuse_,
-                                       near_rows_.first(),
-                                       near_rows_.column(),
-                                       near_rows_.factor(),
-                                       lobes_,
-                                       carried_,
-                                       passed_on_},
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .albedo_table = albedo_table_,
+                                       .lobes_sent = lobes_,
+                                       .views = {views_.image(), views_.sampler()},
+                                       .near_first = near_rows_.first(),
+                                       .near_column = near_rows_.column(),
+                                       .near_factors = near_rows_.factor(),
+                                       .eyes = eyes,
+                                       .shots = shots_,
+                                       .gloss = gloss_,
+                                       .emission = emission_,
+                                       .near = near_,
+                                       .last = last_,
+                                       .sums = sums_,
+                                       .exitance = exitance_,
+                                       .absorbed = absorbed_,
+                                       .diffuse_exitance = diffuse_,
+                                       .carried = carried_,
+                                       .passed_on = passed_on_},
                                       params, last - first);
                 });
     if (!held_)
@@ -271,7 +259,11 @@ void GlossyIllumination::receive()
 void GlossyIllumination::evaluate(gpu::Commands& commands)
 {
     commands.dispatch(kernels_.evaluate,
-                      {surface_, sums_, absorbed_, irradiance_, figures_.parts()},
+                      {.surface = surface_,
+                       .sums = sums_,
+                       .absorbed = absorbed_,
+                       .irradiance = irradiance_,
+                       .parts = figures_.parts()},
                       GlossyEvaluateParams{count_, {batches_[0], batches_[1]}}, count_);
     figures_.add_up(commands);
 }

@@ -1,18 +1,18 @@
 #version 460
 #include "solve/glossy.shared.h"
+#include "shooting/radiosity.glsl"
 
 // H as the mean over all iterations since the last restart, and how far its halves are apart: the
 // first three of iteration.evaluate.comp's terms, and Σ A 𝓛 of what is absorbed.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyEvaluateParams p; };
-layout(binding = 0, scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
-layout(binding = 1, scalar) readonly buffer Sums { vec3 sums[]; };        // [2][N]
-layout(binding = 2, scalar) readonly buffer Absorbed { vec3 absorbed[]; };  // [2][N]
-layout(binding = 3, scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
-layout(binding = 4, scalar) writeonly buffer Parts { Terms parts[]; };
+layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
+layout(scalar) readonly buffer Sums { vec3 sums[]; };  // [2][N]
+layout(scalar) readonly buffer Absorbed { vec3 absorbed[]; };  // [2][N]
+layout(scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
+layout(scalar) writeonly buffer Parts { Terms parts[]; };
 
-#include "shooting/radiosity.glsl"
 #include "shooting/sum.glsl"
 
 void main()

@@ -12,6 +12,9 @@
 #include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "shooting/power_pyramid.h"
+#include "solve/glossy.evaluate.comp.h"
+#include "solve/glossy.receive.comp.h"
+#include "solve/glossy.select.comp.h"
 #include "solve/glossy.shared.h"
 #include "solve/options.h"
 #include "solve/solver.h"
@@ -73,7 +76,9 @@ public:
 private:
     struct Kernels {
         Kernels(const gpu::Device& device, Projection projection);
-        gpu::Kernel select, receive, evaluate;
+        gpu::Kernel<shaders::GlossySelect> select;
+        gpu::Kernel<shaders::GlossyReceive> receive;
+        gpu::Kernel<shaders::GlossyEvaluate> evaluate;
     };
 
     /// Where frames begin: what an iteration takes from the one before, and mean B, in proportion

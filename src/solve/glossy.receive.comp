@@ -2,6 +2,13 @@
 #include "solve/glossy.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "lobes/phong.glsl"
+#include "lobes/lobes.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "nearfield/near_pairs.glsl"
+#include "nearfield/near_factor.glsl"
 
 // Every lumel takes its share of all K shots ([BSS05] Eq. (4)), keeps the actual irradiance of each
 // for the next iteration's reflections, and adds it to the running average:
@@ -17,34 +24,18 @@
 
 layout(local_size_x = kGlossyReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
-layout(binding = 3, scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Glosses { Gloss gloss[]; };
-layout(binding = 6, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 7, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 8, scalar) readonly buffer Table { float albedo_table[]; };
-layout(binding = 9, scalar) writeonly buffer Last { vec3 last[]; };    // [K][N]
-layout(binding = 10, scalar) buffer Sums { vec3 sums[]; };             // [2][N] of H
-layout(binding = 11, scalar) writeonly buffer Exitance { vec3 exitance[]; };  // [N] B
-layout(binding = 12, scalar) buffer Absorbed { vec3 absorbed[]; };     // [2][N] sums
-layout(binding = 13, scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
-layout(binding = 14, scalar) readonly buffer NearFirst { uint near_first[]; };
-layout(binding = 15, scalar) readonly buffer NearColumn { uint near_column[]; };
-layout(binding = 16, scalar) readonly buffer NearFactor { float near_factors[]; };
-layout(binding = 17, scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
-layout(binding = 18, scalar) readonly buffer Carried { vec3 carried[]; };  // [N] by particles
-layout(binding = 19, scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, by lobes
-
-#include "world/lumel.glsl"
-#include "lobes/phong.glsl"
-#include "lobes/lobes.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "nearfield/near_pairs.glsl"
-#include "nearfield/near_factor.glsl"
+layout(scalar) uniform Eyes { Eye eyes[kMostGlossyBatch]; };
+layout(scalar) uniform Shots { GlossyShot shots[kMostGlossyBatch]; };
+layout(scalar) readonly buffer Glosses { Gloss gloss[]; };
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Near { vec3 near[]; };
+layout(scalar) writeonly buffer Last { vec3 last[]; };  // [K][N]
+layout(scalar) buffer Sums { vec3 sums[]; };  // [2][N] of H
+layout(scalar) writeonly buffer Exitance { vec3 exitance[]; };  // [N] B
+layout(scalar) buffer Absorbed { vec3 absorbed[]; };  // [2][N] sums
+layout(scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
+layout(scalar) readonly buffer Carried { vec3 carried[]; };  // [N] by particles
+layout(scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, by lobes
 
 // Between near lumels a narrower lobe would be hit or missed by chance.
 const float kMostNearShininess = 100.0;
@@ -127,7 +118,7 @@ void main()
     }
     diffuse_exitance[i] = emission[i] + diffuse;
     exitance[i] = emission[i] + diffuse + (particles ? vec3(0.0) : lobes);
-    const uint at = p.half_ * p.count + i;
+    const uint at = p.half_index * p.count + i;
     sums[at] += sum;
     absorbed[at] += sum - diffuse - lobes;
 }

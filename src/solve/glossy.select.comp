@@ -3,6 +3,10 @@
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
 #include "shooting/power_pyramid.glsl"
+#include "world/lumel.glsl"
+#include "lobes/phong.glsl"
+#include "shooting/shooter.glsl"
+#include "visibility/channel.glsl"
 
 // Draws the shooters of one iteration in proportion to their power ([BSS05] section 4.1) and
 // prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and lobes of
@@ -10,22 +14,14 @@
 
 layout(local_size_x = kGlossySelectGroup) in;
 layout(push_constant, scalar) uniform Params { GlossySelectParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Glosses { Gloss gloss[]; };
-layout(binding = 3, scalar) readonly buffer Diffuse { vec3 diffuse[]; };  // [N] exitance
-layout(binding = 4, scalar) readonly buffer Last { vec3 last[]; };   // [K][N] I of each shooter
-layout(binding = 5, scalar) readonly buffer Power { float power[]; };
-layout(binding = 6, scalar) readonly buffer Before { Eye before[]; };  // [K] earlier shooters
-layout(binding = 7, scalar) readonly buffer Table { float albedo_table[]; };
-layout(binding = 8, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 9, scalar) writeonly buffer Shots { GlossyShot shots[]; };
-layout(binding = 10, scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
-
-#include "world/lumel.glsl"
-#include "lobes/phong.glsl"
-#include "shooting/shooter.glsl"
-#include "visibility/channel.glsl"
+layout(scalar) readonly buffer Glosses { Gloss gloss[]; };
+layout(scalar) readonly buffer Diffuse { vec3 diffuse[]; };  // [N] exitance
+layout(scalar) readonly buffer Last { vec3 last[]; };  // [K][N] I of each shooter
+layout(scalar) readonly buffer Power { float power[]; };
+layout(scalar) readonly buffer Before { Eye before[]; };  // [K] earlier shooters
+layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(scalar) writeonly buffer Shots { GlossyShot shots[]; };
+layout(scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
 
 // What shooter k's light gives the lobe: the luminance of ρ_s I_k a(ω_k).
 float lobe_power(uint j, uint k, LumelPoint y)
@@ -43,9 +39,8 @@ void main()
     const uint index = p.index + k;
     // Iterations must be independent of each other: each has a sequence of its own.
     const vec3 u = draw_point(k, hash(p.index), p.seed, p.random != 0u);
-    const PyramidLayout layout_ = p.layout_;
     Drawn drawn;
-    DRAW_FROM(power, u.x)
+    DRAW_FROM(power, p.pyramid, u.x, drawn)
 
     const uint j = drawn.lumel;
     const Lumel lumel = lumels[j];

@@ -12,7 +12,7 @@ LUMEL_CONST uint kGlossyReceiveGroup = 64u;
 
 /// Push constants of glossy.select.comp.
 struct GlossySelectParams {
-    PyramidLayout layout_;
+    PyramidLayout pyramid;
     uint count;   ///< N
     uint shots;   ///< K
     uint before;  ///< K of the iteration before, 0: none
@@ -27,9 +27,9 @@ struct GlossyReceiveParams {
     EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
-    uint count;  ///< N
-    uint shots;  ///< K
-    uint half_;  ///< 0 or 1: which half-solution takes this batch
+    uint count;       ///< N
+    uint shots;       ///< K
+    uint half_index;  ///< 0 or 1: which half-solution takes this batch
     uint iteration;
     uint seed;
     uint centre;        ///< 1: receive at the centroid

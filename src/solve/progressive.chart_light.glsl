@@ -1,4 +1,9 @@
+#ifndef LUMEL_SOLVE_PROGRESSIVE_CHART_LIGHT_GLSL
+#define LUMEL_SOLVE_PROGRESSIVE_CHART_LIGHT_GLSL
+
 // Sums of ChartLight over a workgroup.
+
+#include "solve/progressive.shared.h"
 
 ChartLight no_light()
 {
@@ -13,3 +18,5 @@ ChartLight plus(ChartLight a, ChartLight b)
 
 #define SUMMAND ChartLight
 #include "shooting/group_sum.glsl"
+
+#endif

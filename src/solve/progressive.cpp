@@ -42,26 +42,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kPowerSpirv[] = {
-#include "solve/progressive.power.comp.inc"
-};
-constexpr std::uint32_t kSelectSpirv[] = {
-#include "solve/progressive.select.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "solve/progressive.receive.comp.inc"
-};
-constexpr std::uint32_t kSettleSpirv[] = {
-#include "solve/progressive.settle.comp.inc"
-};
-constexpr std::uint32_t kResidualSpirv[] = {
-#include "solve/progressive.residual.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
-                                       gpu::Slot::array};
-
 /// A patch sends at most this part of all light: shadows of that many points look soft.
 constexpr float kPatchShare = 1.0f / 512.0f;
 /// Weight of missing light, which is missing everywhere, compared with noise.
@@ -112,13 +92,11 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       near_radius_(near.radius),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
       area_(std::max(area_of(lumels), 1e-30f)),
-      power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kPatchGroup),
-      select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams), kPatchGroup),
-      receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.views.projection)),
-      settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kPatchGroup),
-      residual_(device, "progressive.residual", kResidualSpirv, 7, sizeof(ResidualParams),
-                kSumGroup),
+      power_(device),
+      select_(device),
+      receive_(device, std::uint32_t(options.views.projection)),
+      settle_(device),
+      residual_(device),
       light_(device, lumels),
       shots_(device, world, lumels, options.views),
       chart_light_(device, shots_.layout().charts.size()),
@@ -169,13 +147,23 @@ void ProgressiveRadiosity::choose()
                               .area = area_};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(power_,
-                          {shots_.charts(), light_.surface, light_.emission, light_.far,
-                           light_.near, light_.shot, ambient_, chart_light_},
+                          {.surface = light_.surface,
+                           .emission = light_.emission,
+                           .far = light_.far,
+                           .near = light_.near,
+                           .shot = light_.shot,
+                           .ambient = ambient_,
+                           .charts = shots_.charts(),
+                           .lights = chart_light_},
                           params, std::size_t(charts) * kPatchGroup);
-        commands.dispatch(
-            select_,
-            {shots_.charts(), chart_light_, shots_.levels(), cursor_, shots_.chosen(), ambient_},
-            params, 1);
+        commands.dispatch(select_,
+                          {.charts = shots_.charts(),
+                           .lights = chart_light_,
+                           .levels = shots_.levels(),
+                           .kept_cursor = cursor_,
+                           .chosen = shots_.chosen(),
+                           .ambient = ambient_},
+                          params, 1);
         shots_.take(commands, light_, ambient_);
     });
 }
@@ -186,13 +174,13 @@ void ProgressiveRadiosity::receive()
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
                     const EyeViews& views = shots_.views();
                     commands.dispatch(receive_,
-                                      {world_->lumels(),
-                                       world_->pieces(),
-                                       shots_.eyes(),
-                                       shots_.shots(),
-                                       {views.image(), views.sampler()},
-                                       shots_.sending(),
-                                       light_.far},
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .views = {views.image(), views.sampler()},
+                                       .eyes = shots_.eyes(),
+                                       .shots = shots_.shots(),
+                                       .sending = shots_.sending(),
+                                       .far = light_.far},
                                       PatchReceiveParams{.views = views.layout(),
                                                          .first = first,
                                                          .last = last,
@@ -205,7 +193,11 @@ void ProgressiveRadiosity::receive()
 void ProgressiveRadiosity::settle()
 {
     pacer_.work("settle", [&](gpu::Commands& commands) {
-        commands.dispatch(settle_, {shots_.chosen(), shots_.shots(), shots_.sending(), light_.shot},
+        commands.dispatch(settle_,
+                          {.chosen = shots_.chosen(),
+                           .shots = shots_.shots(),
+                           .sending = shots_.sending(),
+                           .shot = light_.shot},
                           TakeParams{shots_.batch()}, shots_.batch());
         if (state_.iterations % kNearEvery == kNearEvery - 1)
             light_near(commands);
@@ -229,8 +221,13 @@ void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
 {
     light_near(commands);
     commands.dispatch(residual_,
-                      {light_.surface, light_.emission, light_.far, light_.near, light_.shot,
-                       world_->lumels(), figures_.parts()},
+                      {.surface = light_.surface,
+                       .emission = light_.emission,
+                       .far = light_.far,
+                       .near = light_.near,
+                       .shot = light_.shot,
+                       .lumels = world_->lumels(),
+                       .parts = figures_.parts()},
                       ResidualParams{count_}, count_);
     figures_.add_up(commands);
 }

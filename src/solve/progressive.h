@@ -4,6 +4,11 @@
 #include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "solve/options.h"
+#include "solve/progressive.power.comp.h"
+#include "solve/progressive.receive.comp.h"
+#include "solve/progressive.residual.comp.h"
+#include "solve/progressive.select.comp.h"
+#include "solve/progressive.settle.comp.h"
 #include "solve/progressive.shared.h"
 #include "solve/solver.h"
 #include "transport/patch_shots.h"
@@ -53,7 +58,11 @@ private:
     float area_;                 ///< Σ A [m²]
     double most_arrived_ = 0.0;  ///< so far, as residual() saw it [lm]
 
-    gpu::Kernel power_, select_, receive_, settle_, residual_;
+    gpu::Kernel<shaders::ProgressivePower> power_;
+    gpu::Kernel<shaders::ProgressiveSelect> select_;
+    gpu::Kernel<shaders::ProgressiveReceive> receive_;
+    gpu::Kernel<shaders::ProgressiveSettle> settle_;
+    gpu::Kernel<shaders::ProgressiveResidual> residual_;
     ShotLight light_;
     PatchShots shots_;
     gpu::Array<ChartLight> chart_light_;  ///< [C]

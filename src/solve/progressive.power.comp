@@ -1,21 +1,15 @@
 #version 460
 #include "solve/progressive.shared.h"
 #include "shooting/radiosity.glsl"
+#include "transport/foreseen.glsl"
 
 // Light of each chart [Hoef13] 4.3.2, FindShootingQuad. A workgroup a chart.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
-layout(binding = 0, scalar) readonly buffer Charts { PatchChart charts[]; };
-layout(binding = 1, scalar) readonly buffer Surface { vec4 surface[]; };
-layout(binding = 2, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 3, scalar) readonly buffer Far { vec3 far[]; };
-layout(binding = 4, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 5, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 6, scalar) readonly buffer Ambient { vec3 ambient; };  // of the batch before
-layout(binding = 7, scalar) writeonly buffer Lights { ChartLight lights[]; };
+layout(scalar) readonly buffer Charts { PatchChart charts[]; };
+layout(scalar) writeonly buffer Lights { ChartLight lights[]; };
 
-#include "transport/foreseen.glsl"
 #include "solve/progressive.chart_light.glsl"
 
 void main()

@@ -3,6 +3,10 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "transport/patch_light.glsl"
 
 // Every lumel takes its share of what the patches of a batch send [Hoef13] 4.3.2,
 // ReconstructionShader, for all of them at once:
@@ -14,18 +18,7 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { PatchReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Sending { vec3 sending[]; };
-layout(binding = 6, scalar) buffer Far { vec3 far[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "transport/patch_light.glsl"
+layout(scalar) buffer Far { vec3 far[]; };
 
 void main()
 {

@@ -1,6 +1,7 @@
 #version 460
 #include "solve/progressive.shared.h"
 #include "shooting/radiosity.glsl"
+#include "transport/patches.glsl"
 
 // Chooses the patches of a batch [Hoef13] Algorithm 4.2: those of the chart with the most unshot
 // power for each of its patches, one after another, then those of the next such chart. Where the
@@ -16,14 +17,13 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
-layout(binding = 0, scalar) readonly buffer Charts { PatchChart charts[]; };
-layout(binding = 1, scalar) buffer Lights { ChartLight lights[]; };
-layout(binding = 2, scalar) buffer Levels { uint levels[]; };
-layout(binding = 3, scalar) buffer Cursors { Cursor cursor_; };
-layout(binding = 4, scalar) writeonly buffer Chosen { ChosenPatch chosen[]; };
-layout(binding = 5, scalar) writeonly buffer Ambient { vec3 ambient; };
+layout(scalar) readonly buffer Charts { PatchChart charts[]; };
+layout(scalar) buffer Lights { ChartLight lights[]; };
+layout(scalar) buffer Levels { uint levels[]; };
+layout(scalar) buffer Cursors { Cursor kept_cursor; };
+layout(scalar) writeonly buffer Chosen { ChosenPatch chosen[]; };
+layout(scalar) writeonly buffer Ambient { vec3 ambient; };
 
-#include "transport/patches.glsl"
 #include "solve/progressive.chart_light.glsl"
 
 // Refine a chart when a patch exceeds its power limit by this factor.
@@ -119,7 +119,7 @@ void main()
         mine = plus(mine, lights[c]);
     const ChartLight sum = add_over_group(mine);
     if (me == 0u) {
-        cursor = cursor_;
+        cursor = kept_cursor;
         ambient = ambient_of(sum);
         patch_power = p.patch_share * max(luminance(sum.shot + sum.unshot), 1e-30);
     }
@@ -140,5 +140,5 @@ void main()
         barrier();
     }
     if (me == 0u)
-        cursor_ = cursor;
+        kept_cursor = cursor;
 }

@@ -5,10 +5,10 @@
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { TakeParams p; };
-layout(binding = 0, scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
-layout(binding = 1, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 2, scalar) readonly buffer Sending { vec3 sending[]; };
-layout(binding = 3, scalar) buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sending { vec3 sending[]; };
+layout(scalar) buffer Sent { vec3 shot[]; };
 
 void main()
 {

@@ -36,19 +36,8 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kSelectSpirv[] = {
-#include "shooting/shooters.select.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "solve/stochastic.receive.comp.inc"
-};
-
 /// Shooters drawn from E, as a part of E's share of the power, and its bounds.
 constexpr double kEmissionShooters = 0.5, kLeastEmission = 1.0 / 16.0, kMostEmission = 0.5;
-
-constexpr gpu::Slot kReceiveSlots[] = {
-    gpu::Slot::array,   gpu::Slot::array, gpu::Slot::constants, gpu::Slot::constants,
-    gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array};
 
 }  // namespace
 
@@ -62,9 +51,8 @@ StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World&
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       world_(&world),
-      select_(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
-      receive_(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
-               kReceiveGroup, std::uint32_t(options.views.projection)),
+      select_(device),
+      receive_(device, std::uint32_t(options.views.projection)),
       views_(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
              std::uint32_t(options.views.batch)),
       batch_(views_.capacity()),
@@ -130,7 +118,7 @@ std::uint32_t StochasticRadiosity::emission_shots_of_batch()
 void StochasticRadiosity::select(std::uint32_t emission_shots)
 {
     const std::uint32_t h = iteration_.half();
-    const SelectParams params{.layout_ = emission_power_pyramid_.layout(),
+    const SelectParams params{.pyramid = emission_power_pyramid_.layout(),
                               .count = batch_,
                               .emission_count = emission_shots,
                               .emission_index = iteration_.emission_index(),
@@ -144,9 +132,14 @@ void StochasticRadiosity::select(std::uint32_t emission_shots)
                               .channels = world_->has_coloured_glass() ? 1u : 0u};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(select_,
-                          {world_->lumels(), world_->pieces(), iteration_.emission(),
-                           iteration_.source(), emission_power_pyramid_.array(),
-                           source_power_pyramid_.array(), eyes_, shots_},
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .emission = iteration_.emission(),
+                           .source = iteration_.source(),
+                           .emission_power = emission_power_pyramid_.array(),
+                           .source_power = source_power_pyramid_.array(),
+                           .eyes = eyes_,
+                           .shots = shots_},
                           params, batch_);
     });
 }
@@ -162,19 +155,19 @@ void StochasticRadiosity::receive(std::uint32_t emission_shots)
                         .count = iteration_.lumels(),
                         .shots = batch_,
                         .emission_shots = emission_shots,
-                        .half_ = iteration_.half(),
+                        .half_index = iteration_.half(),
                         .iteration = std::uint32_t(iteration_.state().iterations),
                         .seed = options_.seed,
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                         .near_radius = near_radius_};
                     commands.dispatch(receive_,
-                                      {world_->lumels(),
-                                       world_->pieces(),
-                                       eyes_,
-                                       shots_,
-                                       {views_.image(), views_.sampler()},
-                                       iteration_.direct(),
-                                       iteration_.indirect()},
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .views = {views_.image(), views_.sampler()},
+                                       .eyes = eyes_,
+                                       .shots = shots_,
+                                       .direct = iteration_.direct(),
+                                       .indirect = iteration_.indirect()},
                                       params, last - first);
                 });
 }

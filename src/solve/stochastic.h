@@ -5,8 +5,10 @@
 #include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
 #include "shooting/power_pyramid.h"
+#include "shooting/shooters.select.comp.h"
 #include "solve/options.h"
 #include "solve/solver.h"
+#include "solve/stochastic.receive.comp.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
 
@@ -41,7 +43,8 @@ private:
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
 
     const World* world_;
-    gpu::Kernel select_, receive_;
+    gpu::Kernel<shaders::ShootersSelect> select_;
+    gpu::Kernel<shaders::StochasticReceive> receive_;
     EyeViews views_;
     std::uint32_t batch_;  ///< K
     gpu::Array<Eye> eyes_;

@@ -3,6 +3,10 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "shooting/shot.glsl"
 
 // Every lumel i takes its share of all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with
 // the disc of Eq. (8)):
@@ -14,18 +18,8 @@
 
 layout(local_size_x = kReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { ReceiveParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) uniform Eyes { Eye eyes[kMostBatch]; };
-layout(binding = 3, scalar) uniform Shots { Shot shots[kMostBatch]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) buffer Direct { vec3 direct[]; };      // [2][N] sums
-layout(binding = 6, scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "shooting/shot.glsl"
+layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
+layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 
 vec3 receive(Receiver r, uint k)
 {
@@ -45,7 +39,7 @@ void main()
         return;
     const LumelPoint point = receiving_point(lumel, i, p.iteration, p.seed, p.centre != 0u);
     const Receiver r = receiver_at(point, lumel, i);
-    const uint at = p.half_ * p.count + i;
+    const uint at = p.half_index * p.count + i;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < p.emission_shots; ++k)
         sum += receive(r, k);

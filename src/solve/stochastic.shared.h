@@ -13,7 +13,7 @@ struct ReceiveParams {
     uint count;           ///< N
     uint shots;           ///< K
     uint emission_shots;  ///< the first of them
-    uint half_;           ///< 0 or 1: which half-solution takes this batch
+    uint half_index;      ///< 0 or 1: which half-solution takes this batch
     uint iteration;       ///< numbers the batches
     uint seed;
     uint centre;        ///< 1: receive at the centroid

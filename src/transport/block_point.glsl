@@ -1,5 +1,10 @@
-// Where a block of lumels is seen from. The includer declares `Lumel lumels[]` and includes
-// world/lumel.glsl.
+#ifndef LUMEL_TRANSPORT_BLOCK_POINT_GLSL
+#define LUMEL_TRANSPORT_BLOCK_POINT_GLSL
+
+// Where a block of lumels is seen from.
+
+#include "transport/patches.shared.h"
+#include "world/lumel.glsl"
 
 LumelPoint block_point(Patch block)
 {
@@ -14,3 +19,5 @@ LumelPoint block_point(Patch block)
     }
     return LumelPoint(position / float(block.count), normalize(normal), normal, 0u);
 }
+
+#endif

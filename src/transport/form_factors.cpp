@@ -25,17 +25,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kLookSpirv[] = {
-#include "transport/form_factors.look.comp.inc"
-};
-constexpr std::uint32_t kReceiveSpirv[] = {
-#include "transport/form_factors.receive.comp.inc"
-};
-
-constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
-                                       gpu::Slot::array, gpu::Slot::array};
-
 constexpr std::uint32_t kOne = 0x3f800000;  // 1.0f
 constexpr std::size_t kRowsPerTask = 32;
 constexpr std::size_t kLumelsPerTask = 4096;
@@ -153,9 +142,8 @@ FormFactors::FormFactors(const gpu::Device& device, const World& world, const Lu
       blocks_(sorted_blocks(lumels, patches)),
       matrix_{std::uint32_t(patches.size()),
               std::vector<float>(patches.size() * patches.size(), 0.0f)},
-      look_(device, "form_factors.look", kLookSpirv, 5, sizeof(BlockParams), kFormFactorGroup),
-      receive_(device, "form_factors.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(FormFactorParams), kFormFactorGroup, std::uint32_t(options.projection)),
+      look_(device),
+      receive_(device, std::uint32_t(options.projection)),
       views_(device, world, options.projection, std::uint32_t(options.hemicube),
              std::uint32_t(options.batch)),
       block_array_(device, view(blocks_)),
@@ -226,21 +214,23 @@ void FormFactors::shoot(std::uint32_t last)
     const std::uint32_t shots = last - next_;
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.fill(received_.buffer());
-        commands.dispatch(look_, {world_->lumels(), world_->pieces(), block_array_, eyes_, shots_},
-                          BlockParams{next_, shots}, shots);
+        commands.dispatch(
+            look_,
+            {.lumels = world_->lumels(), .blocks = block_array_, .eyes = eyes_, .shots = shots_},
+            BlockParams{next_, shots}, shots);
     });
     views_.look_from(pacer_, eyes_, shots);
     pacer_.work("receive", count_, kProbeLumels,
                 [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t end) {
                     commands.dispatch(receive_,
-                                      {world_->lumels(),
-                                       world_->pieces(),
-                                       eyes_,
-                                       shots_,
-                                       {views_.image(), views_.sampler()},
-                                       sending_,
-                                       columns_,
-                                       received_},
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .views = {views_.image(), views_.sampler()},
+                                       .eyes = eyes_,
+                                       .shots = shots_,
+                                       .sending = sending_,
+                                       .columns = columns_,
+                                       .received = received_},
                                       FormFactorParams{.views = views_.layout(),
                                                        .first = first,
                                                        .last = end,

@@ -9,6 +9,8 @@
 #include "matrix/color_matrix.h"
 #include "nearfield/near_field.h"
 #include "nearfield/solve_size.h"
+#include "transport/form_factors.look.comp.h"
+#include "transport/form_factors.receive.comp.h"
 #include "transport/form_factors.shared.h"
 #include "transport/patch_shots.shared.h"
 #include "transport/patches.h"
@@ -81,7 +83,8 @@ private:
     std::uint32_t next_ = 0;     ///< block
     SquareMatrix matrix_;
 
-    gpu::Kernel look_, receive_;
+    gpu::Kernel<shaders::FormFactorsLook> look_;
+    gpu::Kernel<shaders::FormFactorsReceive> receive_;
     EyeViews views_;
     gpu::Array<Patch> block_array_;
     std::vector<std::uint32_t> column_of_;  ///< [blocks] of `received_`

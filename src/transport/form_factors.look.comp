@@ -3,21 +3,18 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "transport/block_point.glsl"
+#include "shooting/shooter.glsl"
+#include "visibility/channel.glsl"
 
 // Eyes of a batch of blocks, and their shots at a radiosity of 1.
 
 layout(local_size_x = kFormFactorGroup) in;
 layout(push_constant, scalar) uniform Params { BlockParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Blocks { Patch blocks[]; };
-layout(binding = 3, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 4, scalar) writeonly buffer Shots { PatchShot shots[]; };
-
-#include "world/lumel.glsl"
-#include "transport/block_point.glsl"
-#include "shooting/shooter.glsl"
-#include "visibility/channel.glsl"
+layout(scalar) readonly buffer Blocks { Patch blocks[]; };
+layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(scalar) writeonly buffer Shots { PatchShot shots[]; };
 
 void main()
 {

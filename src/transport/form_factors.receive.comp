@@ -3,6 +3,10 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
+#include "world/lumel.glsl"
+#include "world/receiving_point.glsl"
+#include "visibility/sees.glsl"
+#include "transport/patch_light.glsl"
 
 // What every lumel receives of patches whose radiosity is 1: F_ip but for close pairs,
 //
@@ -13,19 +17,8 @@
 
 layout(local_size_x = kFormFactorGroup) in;
 layout(push_constant, scalar) uniform Params { FormFactorParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 3, scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(binding = 4) uniform sampler2D views;
-layout(binding = 5, scalar) readonly buffer Sending { vec3 sending[]; };
-layout(binding = 6, scalar) readonly buffer Columns { uint columns[]; };
-layout(binding = 7, scalar) buffer Received { float received[]; };
-
-#include "world/lumel.glsl"
-#include "world/receiving_point.glsl"
-#include "visibility/sees.glsl"
-#include "transport/patch_light.glsl"
+layout(scalar) readonly buffer Columns { uint columns[]; };
+layout(scalar) buffer Received { float received[]; };
 
 void main()
 {
@@ -41,7 +34,7 @@ void main()
         middle.x = lumel.position;
         middle.normal = lumel.normal;
         const float light = light_without_occluders(middle, k, p.near_radius).x;
-        if (light > 0.0 && is_seen(receiver_at(x, lumel, i), k, p.views))
+        if (light > 0.0 && is_seen(receiver_at(x, lumel, i), eyes[k], k, p.views))
             received[columns[p.first_block + k] * p.lumels + i] += light;
     }
 }

@@ -1,9 +1,18 @@
-// The light that a patch sends to a point. The includer declares `Lumel lumels[]`, `Eye eyes[]`,
-// `PatchShot shots[]`, `vec3 sending[]`, and includes world/receiving_point.glsl and
-// visibility/sees.glsl.
+#ifndef LUMEL_TRANSPORT_PATCH_LIGHT_GLSL
+#define LUMEL_TRANSPORT_PATCH_LIGHT_GLSL
+
+// The light that a patch sends to a point. Declares the batch: `eyes`, `shots`, and what the lumels
+// of its patches send, `sending`.
 
 #include "nearfield/near_pairs.glsl"
+#include "shooting/radiosity.glsl"
 #include "shooting/receiver.glsl"
+#include "transport/patch_shots.shared.h"
+#include "world/receiving_point.glsl"
+
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sending { vec3 sending[]; };
 
 // Beyond this many times the patch's size it counts as one point.
 const float kFar = 4.0;
@@ -31,10 +40,12 @@ vec3 light_without_occluders(Receiver r, uint k, float near_radius)
 }
 
 // Of shot k, at its own fixed point of lumel i; the patch's eye decides for all its lumels.
-vec3 light_of(uint k, Lumel lumel, uint i, float near_radius, EyeViewLayout layout_)
+vec3 light_of(uint k, Lumel lumel, uint i, float near_radius, EyeViewLayout tiling)
 {
     const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
     const Receiver r = receiver_at(x, lumel, i);
     const vec3 light = light_without_occluders(r, k, near_radius);
-    return light != vec3(0.0) && is_seen(r, k, layout_) ? light : vec3(0.0);
+    return light != vec3(0.0) && is_seen(r, eyes[k], k, tiling) ? light : vec3(0.0);
 }
+
+#endif

@@ -5,10 +5,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kTakeSpirv[] = {
-#include "transport/patch_shots.take.comp.inc"
-};
-
 }  // namespace
 
 ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
@@ -23,7 +19,7 @@ ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
 PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const ViewOptions& options)
     : world_(&world),
-      take_(device, "patch_shots.take", kTakeSpirv, 14, sizeof(TakeParams), kPatchGroup),
+      take_(device),
       views_(device, world, options.projection, std::uint32_t(options.hemicube),
              std::uint32_t(options.batch)),
       batch_(views_.capacity()),
@@ -60,9 +56,20 @@ void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
                       const gpu::Array<glm::vec3>& ambient)
 {
     commands.dispatch(take_,
-                      {world_->lumels(), world_->pieces(), charts_, patches_, chosen_,
-                       light.surface, light.emission, light.far, light.near, light.shot, sending_,
-                       eyes_, shots_, ambient},
+                      {.lumels = world_->lumels(),
+                       .pieces = world_->pieces(),
+                       .surface = light.surface,
+                       .emission = light.emission,
+                       .far = light.far,
+                       .near = light.near,
+                       .shot = light.shot,
+                       .ambient = ambient,
+                       .charts = charts_,
+                       .patches = patches_,
+                       .chosen = chosen_,
+                       .sending = sending_,
+                       .eyes = eyes_,
+                       .shots = shots_},
                       TakeParams{batch_}, batch_);
 }
 

@@ -6,6 +6,7 @@
 #include "nearfield/near_rows.h"
 #include "nearfield/solve_size.h"
 #include "transport/patch_shots.shared.h"
+#include "transport/patch_shots.take.comp.h"
 #include "transport/patches.h"
 #include "visibility/eye_views.h"
 #include "visibility/view_options.h"
@@ -55,7 +56,7 @@ public:
 
 private:
     const World* world_;
-    gpu::Kernel take_;
+    gpu::Kernel<shaders::PatchShotsTake> take_;
     EyeViews views_;
     std::uint32_t batch_;
     Patches layout_;

@@ -32,7 +32,7 @@ struct PatchShot {
     uint count;        ///< 0: nothing is shot
     uint parts;        ///< number of points that share the patch's light
     uint number;       ///< of the patch's point, the same whenever it shoots
-    float side_;       ///< 1, or -1 of what stands on the back of its lumels
+    float facing;      ///< 1, or -1 of what stands on the back of its lumels
 };
 
 /// Push constants of kernels over the patches of a batch.

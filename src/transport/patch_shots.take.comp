@@ -3,33 +3,24 @@
 #include "atlas/lumel.shared.h"
 #include "core/hash.glsl"
 #include "shooting/radiosity.glsl"
-
-// What the chosen patches send [Hoef13] 4.3.2, GenerateShootingPatches: an eye and the power of
-// each, and the radiosity that each of its lumels sends.
-
-layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { TakeParams p; };
-layout(binding = 0, scalar) readonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 1, scalar) readonly buffer Pieces { Piece pieces[]; };
-layout(binding = 2, scalar) readonly buffer Charts { PatchChart charts[]; };
-layout(binding = 3, scalar) readonly buffer Patches { Patch patches[]; };
-layout(binding = 4, scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
-layout(binding = 5, scalar) readonly buffer Surface { vec4 surface[]; };
-layout(binding = 6, scalar) readonly buffer Emission { vec3 emission[]; };
-layout(binding = 7, scalar) readonly buffer Far { vec3 far[]; };
-layout(binding = 8, scalar) readonly buffer Near { vec3 near[]; };
-layout(binding = 9, scalar) readonly buffer Sent { vec3 shot[]; };
-layout(binding = 10, scalar) buffer Sending { vec3 sending[]; };
-layout(binding = 11, scalar) writeonly buffer Eyes { Eye eyes[]; };
-layout(binding = 12, scalar) buffer Shots { PatchShot shots[]; };
-layout(binding = 13, scalar) readonly buffer Ambient { vec3 ambient; };
-
 #include "world/lumel.glsl"
 #include "transport/patches.glsl"
 #include "transport/block_point.glsl"
 #include "shooting/shooter.glsl"
 #include "transport/foreseen.glsl"
 #include "visibility/channel.glsl"
+
+// What the chosen patches send [Hoef13] 4.3.2, GenerateShootingPatches: an eye and the power of
+// each, and the radiosity that each of its lumels sends.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { TakeParams p; };
+layout(scalar) readonly buffer Charts { PatchChart charts[]; };
+layout(scalar) readonly buffer Patches { Patch patches[]; };
+layout(scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
+layout(scalar) buffer Sending { vec3 sending[]; };
+layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
+layout(scalar) buffer Shots { PatchShot shots[]; };
 
 Patch patch_of(ChosenPatch c)
 {
@@ -83,6 +74,6 @@ void main()
                          block.first * points + c.index % points,
                          c.send == kSendBackSide ? -1.0 : 1.0);
     const LumelPoint y = eye_point(c, block);
-    eyes[k] = make_eye(y.position, shots[k].side_ * y.normal, hash(block.first ^ hash(c.index)),
+    eyes[k] = make_eye(y.position, shots[k].facing * y.normal, hash(block.first ^ hash(c.index)),
                        kAllChannels);
 }

@@ -1,4 +1,9 @@
-// Patches of a chart by level. The includer declares `PatchChart charts[]`.
+#ifndef LUMEL_TRANSPORT_PATCHES_GLSL
+#define LUMEL_TRANSPORT_PATCHES_GLSL
+
+// Patches of a chart by level.
+
+#include "transport/patches.shared.h"
 
 uint points_per_lumel(uint level)
 {
@@ -11,3 +16,5 @@ uint patches_of(PatchChart chart, uint level)
         return chart.patch_count[level];
     return chart.lumel_count * points_per_lumel(level);
 }
+
+#endif

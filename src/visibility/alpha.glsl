@@ -1,4 +1,10 @@
-// When a surface with alpha, or of glass, blocks. Needs core/hash.glsl and world/passage.shared.h.
+#ifndef LUMEL_VISIBILITY_ALPHA_GLSL
+#define LUMEL_VISIBILITY_ALPHA_GLSL
+
+// When a surface with alpha, or of glass, blocks.
+
+#include "core/hash.glsl"
+#include "world/passage.shared.h"
 
 // What becomes of a view's light at a surface.
 struct Meeting {
@@ -41,3 +47,5 @@ Meeting meet(Passage passage, sampler2D base_color, vec3 look, uint channel, vec
     const float chance = chance_at(at, depth, random);
     return Meeting(chance < opacity.there, chance < opacity.blocked);
 }
+
+#endif

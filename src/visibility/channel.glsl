@@ -1,4 +1,9 @@
-// The part of light that a view carries. Needs world/passage.shared.h.
+#ifndef LUMEL_VISIBILITY_CHANNEL_GLSL
+#define LUMEL_VISIBILITY_CHANNEL_GLSL
+
+// The part of light that a view carries.
+
+#include "world/passage.shared.h"
 
 vec3 carried(uint channel)
 {
@@ -16,3 +21,5 @@ vec3 carried_in_turn(uint channel)
 {
     return channel == kAllChannels ? vec3(1.0) : float(kChannels) * carried(channel);
 }
+
+#endif

@@ -8,43 +8,12 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kHemicubeVertexSpirv[] = {
-#include "visibility/hemicube.vert.inc"
-};
-constexpr std::uint32_t kHemicubeCutOutVertexSpirv[] = {
-#include "visibility/hemicube.cut_out.vert.inc"
-};
-constexpr std::uint32_t kHemicubeCutOutFragmentSpirv[] = {
-#include "visibility/hemicube.cut_out.frag.inc"
-};
-constexpr std::uint32_t kHemisphereVertexSpirv[] = {
-#include "visibility/hemisphere.vert.inc"
-};
-constexpr std::uint32_t kHemisphereControlSpirv[] = {
-#include "visibility/hemisphere.tesc.inc"
-};
-constexpr std::uint32_t kHemisphereEvaluationSpirv[] = {
-#include "visibility/hemisphere.tese.inc"
-};
-constexpr std::uint32_t kHemisphereFragmentSpirv[] = {
-#include "visibility/hemisphere.frag.inc"
-};
-constexpr std::uint32_t kHemisphereCutOutFragmentSpirv[] = {
-#include "visibility/hemisphere.cut_out.frag.inc"
-};
-
 /// Near distance as a part of the scene's diagonal: closer surfaces are lumels' own neighbours,
 /// whose exchange the near field holds.
 constexpr float kNear = 1e-5f;
 /// How far a chord may leave the arc it stands for [pixels]. Pieces inside a triangle are a little
 /// longer than those at its edges: with 0.3, nothing drawn is off by more than half a pixel.
 constexpr double kMostDeviation = 0.3;
-
-constexpr gpu::VertexStream kStreams[] = {{3}, {3}};
-constexpr gpu::Slot kOpaqueSlots[] = {gpu::Slot::array};
-constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
-constexpr gpu::Slot kHemisphereCutOutSlots[] = {
-    gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array, gpu::Slot::array, gpu::Slot::array};
 
 Tiles tiles_of(Projection projection, const EyeViewLayout& layout)
 {
@@ -73,41 +42,25 @@ gpu::Area face_area(Projection projection, const EyeViewLayout& layout, std::uin
                                                 : hemicube_face_area(tile, layout.side, face);
 }
 
-gpu::RasterState hemisphere_state(gpu::Spirv fragment, std::span<const gpu::Slot> slots)
+gpu::Drawing<shaders::HemicubeCutOut>
+use_cut_out(gpu::Commands& commands, const gpu::Raster<shaders::HemicubeCutOut>& raster,
+            const World& world, const gpu::Array<Eye>& eyes, const CutOutDraw& cut_out)
 {
-    return {.vertex = kHemisphereVertexSpirv,
-            .control = kHemisphereControlSpirv,
-            .evaluation = kHemisphereEvaluationSpirv,
-            .fragment = fragment,
-            .slots = slots,
-            .param_bytes = sizeof(LookParams),
-            .streams = std::span(kStreams, 1)};
+    return commands.use(raster, {.eyes = eyes, .base_color = {*cut_out.color, *cut_out.sampler}},
+                        {.position = world.vertices(), .look = world.looks()}, world.indices());
 }
 
-gpu::Raster make_opaque(const gpu::Device& device, Projection projection)
+gpu::Drawing<shaders::HemisphereCutOut>
+use_cut_out(gpu::Commands& commands, const gpu::Raster<shaders::HemisphereCutOut>& raster,
+            const World& world, const gpu::Array<Eye>& eyes, const CutOutDraw& cut_out)
 {
-    if (projection == Projection::hemisphere)
-        return {device, "hemisphere", hemisphere_state(kHemisphereFragmentSpirv, kOpaqueSlots)};
-    return {device,
-            "hemicube",
-            {.vertex = kHemicubeVertexSpirv,
-             .slots = kOpaqueSlots,
-             .param_bytes = sizeof(LookParams),
-             .streams = std::span(kStreams, 1)}};
-}
-
-gpu::Raster make_cut_out(const gpu::Device& device, Projection projection)
-{
-    if (projection == Projection::hemisphere)
-        return {device, "hemisphere.cut_out",
-                hemisphere_state(kHemisphereCutOutFragmentSpirv, kHemisphereCutOutSlots)};
-    return {device,
-            "hemicube.cut_out",
-            {.vertex = kHemicubeCutOutVertexSpirv,
-             .fragment = kHemicubeCutOutFragmentSpirv,
-             .slots = kCutOutSlots,
-             .param_bytes = sizeof(LookParams),
-             .streams = kStreams}};
+    return commands.use(raster,
+                        {.eyes = eyes,
+                         .base_color = {*cut_out.color, *cut_out.sampler},
+                         .vertices = world.vertices(),
+                         .looks = world.looks(),
+                         .indices = world.indices()},
+                        {.position = world.vertices()}, world.indices());
 }
 
 }  // namespace
@@ -141,9 +94,15 @@ EyeViews::EyeViews(const gpu::Device& device, const World& world, Projection pro
       image_(device, gpu::Pixel::depth, tiles_of(projection, layout_).image_width(),
              tiles_of(projection, layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
-      opaque_(make_opaque(device, projection)),
-      cut_out_(make_cut_out(device, projection))
+      rasters_(make_rasters(device, projection))
 {
+}
+
+EyeViews::Rasters EyeViews::make_rasters(const gpu::Device& device, Projection projection)
+{
+    if (projection == Projection::hemisphere)
+        return HemisphereRasters(device);
+    return HemicubeRasters(device);
 }
 
 std::uint32_t EyeViews::faces_per_eye() const
@@ -165,34 +124,28 @@ LookParams EyeViews::look_params(std::uint32_t eye, std::uint32_t face) const
 void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                           std::uint32_t last)
 {
-    const gpu::Buffer& vertices = world_->vertices().buffer();
-    const gpu::Buffer& indices = world_->indices().buffer();
-    const gpu::Buffer& looks = world_->looks().buffer();
-    const auto draw_all = [&](const Passage& passage, const gpu::Range& range) {
+    const auto draw_all = [&](const auto& drawing, const Passage& passage,
+                              const gpu::Range& range) {
         for (std::uint32_t i = first; i < last; ++i) {
             const std::uint32_t eye = i / faces_per_eye(), face = i % faces_per_eye();
             commands.viewport(face_area(projection_, layout_, eye, face));
             LookParams params = look_params(eye, face);
             params.passage = passage;
             params.first_index = range.first;
-            commands.draw(params, range);
+            drawing.draw(params, range);
         }
     };
-    if (world_->drawn(world_->opaque()).count > 0) {
-        commands.use(opaque_, {eyes}, {{&vertices}, &indices});
-        draw_all({}, world_->drawn(world_->opaque()));
-    }
-    for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        if (world_->drawn(cut_out.range).count == 0)
-            continue;
-        const gpu::Binding color{*cut_out.color, *cut_out.sampler};
-        if (is_hemisphere())
-            commands.use(cut_out_, {eyes, color, vertices, looks, indices},
-                         {{&vertices}, &indices});
-        else
-            commands.use(cut_out_, {eyes, color}, {{&vertices, &looks}, &indices});
-        draw_all(cut_out.passage, world_->drawn(cut_out.range));
-    }
+    const auto draw_surfaces = [&](const auto& rasters) {
+        if (const gpu::Range range = world_->drawn(world_->opaque()); range.count > 0)
+            draw_all(commands.use(rasters.opaque, {.eyes = eyes}, {.position = world_->vertices()},
+                                  world_->indices()),
+                     {}, range);
+        for (const CutOutDraw& cut_out : world_->cut_outs())
+            if (const gpu::Range range = world_->drawn(cut_out.range); range.count > 0)
+                draw_all(use_cut_out(commands, rasters.cut_out, *world_, eyes, cut_out),
+                         cut_out.passage, range);
+    };
+    std::visit(draw_surfaces, rasters_);
 }
 
 void EyeViews::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)

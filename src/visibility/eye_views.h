@@ -5,9 +5,15 @@
 //   [BJ04] Barsi, Jakab. Stream Processing in Global Illumination. 2004, section 3.2.
 
 #include <cstdint>
+#include <variant>
 
 #include "gpu/pacer.h"
 #include "visibility/eye_views.shared.h"
+#include "visibility/hemicube.cut_out.raster.h"
+#include "visibility/hemicube.raster.h"
+#include "visibility/hemisphere.cut_out.raster.h"
+#include "visibility/hemisphere.raster.h"
+#include "visibility/surface_rasters.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -57,6 +63,11 @@ public:
     void look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, std::uint32_t count);
 
 private:
+    using HemicubeRasters = SurfaceRasters<shaders::Hemicube, shaders::HemicubeCutOut>;
+    using HemisphereRasters = SurfaceRasters<shaders::Hemisphere, shaders::HemisphereCutOut>;
+    using Rasters = std::variant<HemicubeRasters, HemisphereRasters>;
+
+    static Rasters make_rasters(const gpu::Device& device, Projection projection);
     void draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                     std::uint32_t last);
     LookParams look_params(std::uint32_t eye, std::uint32_t face) const;
@@ -70,7 +81,7 @@ private:
     float chord_;   ///< longest_chord(radius_) [rad]
     gpu::Target image_;
     gpu::Sampler sampler_;
-    gpu::Raster opaque_, cut_out_;
+    Rasters rasters_;
 };
 
 }  // namespace lumel

@@ -1,4 +1,7 @@
-// Is a lumel the first thing that light meets? Needs atlas/lumel.shared.h.
+#ifndef LUMEL_VISIBILITY_FIRST_MET_GLSL
+#define LUMEL_VISIBILITY_FIRST_MET_GLSL
+
+// Is a lumel the first thing that light meets?
 //
 // A pixel stores exactly what the ray through its centre meets first, and nothing about the rays
 // beside it. So a lumel is tested at a point where a pixel's ray meets it: there it is compared
@@ -78,3 +81,5 @@ bool is_first(PieceInView s, RayMet ray, float stored)
     const float slope = abs(s.depth_form.x) + abs(s.depth_form.y);
     return stored <= own + s.rounding + kSnap * kSnapSlack * slope;
 }
+
+#endif

@@ -6,8 +6,8 @@
 // A pixel of a surface with alpha, as a hemicube shows it.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 1) uniform sampler2D base_color;
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+uniform sampler2D base_color;
 layout(location = 0) in vec3 look;
 
 void main()

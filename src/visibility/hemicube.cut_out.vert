@@ -5,13 +5,13 @@
 // hemicube.vert for surfaces with alpha: also hands on where the texture is read.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec3 look_in;  // u, v, alpha factor
-layout(location = 0) out vec3 look;
+layout(location = 1) in vec3 look;  // u, v, alpha factor
+layout(location = 0) out vec3 look_out;
 
 void main()
 {
     gl_Position = through_face(eyes[p.eye], p.face, p.near, position);
-    look = look_in;
+    look_out = look;
 }

@@ -1,4 +1,9 @@
+#ifndef LUMEL_VISIBILITY_HEMICUBE_GLSL
+#define LUMEL_VISIBILITY_HEMICUBE_GLSL
+
 // The five faces of a hemicube [CG85].
+
+#include "visibility/eye_views.shared.h"
 
 // Frame of a face: `axis` looks at its centre, `right` and `up` span it. On side faces `up` is
 // the normal and only the half above the horizon exists.
@@ -50,3 +55,5 @@ vec4 through_face(Eye eye, uint index, float near, vec3 position)
     const float up = dot(d, face.up);
     return vec4(dot(d, face.right), index == 0u ? up : 2.0 * up - w, near, w);
 }
+
+#endif

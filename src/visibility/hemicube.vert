@@ -5,7 +5,7 @@
 // One vertex as the eye sees it through one face.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 position;
 
 void main()

@@ -7,11 +7,11 @@
 // hemisphere.frag for surfaces with alpha: finds the point of the triangle that the ray meets.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 1) uniform sampler2D base_color;
-layout(binding = 2, scalar) readonly buffer Vertices { vec3 vertices[]; };
-layout(binding = 3, scalar) readonly buffer Looks { vec3 looks[]; };  // u, v, alpha factor
-layout(binding = 4, scalar) readonly buffer Indices { uint indices[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+uniform sampler2D base_color;
+layout(scalar) readonly buffer Vertices { vec3 vertices[]; };
+layout(scalar) readonly buffer Looks { vec3 looks[]; };  // u, v, alpha factor
+layout(scalar) readonly buffer Indices { uint indices[]; };
 layout(location = 0) flat in vec3 plane;
 layout(location = 1) flat in uint triangle;
 

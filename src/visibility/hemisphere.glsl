@@ -1,3 +1,6 @@
+#ifndef LUMEL_VISIBILITY_HEMISPHERE_GLSL
+#define LUMEL_VISIBILITY_HEMISPHERE_GLSL
+
 // Hemispherical projection [BJ04], section 3.2: a direction falls on the disc at its (t, b).
 // Points here are in the eye's frame (t, b, n).
 //
@@ -58,3 +61,5 @@ vec3 ray_through(vec2 at, float radius)
     const vec2 q = at / radius - 1.0;
     return vec3(q, sqrt(max(1.0 - dot(q, q), 0.0)));
 }
+
+#endif

@@ -7,7 +7,7 @@
 
 layout(vertices = 1) out;
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 world[];
 layout(location = 1) in vec3 local[];
 layout(location = 0) patch out vec3 corners[3];

@@ -4,7 +4,7 @@
 // One vertex, in the world and in the eye's frame.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(location = 0) in vec3 position;
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 local;

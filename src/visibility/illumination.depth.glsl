@@ -1,5 +1,9 @@
-// Depths in an illumination map, which may show a part of what lies along the direction only. Needs
-// illumination_maps.shared.h.
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
+
+// Depths in an illumination map, which may show a part of what lies along the direction only.
+
+#include "visibility/illumination_maps.shared.h"
 
 float depth_of(IlluminationParams p, float nearness)
 {
@@ -10,3 +14,5 @@ float nearness_at(IlluminationParams p, float depth)
 {
     return (depth - p.depth_shift) / p.depth_scale;
 }
+
+#endif

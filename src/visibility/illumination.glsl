@@ -1,4 +1,9 @@
-// What a pixel of an illumination map holds. Needs illumination_maps.shared.h.
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_GLSL
+
+// What a pixel of an illumination map holds.
+
+#include "visibility/illumination_maps.shared.h"
 
 // Which side of which texel a fragment shows. Seen against the direction, fronts go around
 // counter-clockwise; in the image, whose y axis points down, they go around clockwise.
@@ -13,3 +18,5 @@ bool lies_behind(IlluminationParams p, uvec2 before)
 {
     return p.layer == 0u || (before.x != 0u && gl_FragCoord.z < uintBitsToFloat(before.y));
 }
+
+#endif

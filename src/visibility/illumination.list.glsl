@@ -1,5 +1,15 @@
-// The lists of an illumination map that keeps all surfaces. The includer declares `uint heads[]`,
-// `Fragment fragments[]` and `FragmentCount total`, and includes parallel.glsl.
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_LIST_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_LIST_GLSL
+
+// The lists of an illumination map that keeps all surfaces. Declares `heads`, `fragments` and
+// `total`.
+
+#include "visibility/illumination_maps.shared.h"
+#include "visibility/parallel.glsl"
+
+layout(scalar) buffer Heads { uint heads[]; };  // [tiles][side][side]
+layout(scalar) writeonly buffer Fragments { Fragment fragments[]; };
+layout(scalar) buffer Count { FragmentCount total; };
 
 // Puts a surface in front of the pixel's list, if there is room.
 void append(IlluminationParams p, uint surface)
@@ -9,8 +19,10 @@ void append(IlluminationParams p, uint surface)
         atomicMax(total.most, index + 1u);
         return;
     }
-    const uint side = p.layout_.side;
-    const uvec2 pixel = uvec2(gl_FragCoord.xy) - tile_corner(p.layout_, p.tile);
+    const uint side = p.tiling.side;
+    const uvec2 pixel = uvec2(gl_FragCoord.xy) - tile_corner(p.tiling, p.tile);
     const uint head = (p.tile * side + pixel.y) * side + pixel.x;
     fragments[index] = Fragment(surface, gl_FragCoord.z, atomicExchange(heads[head], index));
 }
+
+#endif

@@ -6,8 +6,8 @@
 // what the pass before kept, the nearest to the direction's light.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
-layout(binding = 1) uniform usampler2D before;
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+uniform usampler2D before;
 layout(location = 0) in vec2 place;
 layout(location = 0) out uvec2 fragment;
 

@@ -9,8 +9,8 @@
 // illumination.stochastic.frag for surfaces with alpha.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
-layout(binding = 1) uniform sampler2D base_color;
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+uniform sampler2D base_color;
 layout(location = 1) in vec3 look;
 layout(location = 0) in vec2 place;
 layout(location = 0) out uvec2 fragment;

@@ -10,7 +10,7 @@
 // nearest beyond a region.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
 layout(location = 0) in vec2 place;
 layout(location = 0) out uvec2 fragment;
 

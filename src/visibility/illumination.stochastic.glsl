@@ -1,4 +1,10 @@
-// Stochastic depths [TN11]. Needs core/hash.glsl and illumination_maps.shared.h.
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_STOCHASTIC_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_STOCHASTIC_GLSL
+
+// Stochastic depths [TN11].
+
+#include "core/hash.glsl"
+#include "visibility/illumination_maps.shared.h"
 
 // A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the
 // depth, which is behind everything.
@@ -14,3 +20,5 @@ float deciding_depth(IlluminationParams p, uvec2 fragment, uint random)
 {
     return p.ordinary != 0u ? gl_FragCoord.z : random_depth(fragment, random);
 }
+
+#endif

@@ -6,14 +6,14 @@
 // One vertex as it is seen along a direction, with its place in the atlas.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
 layout(location = 0) in vec3 position;
-layout(location = 1) in vec2 place_in_;
-layout(location = 0) out vec2 place;
+layout(location = 1) in vec2 place;
+layout(location = 0) out vec2 place_out;
 
 void main()
 {
-    gl_Position = through_parallel(views[p.view], p.layout_, position);
+    gl_Position = through_parallel(views[p.view], p.tiling, position);
     gl_Position.z = depth_of(p, gl_Position.z);
-    place = place_in_;
+    place_out = place;
 }

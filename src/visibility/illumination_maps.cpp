@@ -10,79 +10,11 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kVertexSpirv[] = {
-#include "visibility/illumination.vert.inc"
-};
-constexpr std::uint32_t kCutOutVertexSpirv[] = {
-#include "visibility/illumination.cut_out.vert.inc"
-};
-constexpr std::uint32_t kStochasticSpirv[] = {
-#include "visibility/illumination.stochastic.frag.inc"
-};
-constexpr std::uint32_t kStochasticCutOutSpirv[] = {
-#include "visibility/illumination.stochastic.cut_out.frag.inc"
-};
-constexpr std::uint32_t kListSpirv[] = {
-#include "visibility/illumination.list.frag.inc"
-};
-constexpr std::uint32_t kListCutOutSpirv[] = {
-#include "visibility/illumination.list.cut_out.frag.inc"
-};
-
-constexpr std::uint32_t kPeelSpirv[] = {
-#include "visibility/illumination.peel.frag.inc"
-};
-constexpr std::uint32_t kPeelCutOutSpirv[] = {
-#include "visibility/illumination.peel.cut_out.frag.inc"
-};
-
-constexpr gpu::VertexStream kStreams[] = {{3}, {2}, {3}};
-
-/// What the layers are drawn with: each slot list is of opaque surfaces; cut-outs have a texture
-/// after the first.
-struct Drawing {
-    gpu::Spirv opaque, cut_out;
-    std::vector<gpu::Slot> slots;
-};
-
-Drawing drawing_of(Layers layers)
-{
-    using enum gpu::Slot;
-    switch (layers) {
-    case Layers::list:
-        return {kListSpirv, kListCutOutSpirv, {array, array, array, array}};
-    case Layers::peel:
-        return {kPeelSpirv, kPeelCutOutSpirv, {array, texture}};
-    case Layers::stochastic:
-        break;
-    }
-    return {kStochasticSpirv, kStochasticCutOutSpirv, {array}};
-}
-
 /// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
 /// map, several times.
 constexpr std::uint64_t kFragmentsPerPixel = 4;
 /// And at least this number (48 MiB): few maps do not even out the needs of single views.
 constexpr std::uint64_t kLeastFragments = 4u << 20;
-
-gpu::Raster make_raster(const gpu::Device& device, Layers layers, bool cut_out)
-{
-    const bool lists = layers == Layers::list;
-    const std::size_t streams = cut_out ? 3 : 2;
-    Drawing drawing = drawing_of(layers);
-    if (cut_out)
-        drawing.slots.insert(drawing.slots.begin() + 1, gpu::Slot::texture);
-    return {device,
-            cut_out ? "illumination.cut_out" : "illumination",
-            {.vertex = cut_out ? gpu::Spirv(kCutOutVertexSpirv) : gpu::Spirv(kVertexSpirv),
-             .fragment = cut_out ? drawing.cut_out : drawing.opaque,
-             .slots = drawing.slots,
-             .param_bytes = sizeof(IlluminationParams),
-             .streams = std::span(kStreams, streams),
-             .color = !lists,
-             .color_pixel = gpu::Pixel::rg32u,
-             .depth_test = !lists}};
-}
 
 /// Fewer tiles if lists of that many would not fit an array.
 std::uint32_t listable(const gpu::Device& device, Layers layers, std::uint32_t side,
@@ -166,8 +98,7 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
       fragments_(device, room_for(device, layers, layout_, capacity_).capacity),
       none_(device, std::array{0u}),
       count_(device, std::array{room_for(device, layers, layout_, capacity_)}),
-      opaque_(make_raster(device, layers, false)),
-      cut_out_(make_raster(device, layers, true))
+      rasters_(make_rasters(device, layers))
 {
     assert(slabs == 1 || layers == Layers::stochastic);
 }
@@ -187,41 +118,96 @@ std::uint64_t IlluminationMaps::device_bytes(Layers layers, std::uint32_t side,
            std::max(map * capacity * kFragmentsPerPixel, kLeastFragments) * sizeof(Fragment);
 }
 
+IlluminationMaps::Rasters IlluminationMaps::make_rasters(const gpu::Device& device, Layers layers)
+{
+    const gpu::RasterOptions options{.color_pixel = gpu::Pixel::rg32u};
+    switch (layers) {
+    case Layers::list:
+        return ListRasters(device, {.depth_test = false});
+    case Layers::peel:
+        return PeelRasters(device, options);
+    case Layers::stochastic:
+        break;
+    }
+    return StochasticRasters(device, options);
+}
+
+auto IlluminationMaps::use_opaque(const Pass& pass, const StochasticRasters& rasters) const
+{
+    return pass.commands.use(rasters.opaque, {.views = pass.views},
+                             {.position = world_->vertices(), .place = world_->places()},
+                             world_->indices());
+}
+
+auto IlluminationMaps::use_opaque(const Pass& pass, const ListRasters& rasters) const
+{
+    return pass.commands.use(
+        rasters.opaque,
+        {.views = pass.views, .heads = heads_, .fragments = fragments_, .total = count_},
+        {.position = world_->vertices(), .place = world_->places()}, world_->indices());
+}
+
+auto IlluminationMaps::use_opaque(const Pass& pass, const PeelRasters& rasters) const
+{
+    return pass.commands.use(
+        rasters.opaque, {.views = pass.views, .before = {image(pass.params.layer + 1), sampler_}},
+        {.position = world_->vertices(), .place = world_->places()}, world_->indices());
+}
+
+auto IlluminationMaps::use_cut_out(const Pass& pass, const StochasticRasters& rasters,
+                                   const CutOutDraw& cut_out) const
+{
+    return pass.commands.use(
+        rasters.cut_out, {.views = pass.views, .base_color = {*cut_out.color, *cut_out.sampler}},
+        {.position = world_->vertices(), .place = world_->places(), .look = world_->looks()},
+        world_->indices());
+}
+
+auto IlluminationMaps::use_cut_out(const Pass& pass, const ListRasters& rasters,
+                                   const CutOutDraw& cut_out) const
+{
+    return pass.commands.use(
+        rasters.cut_out,
+        {.views = pass.views,
+         .heads = heads_,
+         .fragments = fragments_,
+         .total = count_,
+         .base_color = {*cut_out.color, *cut_out.sampler}},
+        {.position = world_->vertices(), .place = world_->places(), .look = world_->looks()},
+        world_->indices());
+}
+
+auto IlluminationMaps::use_cut_out(const Pass& pass, const PeelRasters& rasters,
+                                   const CutOutDraw& cut_out) const
+{
+    return pass.commands.use(
+        rasters.cut_out,
+        {.views = pass.views,
+         .base_color = {*cut_out.color, *cut_out.sampler},
+         .before = {image(pass.params.layer + 1), sampler_}},
+        {.position = world_->vertices(), .place = world_->places(), .look = world_->looks()},
+        world_->indices());
+}
+
 void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
                             const IlluminationParams& params)
 {
-    const gpu::Buffer& vertices = world_->vertices().buffer();
-    const gpu::Buffer& places = world_->places().buffer();
-    const gpu::Buffer& indices = world_->indices().buffer();
-    const auto draw_range = [&](const OccluderRange& range, const Passage& passage) {
+    const Pass pass{commands, views, params};
+    const auto draw_range = [&](const auto& drawing, const OccluderRange& range,
+                                const Passage& passage) {
         IlluminationParams of_range = params;
         of_range.passage = passage;
-        commands.draw(of_range, {range.first_index, range.index_count});
+        drawing.draw(of_range, {range.first_index, range.index_count});
     };
-    const gpu::Binding before{image(params.layer + 1), sampler_};
+    const auto draw_surfaces = [&](const auto& rasters) {
+        if (world_->opaque().index_count > 0)
+            draw_range(use_opaque(pass, rasters), world_->opaque(), {});
+        for (const CutOutDraw& cut_out : world_->cut_outs())
+            draw_range(use_cut_out(pass, rasters, cut_out), cut_out.range, cut_out.passage);
+    };
     commands.begin_pass(lists() ? nullptr : &image(params.layer), depth_,
                         tiles_of(layout_).area(params.tile));
-    if (world_->opaque().index_count > 0) {
-        if (lists())
-            commands.use(opaque_, {views, heads_, fragments_, count_},
-                         {{&vertices, &places}, &indices});
-        else if (peels())
-            commands.use(opaque_, {views, before}, {{&vertices, &places}, &indices});
-        else
-            commands.use(opaque_, {views}, {{&vertices, &places}, &indices});
-        draw_range(world_->opaque(), {});
-    }
-    for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        const gpu::Binding color{*cut_out.color, *cut_out.sampler};
-        const gpu::Mesh mesh{{&vertices, &places, &world_->looks().buffer()}, &indices};
-        if (lists())
-            commands.use(cut_out_, {views, color, heads_, fragments_, count_}, mesh);
-        else if (peels())
-            commands.use(cut_out_, {views, color, before}, mesh);
-        else
-            commands.use(cut_out_, {views, color}, mesh);
-        draw_range(cut_out.range, cut_out.passage);
-    }
+    std::visit(draw_surfaces, rasters_);
     commands.end_pass();
 }
 
@@ -238,7 +224,7 @@ void IlluminationMaps::look_along(gpu::Pacer& pacer, const gpu::Array<ParallelVi
                [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
                    for (std::uint32_t tile = begin; tile < end; ++tile) {
                        IlluminationParams params = part_shown(tile % maps, slabs_);
-                       params.layout_ = layout_;
+                       params.tiling = layout_;
                        params.view = first + tile / maps;
                        params.tile = tile;
                        params.width = width_;

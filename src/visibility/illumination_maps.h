@@ -4,10 +4,18 @@
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include <cstdint>
+#include <variant>
 
 #include "gpu/pacer.h"
+#include "visibility/illumination.list.cut_out.raster.h"
+#include "visibility/illumination.list.raster.h"
+#include "visibility/illumination.peel.cut_out.raster.h"
+#include "visibility/illumination.peel.raster.h"
+#include "visibility/illumination.stochastic.cut_out.raster.h"
+#include "visibility/illumination.stochastic.raster.h"
 #include "visibility/illumination_maps.shared.h"
 #include "visibility/parallel_views.h"
+#include "visibility/surface_rasters.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -75,6 +83,27 @@ public:
     double overdraw(std::uint32_t count) const;
 
 private:
+    using StochasticRasters =
+        SurfaceRasters<shaders::IlluminationStochastic, shaders::IlluminationStochasticCutOut>;
+    using ListRasters = SurfaceRasters<shaders::IlluminationList, shaders::IlluminationListCutOut>;
+    using PeelRasters = SurfaceRasters<shaders::IlluminationPeel, shaders::IlluminationPeelCutOut>;
+    using Rasters = std::variant<StochasticRasters, ListRasters, PeelRasters>;
+
+    /// A pass over what a layer shows.
+    struct Pass {
+        gpu::Commands& commands;
+        const gpu::Array<ParallelView>& views;
+        const IlluminationParams& params;
+    };
+
+    static Rasters make_rasters(const gpu::Device& device, Layers layers);
+    auto use_opaque(const Pass& pass, const StochasticRasters& rasters) const;
+    auto use_opaque(const Pass& pass, const ListRasters& rasters) const;
+    auto use_opaque(const Pass& pass, const PeelRasters& rasters) const;
+    auto use_cut_out(const Pass& pass, const StochasticRasters& rasters,
+                     const CutOutDraw& cut_out) const;
+    auto use_cut_out(const Pass& pass, const ListRasters& rasters, const CutOutDraw& cut_out) const;
+    auto use_cut_out(const Pass& pass, const PeelRasters& rasters, const CutOutDraw& cut_out) const;
     void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
               const IlluminationParams& params);
     bool lists() const { return layers_ == Layers::list; }
@@ -90,7 +119,7 @@ private:
     gpu::Array<Fragment> fragments_;
     gpu::Array<std::uint32_t> none_;  ///< a count of no fragments
     gpu::Array<FragmentCount> count_;
-    gpu::Raster opaque_, cut_out_;
+    Rasters rasters_;
 };
 
 }  // namespace lumel

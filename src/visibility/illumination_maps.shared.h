@@ -27,7 +27,7 @@ struct FragmentCount {
 
 /// Push constants of the shaders that draw illumination maps.
 struct IlluminationParams {
-    ParallelLayout layout_;
+    ParallelLayout tiling;
     uint view;   ///< index into the views
     uint tile;   ///< that it is drawn into
     uint width;  ///< of the atlas [texels]

@@ -4,20 +4,17 @@
 #include "core/hash.glsl"
 #include "visibility/alpha.glsl"
 #include "visibility/hemicube.glsl"
+#include "visibility/lit.glsl"
 
 // lit.frag for surfaces with alpha. Glass that light ends in is black.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 1, scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
-layout(binding = 2, scalar) readonly buffer Radiosity { vec3 radiosity[]; };
-layout(binding = 3) uniform sampler2D base_color;
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+uniform sampler2D base_color;
 layout(location = 0) in vec2 place;
 layout(location = 1) flat in vec4 chart;
 layout(location = 2) in vec3 look;
 layout(location = 0) out vec4 color;
-
-#include "visibility/lit.glsl"
 
 void main()
 {

@@ -1,5 +1,14 @@
-// The radiosity that a fragment shows. Needs lit_views.shared.h, atlas/lumel.shared.h and
-// visibility/hemicube.glsl, and `uint lumel_of[]` and `vec3 radiosity[]` declared.
+#ifndef LUMEL_VISIBILITY_LIT_GLSL
+#define LUMEL_VISIBILITY_LIT_GLSL
+
+// The radiosity that a fragment shows. Declares `lumel_of` and `radiosity`.
+
+#include "atlas/lumel.shared.h"
+#include "visibility/hemicube.glsl"
+#include "visibility/lit_views.shared.h"
+
+layout(scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
+layout(scalar) readonly buffer Radiosity { vec3 radiosity[]; };
 
 // Charts may lie side by side: this much of their borders is left to neither [texels].
 const float kBorder = 1.0 / 1024.0;
@@ -15,3 +24,5 @@ vec3 radiosity_at(LitParams p, vec2 place, vec4 chart)
     const uint j = lumel_of[2u * (texel.y * p.width + texel.x) + back];
     return j == kNoLumel ? vec3(0.0) : radiosity[j];
 }
+
+#endif

@@ -5,40 +5,9 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kVertexSpirv[] = {
-#include "visibility/lit.vert.inc"
-};
-constexpr std::uint32_t kFragmentSpirv[] = {
-#include "visibility/lit.frag.inc"
-};
-constexpr std::uint32_t kCutOutVertexSpirv[] = {
-#include "visibility/lit.cut_out.vert.inc"
-};
-constexpr std::uint32_t kCutOutFragmentSpirv[] = {
-#include "visibility/lit.cut_out.frag.inc"
-};
-
-constexpr gpu::VertexStream kStreams[] = {{3}, {2}, {4}, {3}};
-constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::array,
-                                gpu::Slot::texture};
-
 Tiles tiles_of(const EyeViewLayout& layout)
 {
     return hemicube_tiles(layout.side, layout.columns);
-}
-
-gpu::Raster make_raster(const gpu::Device& device, bool cut_out)
-{
-    return {device,
-            cut_out ? "lit.cut_out" : "lit",
-            {.vertex = cut_out ? gpu::Spirv(kCutOutVertexSpirv) : gpu::Spirv(kVertexSpirv),
-             .fragment = cut_out ? gpu::Spirv(kCutOutFragmentSpirv) : gpu::Spirv(kFragmentSpirv),
-             .slots = std::span(kSlots, cut_out ? 4 : 3),
-             .param_bytes = sizeof(LitParams),
-             .streams = std::span(kStreams, cut_out ? 4 : 3),
-             .color = true,
-             .color_pixel = gpu::Pixel::rgba32,
-             .samples = gpu::kManySamples}};
 }
 
 EyeViewLayout make_layout(const gpu::Device& device, std::uint32_t side, float near,
@@ -61,8 +30,7 @@ LitViews::LitViews(const gpu::Device& device, const World& world, std::uint32_t 
              tiles_of(layout_).image_height(capacity_), 1, gpu::kManySamples),
       depth_(device, gpu::Pixel::depth, image_.width(), image_.height(), 1, gpu::kManySamples),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
-      opaque_(make_raster(device, false)),
-      cut_out_(make_raster(device, true))
+      rasters_(device, {.color_pixel = gpu::Pixel::rgba32, .samples = gpu::kManySamples})
 {
 }
 
@@ -78,37 +46,43 @@ std::uint64_t LitViews::device_bytes(std::uint32_t side, std::uint32_t capacity)
 void LitViews::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, const SurfaceLight& light,
                     std::uint32_t first, std::uint32_t last)
 {
-    const gpu::Buffer& vertices = world_->vertices().buffer();
-    const gpu::Buffer& places = world_->places().buffer();
-    const gpu::Buffer& charts = world_->charts().buffer();
-    const gpu::Buffer& indices = world_->indices().buffer();
-    const auto draw_all = [&](const OccluderRange& range, const Passage& passage) {
+    const auto draw_all = [&](const auto& drawing, const OccluderRange& range,
+                              const Passage& passage) {
         for (std::uint32_t eye = first; eye < last; ++eye)
             for (std::uint32_t face = 0; face < kHemicubeFaces; ++face) {
                 commands.viewport(
                     hemicube_face_area(tiles_of(layout_).area(eye), layout_.side, face));
-                commands.draw(LitParams{.eye = eye,
-                                        .face = face,
-                                        .near = layout_.near,
-                                        .width = light.width,
-                                        .height = light.height,
-                                        .passage = passage},
-                              world_->drawn_with_hull(range));
+                drawing.draw({.eye = eye,
+                              .face = face,
+                              .near = layout_.near,
+                              .width = light.width,
+                              .height = light.height,
+                              .passage = passage},
+                             world_->drawn_with_hull(range));
             }
     };
-    if (world_->drawn_with_hull(world_->opaque()).count > 0) {
-        commands.use(opaque_, {eyes, *light.lumel_of, *light.radiosity},
-                     {{&vertices, &places, &charts}, &indices});
-        draw_all(world_->opaque(), {});
-    }
-    for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        if (world_->drawn_with_hull(cut_out.range).count == 0)
-            continue;
-        commands.use(cut_out_,
-                     {eyes, *light.lumel_of, *light.radiosity, {*cut_out.color, *cut_out.sampler}},
-                     {{&vertices, &places, &charts, &world_->looks().buffer()}, &indices});
-        draw_all(cut_out.range, cut_out.passage);
-    }
+    if (world_->drawn_with_hull(world_->opaque()).count > 0)
+        draw_all(
+            commands.use(rasters_.opaque,
+                         {.eyes = eyes, .lumel_of = *light.lumel_of, .radiosity = *light.radiosity},
+                         {.position = world_->vertices(),
+                          .place = world_->places(),
+                          .chart = world_->charts()},
+                         world_->indices()),
+            world_->opaque(), {});
+    for (const CutOutDraw& cut_out : world_->cut_outs())
+        if (world_->drawn_with_hull(cut_out.range).count > 0)
+            draw_all(commands.use(rasters_.cut_out,
+                                  {.eyes = eyes,
+                                   .lumel_of = *light.lumel_of,
+                                   .radiosity = *light.radiosity,
+                                   .base_color = {*cut_out.color, *cut_out.sampler}},
+                                  {.position = world_->vertices(),
+                                   .place = world_->places(),
+                                   .chart = world_->charts(),
+                                   .look = world_->looks()},
+                                  world_->indices()),
+                     cut_out.range, cut_out.passage);
 }
 
 void LitViews::look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, const SurfaceLight& light,

@@ -8,7 +8,10 @@
 #include <cstdint>
 
 #include "gpu/pacer.h"
+#include "visibility/lit.cut_out.raster.h"
+#include "visibility/lit.raster.h"
 #include "visibility/lit_views.shared.h"
+#include "visibility/surface_rasters.h"
 #include "world/world.h"
 
 namespace lumel {
@@ -53,7 +56,7 @@ private:
     std::uint32_t capacity_;
     gpu::Target image_, depth_;
     gpu::Sampler sampler_;
-    gpu::Raster opaque_, cut_out_;
+    SurfaceRasters<shaders::Lit, shaders::LitCutOut> rasters_;
 };
 
 }  // namespace lumel

@@ -6,8 +6,8 @@
 // A pixel of a surface with alpha, as it is seen along a direction.
 
 layout(push_constant, scalar) uniform Params { ParallelLookParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
-layout(binding = 1) uniform sampler2D base_color;
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+uniform sampler2D base_color;
 layout(location = 0) in vec3 look;
 
 void main()

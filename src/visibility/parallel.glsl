@@ -1,9 +1,14 @@
+#ifndef LUMEL_VISIBILITY_PARALLEL_GLSL
+#define LUMEL_VISIBILITY_PARALLEL_GLSL
+
 // Parallel views: where points fall.
 
+#include "visibility/parallel_views.shared.h"
+
 // The corner of a tile of the image [pixels].
-uvec2 tile_corner(ParallelLayout layout_, uint tile)
+uvec2 tile_corner(ParallelLayout tiling, uint tile)
 {
-    return uvec2(tile % layout_.columns, tile / layout_.columns) * layout_.side;
+    return uvec2(tile % tiling.columns, tile / tiling.columns) * tiling.side;
 }
 
 vec2 place_in(ParallelView view, vec3 x)
@@ -17,7 +22,9 @@ float nearness_in(ParallelView view, vec3 x)
 }
 
 // Clip space of the tile, reversed z.
-vec4 through_parallel(ParallelView view, ParallelLayout layout_, vec3 x)
+vec4 through_parallel(ParallelView view, ParallelLayout tiling, vec3 x)
 {
-    return vec4(place_in(view, x) * (2.0 / float(layout_.side)) - 1.0, nearness_in(view, x), 1.0);
+    return vec4(place_in(view, x) * (2.0 / float(tiling.side)) - 1.0, nearness_in(view, x), 1.0);
 }
+
+#endif

@@ -5,10 +5,10 @@
 // One vertex as it is seen along a direction.
 
 layout(push_constant, scalar) uniform Params { ParallelLookParams p; };
-layout(binding = 0, scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
 layout(location = 0) in vec3 position;
 
 void main()
 {
-    gl_Position = through_parallel(views[p.view], p.layout_, position);
+    gl_Position = through_parallel(views[p.view], p.tiling, position);
 }

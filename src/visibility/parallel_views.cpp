@@ -8,20 +8,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kVertexSpirv[] = {
-#include "visibility/parallel.vert.inc"
-};
-constexpr std::uint32_t kCutOutVertexSpirv[] = {
-#include "visibility/parallel.cut_out.vert.inc"
-};
-constexpr std::uint32_t kCutOutFragmentSpirv[] = {
-#include "visibility/parallel.cut_out.frag.inc"
-};
-
-constexpr gpu::VertexStream kStreams[] = {{3}, {3}};
-constexpr gpu::Slot kOpaqueSlots[] = {gpu::Slot::array};
-constexpr gpu::Slot kCutOutSlots[] = {gpu::Slot::array, gpu::Slot::texture};
-
 /// Pixels around the scene: one for the offset, one so that its edge is never a tile's.
 constexpr float kBorder = 1.5f;
 /// Part of the range of depths that is left free at both ends.
@@ -105,39 +91,28 @@ ParallelViews::ParallelViews(const gpu::Device& device, const World& world, std:
       image_(device, gpu::Pixel::depth, tiles_of(layout_).image_width(),
              tiles_of(layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
-      opaque_(device, "parallel",
-              {.vertex = kVertexSpirv,
-               .slots = kOpaqueSlots,
-               .param_bytes = sizeof(ParallelLookParams),
-               .streams = std::span(kStreams, 1)}),
-      cut_out_(device, "parallel.cut_out",
-               {.vertex = kCutOutVertexSpirv,
-                .fragment = kCutOutFragmentSpirv,
-                .slots = kCutOutSlots,
-                .param_bytes = sizeof(ParallelLookParams),
-                .streams = kStreams})
+      rasters_(device)
 {
 }
 
 void ParallelViews::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
                          std::uint32_t view, std::uint32_t tile)
 {
-    const gpu::Buffer& vertices = world_->vertices().buffer();
-    const gpu::Buffer& indices = world_->indices().buffer();
-    const auto draw_range = [&](const OccluderRange& range, const Passage& passage) {
-        commands.draw(ParallelLookParams{layout_, view, passage},
-                      {range.first_index, range.index_count});
+    const auto draw_range = [&](const auto& drawing, const OccluderRange& range,
+                                const Passage& passage) {
+        drawing.draw({layout_, view, passage}, {range.first_index, range.index_count});
     };
     commands.begin_pass(nullptr, image_, tiles_of(layout_).area(tile));
-    if (world_->opaque().index_count > 0) {
-        commands.use(opaque_, {views}, {{&vertices}, &indices});
-        draw_range(world_->opaque(), {});
-    }
-    for (const CutOutDraw& cut_out : world_->cut_outs()) {
-        commands.use(cut_out_, {views, {*cut_out.color, *cut_out.sampler}},
-                     {{&vertices, &world_->looks().buffer()}, &indices});
-        draw_range(cut_out.range, cut_out.passage);
-    }
+    if (world_->opaque().index_count > 0)
+        draw_range(commands.use(rasters_.opaque, {.views = views}, {.position = world_->vertices()},
+                                world_->indices()),
+                   world_->opaque(), {});
+    for (const CutOutDraw& cut_out : world_->cut_outs())
+        draw_range(commands.use(rasters_.cut_out,
+                                {.views = views, .base_color = {*cut_out.color, *cut_out.sampler}},
+                                {.position = world_->vertices(), .look = world_->looks()},
+                                world_->indices()),
+                   cut_out.range, cut_out.passage);
     commands.end_pass();
 }
 

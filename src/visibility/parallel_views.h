@@ -5,7 +5,10 @@
 #include <limits>
 
 #include "gpu/pacer.h"
+#include "visibility/parallel.cut_out.raster.h"
+#include "visibility/parallel.raster.h"
 #include "visibility/parallel_views.shared.h"
+#include "visibility/surface_rasters.h"
 #include "visibility/tiles.h"
 #include "world/world.h"
 
@@ -62,7 +65,7 @@ private:
     std::uint32_t capacity_;
     gpu::Target image_;
     gpu::Sampler sampler_;
-    gpu::Raster opaque_, cut_out_;
+    SurfaceRasters<shaders::Parallel, shaders::ParallelCutOut> rasters_;
 };
 
 }  // namespace lumel

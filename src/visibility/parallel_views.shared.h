@@ -24,7 +24,7 @@ struct ParallelLayout {
 
 /// Push constants of the shaders that draw parallel views.
 struct ParallelLookParams {
-    ParallelLayout layout_;
+    ParallelLayout tiling;
     uint view;
     Passage passage;  ///< of cut-outs
 };

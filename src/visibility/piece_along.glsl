@@ -1,5 +1,11 @@
-// Pieces of lumels in parallel views. Needs parallel_views.shared.h, parallel.glsl and
-// first_met.glsl.
+#ifndef LUMEL_VISIBILITY_PIECE_ALONG_GLSL
+#define LUMEL_VISIBILITY_PIECE_ALONG_GLSL
+
+// Pieces of lumels in parallel views.
+
+#include "atlas/lumel.shared.h"
+#include "visibility/first_met.glsl"
+#include "visibility/parallel.glsl"
 
 // Rounding of stored depths, which lie in 0…1, where the scene is about the origin.
 const float kParallelRounding = 1e-6;
@@ -23,3 +29,5 @@ PieceInView piece_along(ParallelView view, Piece piece)
     s.parallelogram = piece.parallelogram != 0u;
     return s;
 }
+
+#endif

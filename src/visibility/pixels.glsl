@@ -1,7 +1,13 @@
-// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes. Needs
-// eye_views.shared.h and `sampler2D views` declared. A Kernel's variant selects the projection.
+#ifndef LUMEL_VISIBILITY_PIXELS_GLSL
+#define LUMEL_VISIBILITY_PIXELS_GLSL
 
+// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes.
+// Declares the image of all eyes, `views`. A Kernel's variant selects the projection.
+
+#include "visibility/eye_views.shared.h"
 #include "visibility/hemisphere.glsl"
+
+uniform sampler2D views;
 
 layout(constant_id = 0) const uint kProjection = kHemicube;
 
@@ -13,7 +19,7 @@ struct ViewPoint {
     bool front, along_t, negative;  // which face of a hemicube
 };
 
-ViewPoint project_to_hemicube(EyeViewLayout layout_, vec3 local)
+ViewPoint project_to_hemicube(EyeViewLayout tiling, vec3 local)
 {
     const vec3 size = abs(local);
     ViewPoint f;
@@ -24,11 +30,11 @@ ViewPoint project_to_hemicube(EyeViewLayout layout_, vec3 local)
     const float right = f.front ? local.x : (f.along_t ? local.y : local.x);
     const float up = f.front ? local.y : local.z;
 
-    const float half_side = 0.5 * float(layout_.side);
+    const float half_side = 0.5 * float(tiling.side);
     const float per_z = half_side / f.z;
     f.at = vec2(right * per_z + half_side, up * per_z + (f.front ? half_side : 0.0));
-    const float rows = f.front ? float(layout_.side) : half_side;
-    f.pixel = clamp(floor(f.at), vec2(0.0), vec2(float(layout_.side), rows) - 1.0);
+    const float rows = f.front ? float(tiling.side) : half_side;
+    f.pixel = clamp(floor(f.at), vec2(0.0), vec2(float(tiling.side), rows) - 1.0);
     return f;
 }
 
@@ -36,10 +42,10 @@ ViewPoint project_to_hemicube(EyeViewLayout layout_, vec3 local)
 // stands on the eye's plane ends at the rim, and its chords half a pixel before.
 const float kRim = 0.5;
 
-ViewPoint project_to_hemisphere(EyeViewLayout layout_, vec3 local)
+ViewPoint project_to_hemisphere(EyeViewLayout tiling, vec3 local)
 {
     const float kHalfDiagonal = 0.70711;  // of a pixel: its centre is that near to what it holds
-    const float radius = 0.5 * float(layout_.side);
+    const float radius = 0.5 * float(tiling.side);
     ViewPoint f;
     f.front = true;
     f.along_t = f.negative = false;
@@ -50,16 +56,16 @@ ViewPoint project_to_hemisphere(EyeViewLayout layout_, vec3 local)
     return f;
 }
 
-ViewPoint project(EyeViewLayout layout_, vec3 local)
+ViewPoint project(EyeViewLayout tiling, vec3 local)
 {
     if (kProjection == kHemisphere)
-        return project_to_hemisphere(layout_, local);
-    return project_to_hemicube(layout_, local);
+        return project_to_hemisphere(tiling, local);
+    return project_to_hemicube(tiling, local);
 }
 
-bool is_in_view(EyeViewLayout layout_, ViewPoint f, vec2 pixel)
+bool is_in_view(EyeViewLayout tiling, ViewPoint f, vec2 pixel)
 {
-    const float side = float(layout_.side);
+    const float side = float(tiling.side);
     if (kProjection == kHemisphere)
         return distance(pixel + 0.5, vec2(0.5 * side)) <= 0.5 * side - kRim;
     const float rows = f.front ? side : 0.5 * side;
@@ -76,27 +82,29 @@ vec2 face_corner(uint side, ViewPoint f)
     return f.negative ? first + second : first;
 }
 
-float stored_depth(EyeViewLayout layout_, uint tile, ViewPoint f, vec2 pixel)
+float stored_depth(EyeViewLayout tiling, uint tile, ViewPoint f, vec2 pixel)
 {
-    const uint side = layout_.side;
+    const uint side = tiling.side;
     const uvec2 size = kProjection == kHemisphere ? uvec2(side)
                                                          : uvec2(2u * side, 3u * side / 2u);
-    const uvec2 origin = uvec2(tile % layout_.columns, tile / layout_.columns) * size;
+    const uvec2 origin = uvec2(tile % tiling.columns, tile / tiling.columns) * size;
     return texelFetch(views, ivec2(origin) + ivec2(face_corner(side, f) + pixel), 0).r;
 }
 
 // The ray through a pixel's centre, to where the stored z is 1.
-vec3 centre_ray(EyeViewLayout layout_, ViewPoint f, vec2 pixel)
+vec3 centre_ray(EyeViewLayout tiling, ViewPoint f, vec2 pixel)
 {
     if (kProjection == kHemisphere)
-        return ray_through(pixel + 0.5, 0.5 * float(layout_.side));
-    const vec2 q = (pixel + 0.5) * (2.0 / float(layout_.side)) - vec2(1.0, f.front ? 1.0 : 0.0);
+        return ray_through(pixel + 0.5, 0.5 * float(tiling.side));
+    const vec2 q = (pixel + 0.5) * (2.0 / float(tiling.side)) - vec2(1.0, f.front ? 1.0 : 0.0);
     const float axis = !f.front && f.negative ? -1.0 : 1.0;
     return f.front ? vec3(q, 1.0) : (f.along_t ? vec3(axis, q) : vec3(q.x, axis, q.y));
 }
 
 // Half a pixel's width as a part of z: on the disc pixels widen toward the horizon.
-float half_width(EyeViewLayout layout_, vec3 ray)
+float half_width(EyeViewLayout tiling, vec3 ray)
 {
-    return 1.0 / (float(layout_.side) * (kProjection == kHemisphere ? ray.z : 1.0));
+    return 1.0 / (float(tiling.side) * (kProjection == kHemisphere ? ray.z : 1.0));
 }
+
+#endif

@@ -1,16 +1,14 @@
 #version 460
 #include "visibility/probe.shared.h"
+#include "visibility/sees.glsl"
 
 // Which of a list of points one eye sees.
 
 layout(local_size_x = kProbeGroup) in;
 layout(push_constant, scalar) uniform Params { ProbeParams p; };
-layout(binding = 0, scalar) readonly buffer Eyes { Eye eyes[]; };
-layout(binding = 1, scalar) readonly buffer Questions { Question questions[]; };
-layout(binding = 2) uniform sampler2D views;
-layout(binding = 3, scalar) writeonly buffer Answers { uint answers[]; };
-
-#include "visibility/sees.glsl"
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Questions { Question questions[]; };
+layout(scalar) writeonly buffer Answers { uint answers[]; };
 
 void main()
 {

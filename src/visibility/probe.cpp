@@ -1,15 +1,10 @@
 #include "visibility/probe.h"
 
 #include "core/frame.h"
+#include "visibility/probe.comp.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::uint32_t kProbeSpirv[] = {
-#include "visibility/probe.comp.inc"
-};
-constexpr gpu::Slot kSlots[] = {gpu::Slot::array, gpu::Slot::array, gpu::Slot::texture,
-                                gpu::Slot::array};
 
 }  // namespace
 
@@ -25,13 +20,16 @@ std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const Eye
                                             const gpu::Array<Eye>& eyes,
                                             const gpu::Array<Question>& questions)
 {
-    const gpu::Kernel probe(device, "probe", kProbeSpirv, kSlots, sizeof(ProbeParams), kProbeGroup,
-                            std::uint32_t(views.projection()));
+    const gpu::Kernel<shaders::Probe> probe(device, std::uint32_t(views.projection()));
     const gpu::Array<std::uint32_t> answers(device, questions.size());
     gpu::Commands commands(device);
     std::vector<std::vector<std::uint32_t>> all;
     for (std::uint32_t eye = 0; eye < eyes.size(); ++eye) {
-        commands.dispatch(probe, {eyes, questions, {views.image(), views.sampler()}, answers},
+        commands.dispatch(probe,
+                          {.views = {views.image(), views.sampler()},
+                           .eyes = eyes,
+                           .questions = questions,
+                           .answers = answers},
                           ProbeParams{views.layout(), eye, std::uint32_t(questions.size())},
                           questions.size());
         commands.run();

@@ -1,7 +1,12 @@
-// All rays of a parallel view that meet a piece of a lumel. Needs what piece_along.glsl needs.
+#ifndef LUMEL_VISIBILITY_RAYS_ALONG_GLSL
+#define LUMEL_VISIBILITY_RAYS_ALONG_GLSL
+
+// All rays of a parallel view that meet a piece of a lumel.
 //
 // Where an edge crosses a lumel, its lit part is found only as exactly as the test points are
 // evenly spread. The points where rays meet it are, and each represents the area of a pixel.
+
+#include "visibility/piece_along.glsl"
 
 struct RaysAlong {
     vec3 sides[4];  // a ray through p meets the piece where each dot(side, p) > 0
@@ -12,7 +17,7 @@ struct RaysAlong {
 // Pieces that are smaller, as seen along the view, are left out [pixels].
 const float kLeastArea = 1e-6;
 
-RaysAlong rays_along(ParallelView view, ParallelLayout layout_, Piece piece, PieceInView s)
+RaysAlong rays_along(ParallelView view, ParallelLayout tiling, Piece piece, PieceInView s)
 {
     const vec2 margin = margin_of(s.steepness, s.u_form.xy, s.v_form.xy);
     const vec3 one = vec3(0.0, 0.0, 1.0);
@@ -30,16 +35,16 @@ RaysAlong rays_along(ParallelView view, ParallelLayout layout_, Piece piece, Pie
     rays.area = (s.parallelogram ? 1.0 : 0.5) /
                 abs(s.u_form.x * s.v_form.y - s.u_form.y * s.v_form.x);
     const vec2 rows = clamp(vec2(ceil(low - 0.5), floor(high - 0.5)), vec2(0.0),
-                            vec2(layout_.side) - 1.0);
+                            vec2(tiling.side) - 1.0);
     rays.rows = rays.area > kLeastArea ? rows : vec2(0.0, -1.0);
     return rays;
 }
 
 // First and last pixel of a row whose rays meet the piece; the last is before the first where none
 // does.
-vec2 columns_of(RaysAlong rays, ParallelLayout layout_, float row)
+vec2 columns_of(RaysAlong rays, ParallelLayout tiling, float row)
 {
-    float low = 0.5, high = float(layout_.side) - 0.5;
+    float low = 0.5, high = float(tiling.side) - 0.5;
     for (uint k = 0u; k < 4u; ++k) {
         const vec3 side = rays.sides[k];
         const float there = side.y * (row + 0.5) + side.z;
@@ -52,3 +57,5 @@ vec2 columns_of(RaysAlong rays, ParallelLayout layout_, float row)
     }
     return vec2(ceil(low - 0.5), floor(high - 0.5));
 }
+
+#endif

@@ -1,5 +1,13 @@
-// Points on lumels. The includer declares `Piece pieces[]` in the world. Twin of
+#ifndef LUMEL_WORLD_LUMEL_GLSL
+#define LUMEL_WORLD_LUMEL_GLSL
+
+// The lumels in the world, and points on them. Declares `lumels` and `pieces`. Twin of
 // atlas/sampling.h.
+
+#include "atlas/lumel.shared.h"
+
+layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) readonly buffer Pieces { Piece pieces[]; };
 
 struct LumelPoint {
     vec3 position;
@@ -27,3 +35,5 @@ LumelPoint point_on(Lumel lumel, float s, float t)
     return LumelPoint(piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal,
                       cross(piece.edge_u, piece.edge_v), index);
 }
+
+#endif

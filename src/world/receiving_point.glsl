@@ -1,4 +1,10 @@
-// Where light is received. Needs core/hash.glsl and world/lumel.glsl.
+#ifndef LUMEL_WORLD_RECEIVING_POINT_GLSL
+#define LUMEL_WORLD_RECEIVING_POINT_GLSL
+
+// Where light is received.
+
+#include "core/hash.glsl"
+#include "world/lumel.glsl"
 
 // One point of the lumel for this batch: additive recurrence (R2 sequence) with a start of its
 // own for every lumel.
@@ -14,3 +20,5 @@ LumelPoint receiving_point(Lumel lumel, uint i, uint iteration, uint seed, bool 
     }
     return point;
 }
+
+#endif

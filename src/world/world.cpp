@@ -5,13 +5,6 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kPlaceLumelsSpirv[] = {
-#include "world/world.place_lumels.comp.inc"
-};
-constexpr std::uint32_t kPlaceVerticesSpirv[] = {
-#include "world/world.place_vertices.comp.inc"
-};
-
 gpu::Address address_of(Wrap wrap)
 {
     return wrap == Wrap::repeat     ? gpu::Address::repeat
@@ -115,10 +108,8 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
       charts_(device, std::span<const glm::vec4>(occluders.chart)),
       indices_(device, std::span<const std::uint32_t>(occluders.indices)),
       opaque_(occluders.opaque),
-      place_lumels_(device, "world.place_lumels", kPlaceLumelsSpirv, 5, sizeof(PlaceParams),
-                    kPlaceGroup),
-      place_vertices_(device, "world.place_vertices", kPlaceVerticesSpirv, 4, sizeof(PlaceParams),
-                      kPlaceGroup)
+      place_lumels_(device),
+      place_vertices_(device)
 {
     const Box box = box_of(scene);
     low_ = box.low;
@@ -141,10 +132,17 @@ void World::place(std::span<const glm::mat4> transforms)
     gpu::Commands commands(*device_);
     commands.stage("place");
     commands.dispatch(place_lumels_,
-                      {placement_array_, local_lumels_, local_pieces_, lumels_, pieces_},
+                      {.placements = placement_array_,
+                       .local_lumels = local_lumels_,
+                       .local_pieces = local_pieces_,
+                       .lumels = lumels_,
+                       .pieces = pieces_},
                       PlaceParams{std::uint32_t(lumels_.size())}, lumels_.size());
     commands.dispatch(place_vertices_,
-                      {placement_array_, local_vertices_, vertex_instances_, vertices_},
+                      {.placements = placement_array_,
+                       .local_vertices = local_vertices_,
+                       .instances = vertex_instances_,
+                       .vertices = vertices_},
                       PlaceParams{std::uint32_t(vertices_.size())}, vertices_.size());
     commands.run();
 }

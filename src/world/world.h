@@ -9,6 +9,8 @@
 #include "gpu/commands.h"
 #include "world/occluders.h"
 #include "world/passage.shared.h"
+#include "world/world.place_lumels.comp.h"
+#include "world/world.place_vertices.comp.h"
 #include "world/world.shared.h"
 
 namespace lumel {
@@ -86,7 +88,8 @@ private:
     std::vector<CutOutDraw> cut_outs_;
     bool coloured_glass_ = false;
     bool movers_shown_ = true;
-    gpu::Kernel place_lumels_, place_vertices_;
+    gpu::Kernel<shaders::WorldPlaceLumels> place_lumels_;
+    gpu::Kernel<shaders::WorldPlaceVertices> place_vertices_;
     glm::vec3 low_{0.0f}, high_{0.0f};
 
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,

@@ -7,11 +7,11 @@
 
 layout(local_size_x = kPlaceGroup) in;
 layout(push_constant, scalar) uniform Params { PlaceParams p; };
-layout(binding = 0, scalar) readonly buffer Placements { Placement placements[]; };
-layout(binding = 1, scalar) readonly buffer LocalLumels { Lumel local_lumels[]; };
-layout(binding = 2, scalar) readonly buffer LocalPieces { Piece local_pieces[]; };
-layout(binding = 3, scalar) writeonly buffer Lumels { Lumel lumels[]; };
-layout(binding = 4, scalar) writeonly buffer Pieces { Piece pieces[]; };
+layout(scalar) readonly buffer Placements { Placement placements[]; };
+layout(scalar) readonly buffer LocalLumels { Lumel local_lumels[]; };
+layout(scalar) readonly buffer LocalPieces { Piece local_pieces[]; };
+layout(scalar) writeonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) writeonly buffer Pieces { Piece pieces[]; };
 
 void main()
 {

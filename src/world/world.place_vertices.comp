@@ -5,10 +5,10 @@
 
 layout(local_size_x = kPlaceGroup) in;
 layout(push_constant, scalar) uniform Params { PlaceParams p; };
-layout(binding = 0, scalar) readonly buffer Placements { Placement placements[]; };
-layout(binding = 1, scalar) readonly buffer LocalVertices { vec3 local_vertices[]; };
-layout(binding = 2, scalar) readonly buffer Instances { uint instances[]; };
-layout(binding = 3, scalar) writeonly buffer Vertices { vec3 vertices[]; };
+layout(scalar) readonly buffer Placements { Placement placements[]; };
+layout(scalar) readonly buffer LocalVertices { vec3 local_vertices[]; };
+layout(scalar) readonly buffer Instances { uint instances[]; };
+layout(scalar) writeonly buffer Vertices { vec3 vertices[]; };
 
 void main()
 {

@@ -7,13 +7,11 @@
 
 #include "gpu/memory.h"
 #include "gpu/pacer.h"
+#include "tests/gpu/twice.comp.h"
+#include "tests/gpu/weigh.comp.h"
 
 namespace lumel::gpu {
 namespace {
-
-constexpr std::uint32_t kTwiceSpirv[] = {
-#include "../tests/gpu/twice.comp.inc"
-};
 
 /// A host's instance and device with no more than HostDevice asks for: no VK_EXT_debug_utils.
 class PlainHost {
@@ -68,10 +66,6 @@ public:
 
 private:
     HostDevice handles_;
-};
-
-struct TwiceParams {
-    std::uint32_t first, last, added;
 };
 
 TEST(Device, ThereIsAUsableOne)
@@ -213,15 +207,35 @@ TEST(Array, LargerThanTheDeviceAllowsSaysSo)
 TEST(Commands, RunInTheOrderRecorded)
 {
     const Device device;
-    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    const Kernel<shaders::Twice> twice(device);
     const Array<std::uint32_t> array(device, 100);
     Commands commands(device);
     commands.fill(array.buffer(), 0);
     for (std::uint32_t added : {1u, 0u, 3u})
-        commands.dispatch(twice, {array}, TwiceParams{0, 100, added}, 100);
+        commands.dispatch(twice, {.values = array}, {0, 100, added}, 100);
     commands.run();
     for (const std::uint32_t value : array.download())
         EXPECT_EQ(value, 7u);  // ((0·2 + 1)·2 + 0)·2 + 3
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Kernel, GetsEachArrayByItsName)
+{
+    const Device device;
+    const Kernel<shaders::Weigh> weigh(device);
+    const std::vector<Colored> given = {{.color = {1.0f, 2.0f, 3.0f}, .place = 2},
+                                        {.color = {4.0f, 5.0f, 6.0f}, .place = 0},
+                                        {.color = {7.0f, 8.0f, 9.0f}, .place = 1}};
+    const Array<Colored> values(device, std::span<const Colored>(given));
+    const Array<float> weights(device, std::array{1.0f, 10.0f, 100.0f});
+    const Array<glm::vec3> result(device, given.size());
+    Commands commands(device);
+    commands.dispatch(weigh, {.weights = weights, .values = values, .result = result},
+                      {std::uint32_t(given.size())}, given.size());
+    commands.run();
+    EXPECT_EQ(result.download(),
+              (std::vector<glm::vec3>{
+                  {40.0f, 50.0f, 60.0f}, {700.0f, 800.0f, 900.0f}, {1.0f, 2.0f, 3.0f}}));
     EXPECT_EQ(device.validation_messages(), "");
 }
 
@@ -229,7 +243,7 @@ TEST(Commands, RunInTheOrderRecorded)
 TEST(Commands, TimeEachStageByItsOwnWork)
 {
     const Device device;
-    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    const Kernel<shaders::Twice> twice(device);
     constexpr std::uint32_t count = 4000000;
     const Array<std::uint32_t> array(device, count);
     const Target depth(device, Pixel::depth, 64, 64);
@@ -238,7 +252,7 @@ TEST(Commands, TimeEachStageByItsOwnWork)
         commands.begin_pass(nullptr, depth, {0, 0, 64, 64});
         commands.end_pass();
     };
-    const auto work = [&] { commands.dispatch(twice, {array}, TwiceParams{0, count, 1}, count); };
+    const auto work = [&] { commands.dispatch(twice, {.values = array}, {0, count, 1}, count); };
     work();  // the driver compiles what it meets for the first time
     draw();
     commands.run();
@@ -259,7 +273,7 @@ TEST(Commands, TimeEachStageByItsOwnWork)
 TEST(Pacer, CutsWorkWithoutChangingItsResult)
 {
     const Device device;
-    const Kernel twice(device, "twice", kTwiceSpirv, 1, sizeof(TwiceParams), 64);
+    const Kernel<shaders::Twice> twice(device);
     constexpr std::uint32_t count = 1000000;
     const Array<std::uint32_t> array(device, count);
     Pacer pacer(device, 0.5);  // below what all of it takes at once
@@ -267,7 +281,7 @@ TEST(Pacer, CutsWorkWithoutChangingItsResult)
     for (int round = 0; round < 3; ++round)
         pacer.work("twice", count, 65536,
                    [&](Commands& commands, std::uint32_t first, std::uint32_t last) {
-                       commands.dispatch(twice, {array}, TwiceParams{first, last, 1}, last - first);
+                       commands.dispatch(twice, {.values = array}, {first, last, 1}, last - first);
                    });
     pacer.finish();
     EXPECT_GT(pacer.submissions(), 4u);

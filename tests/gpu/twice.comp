@@ -1,10 +1,11 @@
 #version 460
+#include "../tests/gpu/twice.shared.h"
 
 // value ← 2 value + added, to see that work happens, in order.
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform Params { uint first; uint last; uint added; } p;
-layout(binding = 0) buffer Values { uint values[]; };
+layout(push_constant, scalar) uniform Params { TwiceParams p; };
+layout(scalar) buffer Values { uint values[]; };
 
 void main()
 {

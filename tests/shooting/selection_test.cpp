@@ -9,19 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu/device.h"
+#include "tests/shooting/draw.comp.h"
 
 namespace lumel {
 namespace {
-
-constexpr std::uint32_t kDrawSpirv[] = {
-#include "../tests/shooting/draw.comp.inc"
-};
-
-struct DrawParams {
-    PyramidLayout layout_;
-    std::uint32_t count;
-};
 
 TEST(Selection, IsInProportionToPower)
 {
@@ -44,15 +35,15 @@ TEST(Selection, IsInProportionToPower)
 
     const gpu::Device device;
     PowerPyramid pyramid(device, kLumels);
-    const gpu::Kernel draw(device, "draw", kDrawSpirv, 3, sizeof(DrawParams), 64);
+    const gpu::Kernel<shaders::Draw> draw(device);
     const gpu::Array<glm::vec3> source(device, std::span<const glm::vec3>(radiosity));
     const gpu::Array<glm::vec4> surfaces(device, std::span<const glm::vec4>(surface));
     const gpu::Array<std::uint32_t> drawn(device, kDraws);
     const gpu::Array<float> chance(device, kDraws);
     gpu::Commands commands(device);
     pyramid.build(commands, source, surfaces, 0.0f, 0.0f);
-    commands.dispatch(draw, {pyramid.array(), drawn, chance}, DrawParams{pyramid.layout(), kDraws},
-                      kDraws);
+    commands.dispatch(draw, {.weights = pyramid.array(), .lumels = drawn, .chance = chance},
+                      {pyramid.layout(), kDraws}, kDraws);
     commands.run();
     EXPECT_EQ(device.validation_messages(), "");
 
