@@ -32,9 +32,12 @@ std::string local_time()
     std::array<char, 40> text{};
     const std::size_t length =
         std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S%z", &parts);
-    std::string time(text.data(), length);
     constexpr std::size_t kMinutes = 2;  // digits; ISO 8601 has a colon before them
-    return length > kMinutes ? time.insert(length - kMinutes, ":") : time;
+    if (length < kMinutes)
+        return {};
+    const std::string_view time(text.data(), length);
+    return std::string(time.substr(0, length - kMinutes)) + ':' +
+           std::string(time.substr(length - kMinutes));
 }
 
 }  // namespace lumel

@@ -13,15 +13,15 @@ namespace {
 /// Parts of the peak that what was said may be off by.
 constexpr double kAlike = 0.25;
 
-BakeOptions small(const std::string& method)
+BakeOptions small(const MethodInfo& method)
 {
     BakeOptions options;
     options.atlas.size = 96;
-    options.solver.method = method;
-    options.solver.hemicube = 64;
+    options.solver.method = method.defaults();
+    set_option(options.solver.method, "hemicube", "64");
+    set_option(options.solver.method, "patches", "64");
     options.solver.max_shots = 64;
     options.solver.target_error = 0.0;
-    options.solver.patches = 64;
     options.preview_width = 0;
     return options;
 }
@@ -34,25 +34,26 @@ void expect_as_described(const std::string& scene, const BakeOptions& options)
     const Json said = Json::parse(describe(path, options, true));
     const auto peak = report["memory"]["peak_gpu_bytes"].get<double>();
     EXPECT_NEAR(said["graphics_memory_bytes"].get<double>(), peak, kAlike * peak)
-        << options.solver.method << " in " << scene << ": " << said["graphics_memory_parts"];
+        << method_of(options.solver.method).id << " in " << scene << ": "
+        << said["graphics_memory_parts"];
 }
 
 TEST(GraphicsMemory, OfEveryMethodIsAsDescribed)
 {
-    for (const MethodInfo& method : kMethods)
-        expect_as_described("cornell-box", small(method.id));
+    for (const MethodInfo& method : methods())
+        expect_as_described("cornell-box", small(method));
 }
 
 TEST(GraphicsMemory, OfDirectionalLayersIsAsDescribed)
 {
-    BakeOptions options = small("stochastic");
+    BakeOptions options = small(methods().front());
     options.directional = Directional::sh2;
     expect_as_described("cornell-box", options);
 }
 
 TEST(GraphicsMemory, OfSkyAndLampsIsAsDescribed)
 {
-    BakeOptions options = small("stochastic");
+    BakeOptions options = small(methods().front());
     set_sky(options.lights, "1,1,1");
     options.sky_directions = 16;
     expect_as_described("cornell-box", options);
