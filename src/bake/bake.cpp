@@ -12,19 +12,20 @@
 #include "lights/direct_light.h"
 #include "output/folder.h"
 #include "relight/matrix_file.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
 
 DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
 {
+    const ViewOptions views = views_of(options.solver.method);
     return {.kind = options.directional,
-            .rule = options.solver.rule,
-            .seed = options.solver.seed,
-            .batch = std::uint32_t(options.solver.batch),
-            .projection = options.solver.projection,
-            .hemicube = std::uint32_t(options.solver.hemicube),
+            .rule = rule_of(options.solver.method),
+            .seed = seed_of(options.solver.method),
+            .batch = std::uint32_t(views.batch),
+            .projection = views.projection,
+            .hemicube = std::uint32_t(views.hemicube),
             .shots = directional_shots(solver_shots)};
 }
 
@@ -34,7 +35,6 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
 {
     const MethodInfo& method = method_of(options.solver.method);
-    checked_batch(method, options.solver.batch);
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");

@@ -10,7 +10,7 @@
 #include "lights/direct_light.h"
 #include "reference/reference.h"
 #include "scene/light_options.h"
-#include "solve/solver.h"
+#include "solve/options.h"
 
 namespace lumel {
 

@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include "core/log.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
 
-/// How far a solve is on the way to whichever limit is nearest, 0…1.
+/// The progress of a solve toward the limit that is nearest, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
 {
     double fraction = 0.0;
@@ -72,8 +73,7 @@ private:
 std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
-    if (method_of(options.method).materials == MaterialModel::glossy &&
-        options.scheme != Scheme::paper)
+    if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
         particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
     return particles;
 }

@@ -8,6 +8,7 @@
 #include "bake/prepare.h"
 #include "bake/stages.h"
 #include "lobes/lobe_particles.h"
+#include "solve/solver.h"
 
 namespace lumel {
 

@@ -59,7 +59,7 @@ Commands::Commands(const Device& device, Timing timing) : device_(&device)
 
 Commands::~Commands()
 {
-    if (submitted_)  // an exception is on its way: let the device finish before memory goes
+    if (submitted_)  // an exception passes through: let the device finish before memory goes
         vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever);
     vkDestroyQueryPool(device_->handle(), queries_, nullptr);
     vkDestroyFence(device_->handle(), fence_, nullptr);

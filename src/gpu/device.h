@@ -73,9 +73,9 @@ public:
 
     const DeviceInfo& info() const { return info_; }
 
-    /// What the validation layers said so far, one message a line; empty: silent.
+    /// Messages of the validation layers so far, one a line; empty: none.
     std::string validation_messages() const;
-    /// Throws Error{device} with what they said, if anything.
+    /// Throws Error{device} with these messages, if there are any.
     void check_validation() const;
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }

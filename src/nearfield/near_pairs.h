@@ -9,14 +9,14 @@
 
 namespace lumel {
 
-/// The rule that receiver kernels repeat in solve/near.glsl: centres (world) closer than
+/// The rule that receiver kernels repeat in nearfield/near_pairs.glsl: centres (world) closer than
 /// radius × max(size_i, size_j). Such pairs are the table's alone, even where factor is 0.
 inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
                     float size_j, float radius)
 {
-    const glm::vec3 way = centre_j - centre_i;
+    const glm::vec3 offset = centre_j - centre_i;
     const float reach = radius * std::max(size_i, size_j);
-    return glm::dot(way, way) < reach * reach;
+    return glm::dot(offset, offset) < reach * reach;
 }
 
 /// For each lumel i the partners j, ascending: partner[k], k in [first[i], first[i + 1]).

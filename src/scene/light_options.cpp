@@ -73,8 +73,7 @@ void add_sun(Scene& scene, const LightOptions& options)
         scene.lights.push_back(sun_light(placed_sun(options)));
         scene.lights.back().angle = options.sun_angle.value_or(scene.lights.back().angle);
     } else {
-        scene.warnings.emplace_back(
-            "the sun given by --sun is below the horizon: it gives no light");
+        scene.warnings.emplace_back("the sun is below the horizon: it gives no light");
     }
 }
 
