@@ -35,8 +35,8 @@ TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
     ASSERT_EQ(bake.code, 0) << bake.err;
     const auto report = nlohmann::json::parse(bake.out, nullptr, false);
     ASSERT_FALSE(report.is_discarded()) << bake.out;
-    for (const auto& stage : report["time"]["stages"]) {
-        const std::string name = stage["name"];
+    for (const auto& stage : report["timings"]["stages"]) {
+        const std::string name = stage["stage"];
         EXPECT_TRUE(has(bake.err, "s  " + name + ": begins\n")) << name << "\n" << bake.err;
         EXPECT_TRUE(has(bake.err, "s  " + name + ": took ")) << name << "\n" << bake.err;
     }
