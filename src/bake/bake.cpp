@@ -15,21 +15,6 @@
 #include "solve/methods.h"
 
 namespace lumel {
-namespace {
-
-DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
-{
-    const ViewOptions views = views_of(options.solver.method);
-    return {.kind = options.directional,
-            .rule = rule_of(options.solver.method),
-            .seed = seed_of(options.solver.method),
-            .batch = std::uint32_t(views.batch),
-            .projection = views.projection,
-            .hemicube = std::uint32_t(views.hemicube),
-            .shots = directional_shots(solver_shots)};
-}
-
-}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
@@ -57,18 +42,18 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     if (dump) {
         stages.begin("dumping");
         write_dump(*dump, device,
-                   {setting.world, setting.resident, setting.near, solution->irradiance},
+                   {setting.prepared, setting.world, setting.near, solution->irradiance},
                    options.solver);
     }
 
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
-        if (has_lights(setting.world.scene))
+        if (has_lights(setting.prepared.scene))
             log_warning("the directional layers say of sky, sun and lamps only how much light they "
                         "send, as if it came along the normal");
         directional = gather_directional(
-            device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
+            device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
@@ -88,33 +73,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     output.outdate(kMatrixFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
-    return write_bake(output, options, setting.world, device, *solution->solver,
+    return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
-}
-
-BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
-                           const BakeOptions& options, const ReferenceOptions& reference,
-                           MaterialModel materials, const ProgressFunction& progress)
-{
-    Stages stages(progress);
-    stages.begin("reading");
-    Scene scene = read_scene(scene_path, materials, options.lights);
-    OutputFolder output(folder);
-    stages.begin("charts");
-    const Prepared world(std::move(scene), options.atlas);
-    tell_user(world);
-    note_sizes(world, stages);
-
-    stages.begin("path tracing");
-    bool stopped = false;
-    const std::vector<glm::vec3> irradiance = reference_irradiance(
-        world.scene, world.rays, world.lumels, reference, [&](double fraction) {
-            stopped = !stages.tell(fraction, std::uint64_t(fraction * reference.samples_per_lumel));
-            return !stopped;
-        });
-
-    stages.begin("finishing");
-    return write_reference(output, options, reference, world, irradiance, stopped, stages);
 }
 
 }  // namespace lumel
