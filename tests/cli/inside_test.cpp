@@ -91,8 +91,8 @@ TEST(Dump, ShowsWhatTheBakeWorkedWith)
         EXPECT_GE(power.values[i], 0.0f);
         most_near = std::max(most_near, near.values[i]);
     }
-    EXPECT_GT(most_near, 0.1f);  // in the box's edges
-    EXPECT_LE(most_near, 1.0f);
+    EXPECT_GT(most_near, 0.1f);      // in the box's edges
+    EXPECT_LE(most_near, 1.00001f);  // sums of floats
 
     for (const std::string name : {"hemicube", "illumination-1", "illumination-2", "near", "power"})
         EXPECT_EQ(bytes_of(place.path("inside/" + name + ".png")).substr(1, 3), "PNG") << name;
