@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -152,8 +152,8 @@ std::vector<glm::vec3> row_sums(const NearField& near)
 {
     std::vector<glm::vec3> sums(near.first.size() - 1, glm::vec3(0.0f));
     for (std::size_t i = 0; i < sums.size(); ++i)
-        for (std::size_t k = near.first[i]; k < near.first[i + 1]; ++k)
-            sums[i] += near.factor[k];
+        sums[i] = glm::vec3(float(std::accumulate(near.factor.begin() + near.first[i],
+                                                  near.factor.begin() + near.first[i + 1], 0.0)));
     return sums;
 }
 

@@ -20,9 +20,9 @@ struct Solved {
 };
 
 /// Writes each as NAME.exr with numbers and NAME.png to look at, and commits the folder:
-/// - hemicube (or hemisphere, as options.projection says): the distance along each face's axis from
-///   the lumel of the largest power to what it sees [m], 0 where that is nothing. In the PNG what
-///   is nearer is brighter.
+/// - hemicube (or hemisphere, as options.projection says): the distance from the lumel of the
+///   largest power to what may hide others from it [m], along each face's axis; 0: nothing does.
+///   Outer walls of the scene hide nothing, and are left out. In the PNG nearer is brighter.
 /// - illumination-1, -2, …: exitance [lm/m²] of what lies first, second, … under the zenith, as an
 ///   illumination map of that direction shows it. Alpha 0: nothing.
 /// - near: row sums of the near field, the part of all light at a lumel that close pairs send if

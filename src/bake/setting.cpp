@@ -41,7 +41,7 @@ NearField near_field_of(const Prepared& prepared, const SolverOptions& options, 
     NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
     stages.note(fmt::format(
         "{} close pairs take {}", near.column.size(),
-        mebibytes(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
+        memory_text(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
     return near;
 }
 

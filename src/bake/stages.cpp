@@ -11,10 +11,12 @@
 
 namespace lumel {
 
-std::string mebibytes(std::uint64_t bytes)
+std::string memory_text(std::uint64_t bytes)
 {
-    constexpr double mebibyte = 1024.0 * 1024.0;
-    return fmt::format("{:.1f} MiB", double(bytes) / mebibyte);
+    constexpr double kibibyte = 1024.0;
+    const double kibibytes = double(bytes) / kibibyte;
+    return kibibytes < kibibyte ? fmt::format("{:.1f} KiB", kibibytes)
+                                : fmt::format("{:.1f} MiB", kibibytes / kibibyte);
 }
 
 Stages::Stages(const ProgressFunction& progress)
@@ -66,11 +68,11 @@ void Stages::note_arrays()
     constexpr std::size_t kMost = 8;
     if (!device_)
         return;
-    note("arrays and images on the device take " + mebibytes(device_->held_bytes()) +
+    note("arrays and images on the device take " + memory_text(device_->held_bytes()) +
          ", the largest of them:");
     const std::vector<gpu::Holding> holdings = device_->memory().holdings();
     for (std::size_t i = 0; i < std::min(kMost, holdings.size()); ++i)
-        note(mebibytes(holdings[i].bytes) + " of " + holdings[i].name);
+        note(memory_text(holdings[i].bytes) + " of " + holdings[i].name);
 }
 
 void Stages::report()
@@ -95,10 +97,10 @@ std::string Stages::cost_of_stage() const
     const StageTime& time = times_.back();
     std::string cost =
         fmt::format("took {:.3f} s, of all processors {:.3f} s; memory {} at most",
-                    time.wall_seconds, time.cpu_seconds, mebibytes(peak_memory_bytes()));
+                    time.wall_seconds, time.cpu_seconds, memory_text(peak_memory_bytes()));
     if (device_)
         cost += fmt::format(", on the device {} now and {} at most",
-                            mebibytes(device_->held_bytes()), mebibytes(device_->peak_bytes()));
+                            memory_text(device_->held_bytes()), memory_text(device_->peak_bytes()));
     return cost;
 }
 

@@ -10,8 +10,8 @@
 
 namespace lumel {
 
-/// "12.3 MiB"
-std::string mebibytes(std::uint64_t bytes);
+/// "12.3 MiB", or "1.2 KiB" if it is less than 1 MiB.
+std::string memory_text(std::uint64_t bytes);
 
 /// Follows a bake from stage to stage, and tells the progress function about it.
 class Stages {
