@@ -7,7 +7,7 @@
 #include "bake/solution_file.h"
 #include "core/number.h"
 #include "scene/gltf_files.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {

@@ -10,7 +10,6 @@
 #include "bake/prepare.h"
 #include "directional/spherical_harmonics.h"
 #include "gpu/device.h"
-#include "solve/stochastic.shared.h"
 #include "world/occluders.h"
 #include "world/world.shared.h"
 
@@ -25,8 +24,9 @@ constexpr double kNearPairsPerLumel = 60.0;
 
 std::uint64_t view_memory(const SolverOptions& solver)
 {
-    return view_pixels(solver.projection, std::uint32_t(solver.hemicube)) * sizeof(float) *
-           std::uint64_t(solver.batch);
+    const ViewOptions views = views_of(solver.method);
+    return view_pixels(views.projection, std::uint32_t(views.hemicube)) * sizeof(float) *
+           std::uint64_t(views.batch);
 }
 
 std::uint64_t near_field_memory(std::uint64_t lumels)

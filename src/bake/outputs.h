@@ -11,6 +11,7 @@
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "output/report.h"
+#include "solve/solver.h"
 
 namespace lumel {
 

@@ -8,6 +8,7 @@
 
 #include "core/usage.h"
 #include "relight/matrix_file.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -15,18 +16,6 @@ namespace {
 const char* text_of(SampleRule rule)
 {
     return rule == SampleRule::area ? "area" : "centre";
-}
-
-const char* text_of(Layers layers)
-{
-    if (layers == Layers::list)
-        return "list";
-    return layers == Layers::peel ? "peel" : "stochastic";
-}
-
-const char* text_of(Projection projection)
-{
-    return projection == Projection::hemisphere ? "hemisphere" : "hemicube";
 }
 
 const char* text_of(Directional directional)
@@ -90,26 +79,27 @@ void add_device(Report& report, const gpu::Device& device)
     report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
 }
 
+/// Of the options that the method reads.
+Settings settings_of(const MethodOptions& method)
+{
+    Settings settings;
+    for (const OptionInfo& option : method_of(method).options)
+        settings.emplace_back(option.name, option.get(method));
+    return settings;
+}
+
 Settings settings_of(const BakeOptions& options)
 {
-    const SolverOptions& solver = options.solver;
-    return {{"scheme", solver.scheme == Scheme::phased ? "phased" : "paper"},
-            {"sampling", text_of(solver.rule)},
-            {"batch", std::to_string(solver.batch)},
-            {"layers", text_of(solver.layers)},
-            {"lookups", std::to_string(solver.lookups)},
-            {"slabs", solver.slabs > 0 ? std::to_string(solver.slabs) : "auto"},
-            {"map-side", std::to_string(solver.map_side)},
-            {"patches", std::to_string(solver.patches)},
-            {"bounces", solver.bounces > 0 ? std::to_string(solver.bounces) : "all"},
-            {"sky-directions", std::to_string(options.sky_directions)},
-            {"projection", text_of(solver.projection)},
-            {"hemicube", std::to_string(solver.hemicube)},
-            {"shots", std::to_string(solver.max_shots)},
-            {"time", fmt::format("{}", solver.max_seconds)},
-            {"error", fmt::format("{}", 100.0 * solver.target_error)},
-            {"gutter", std::to_string(options.atlas.gutter)},
-            {"max-size", std::to_string(options.atlas.max_size)}};
+    Settings settings = settings_of(options.solver.method);
+    for (const auto& setting :
+         Settings{{"sky-directions", std::to_string(options.sky_directions)},
+                  {"shots", std::to_string(options.solver.max_shots)},
+                  {"time", fmt::format("{}", options.solver.max_seconds)},
+                  {"error", fmt::format("{}", 100.0 * options.solver.target_error)},
+                  {"gutter", std::to_string(options.atlas.gutter)},
+                  {"max-size", std::to_string(options.atlas.max_size)}})
+        settings.push_back(setting);
+    return settings;
 }
 
 void append(Settings& settings, const Settings& more)
@@ -132,9 +122,9 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     report.settings = settings_of(options);
     append(report.settings, settings_of(options.lights));
     report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
-    report.seed = options.solver.seed;
+    report.seed = seed_of(options.solver.method);
     add_device(report, device);
-    report.method = options.solver.method;
+    report.method = method_of(options.solver.method).id;
     report.shots = results.shots;
     report.iterations = results.iterations;
     report.estimated_error = results.error;
@@ -248,12 +238,10 @@ Report play_report(const PlayOptions& options, const LiveScene& live, const gpu:
                        {"budget", fmt::format("{}", options.budget_ms)},
                        {"residual", fmt::format("{}", 100.0 * options.residual)},
                        {"exposure", fmt::format("{}", options.exposure)},
-                       {"batch", std::to_string(options.solver.batch)},
-                       {"projection", text_of(options.solver.projection)},
-                       {"hemicube", std::to_string(options.solver.hemicube)},
                        {"gutter", std::to_string(options.atlas.gutter)},
                        {"max-size", std::to_string(options.atlas.max_size)}};
-    report.method = "progressive";
+    append(report.settings, settings_of(MethodOptions(options.solver)));
+    report.method = method_of(MethodOptions(options.solver)).id;
     for (const FrameRow& frame : frames)
         report.shots += frame.hemicubes;
     report.frames = std::move(frames);
@@ -270,7 +258,7 @@ Report path_traced_report(const RenderOptions& options, const Scene& scene, cons
     report.method = "reference";
     add_picture(report, options, {{"paths", std::to_string(options.paths)}});
     append(report.settings, settings_of(options.bake.lights));
-    report.seed = options.bake.solver.seed;
+    report.seed = seed_of(options.bake.solver.method);
     report.interrupted = stages.stopped();
     return report;
 }

@@ -14,6 +14,7 @@
 #include "images/write_bytes.h"
 #include "output/folder.h"
 #include "relight/matrix_file.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -60,9 +61,9 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
 {
     BakeOptions options;
     options.sky_directions = baked.sky_directions;
-    options.solver.method = baked.method;
-    options.solver.seed = baked.seed;
-    options.solver.rule = baked.centre ? SampleRule::centre : SampleRule::area;
+    options.solver.method = method_of(baked.method).defaults();
+    set_option(options.solver.method, "seed", std::to_string(baked.seed));
+    set_option(options.solver.method, "sampling", baked.centre ? "centre" : "area");
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
         edit.now.scene, [&](const Scene&) { return edit.now.atlas; }, device, options, stages);

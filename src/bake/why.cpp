@@ -17,6 +17,7 @@
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "relight/senders.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {

@@ -20,7 +20,7 @@ struct KnownSource {
 /// itself: the options' error holds for each of these sources, their shots and time are shared.
 class RelightSolver final : public Solver {
 public:
-    /// All but the sources must outlive this.
+    /// All but the sources must outlive this. options.method: MatrixOptions.
     RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
                   const NearField& near, const SolverOptions& options,
                   std::vector<KnownSource> sources);
@@ -62,6 +62,7 @@ private:
     const Lumels* lumels_;
     const NearField* near_;
     SolverOptions options_;
+    MatrixOptions matrix_;
     double start_;
     std::optional<TransportBuilder> builder_;
     std::optional<Transport> transport_;

@@ -12,7 +12,7 @@ namespace lumel {
 
 namespace {
 
-/// One way to store an attribute.
+/// A format in which an attribute can be stored.
 struct Encoding {
     ComponentType type;
     bool normalized;

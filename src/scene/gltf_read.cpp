@@ -124,7 +124,7 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
     warn(scene, looks.transmission_textures, "transmission texture", "transmission textures",
          "taken as white");
     if (looks.clamped)
-        scene.warnings.push_back("base colours outside 0 to 1 were clamped");
+        scene.warnings.emplace_back("base colours outside 0 to 1 were clamped");
 }
 
 Scene read_scene(const std::string& path, MaterialModel model)

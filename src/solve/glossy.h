@@ -12,6 +12,7 @@
 #include "shooting/figures.h"
 #include "shooting/power_pyramid.h"
 #include "solve/glossy.shared.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
 
@@ -29,7 +30,7 @@ public:
     /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
     /// outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const NearField& near, const SolverOptions& options,
+                       const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
 
@@ -90,7 +91,7 @@ private:
     void evaluate(gpu::Commands& commands);
     void take_figures();
 
-    SolverOptions options_;
+    GlossyOptions options_;
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;  ///< K
     bool paper_;

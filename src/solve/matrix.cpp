@@ -24,15 +24,20 @@
 #include "shooting/lumel_arrays.h"
 
 namespace lumel {
+StochasticOptions direct_options(const MatrixOptions& options)
+{
+    return {.seed = options.seed, .views = options.transport.views};
+}
+
 MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
                                  const Lumels& lumels, const NearField& near,
-                                 const SolverOptions& options, std::span<const glm::vec3> known)
+                                 const MatrixOptions& options, std::span<const glm::vec3> known)
     : lumels_(&lumels),
       black_(black(lumels)),
-      direct_(device, world, black_, near, options, known)
+      direct_(device, world, black_, near, direct_options(options), known)
 {
     if (reflecting_area(lumels) > 0.0f)
-        builder_.emplace(device, world, lumels, near, transport_options(options));
+        builder_.emplace(device, world, lumels, near, options.transport);
 }
 
 void MatrixRadiosity::step()

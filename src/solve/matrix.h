@@ -8,11 +8,14 @@
 
 namespace lumel {
 
+/// How stochastic radiosity finds direct light beside the matrix.
+StochasticOptions direct_options(const MatrixOptions& options);
+
 /// Direct light by stochastic radiosity at full resolution, reflections by the matrix.
 class MatrixRadiosity final : public Solver {
 public:
     MatrixRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                    const NearField& near, const SolverOptions& options,
+                    const NearField& near, const MatrixOptions& options,
                     std::span<const glm::vec3> known);
 
     void step() override;

@@ -2,6 +2,7 @@
 // Progressive refinement radiosity [Hoef13] 4.3. See progressive.cpp.
 
 #include "shooting/figures.h"
+#include "solve/options.h"
 #include "solve/progressive.shared.h"
 #include "solve/solver.h"
 #include "transport/patch_shots.h"
@@ -12,7 +13,7 @@ namespace lumel {
 class ProgressiveRadiosity final : public Solver {
 public:
     ProgressiveRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                         const NearField& near, const SolverOptions& options);
+                         const NearField& near, const ProgressiveOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

@@ -4,6 +4,7 @@
 #include "gpu/pacer.h"
 #include "shooting/iteration.h"
 #include "shooting/power_pyramid.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
@@ -14,7 +15,7 @@ namespace lumel {
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                        const NearField& near, const SolverOptions& options,
+                        const NearField& near, const StochasticOptions& options,
                         std::span<const glm::vec3> known = {});
 
     void step() override;
@@ -29,7 +30,7 @@ private:
     void build_source_pyramid();
     std::uint32_t emission_shots_of_batch();
 
-    SolverOptions options_;
+    StochasticOptions options_;
     std::uint32_t atlas_width_;  ///< [texels]
     bool paper_;
     float near_radius_;
