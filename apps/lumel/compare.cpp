@@ -1,6 +1,5 @@
 // lumel compare: how far one map is from another, in figures and as a picture.
 
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/core.h>
@@ -8,6 +7,7 @@
 #include "commands.h"
 #include "images/image_files.h"
 #include "reference/metrics.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -20,18 +20,14 @@ std::string default_heat_map(const CompareArguments& arguments)
     return stem(arguments.map) + "-vs-" + stem(arguments.reference) + ".png";
 }
 
-/// JSON has no infinity and no NaN.
-std::string number(double value)
-{
-    return std::isfinite(value) ? fmt::format("{}", value) : "null";
-}
-
 void print_json(const MapError& error)
 {
-    fmt::print("{{\"relative_rmse\": {}, \"rel_mse\": {}, \"bias\": {}, \"p95\": {}, \"max\": {}, "
-               "\"texels\": {}}}\n",
-               number(error.relative_rmse), number(error.rel_mse), number(error.bias),
-               number(error.p95), number(error.max), error.texels);
+    fmt::print("{}", json_text({{"relative_rmse", error.relative_rmse},
+                                {"rel_mse", error.rel_mse},
+                                {"bias", error.bias},
+                                {"p95", error.p95},
+                                {"max", error.max},
+                                {"texels", error.texels}}));
 }
 
 void print_table(const MapError& error)

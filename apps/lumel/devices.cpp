@@ -1,11 +1,11 @@
 // lumel devices: what Vulkan offers, and why a device cannot be used.
 
 #include <fmt/core.h>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "core/error.h"
 #include "gpu/device.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -14,7 +14,7 @@ constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
 
 void print_json(const std::vector<gpu::DeviceInfo>& devices)
 {
-    nlohmann::json list = nlohmann::json::array();
+    Json list = Json::array();
     for (std::size_t index = 0; index < devices.size(); ++index) {
         const gpu::DeviceInfo& device = devices[index];
         list.push_back({{"index", index},
@@ -26,7 +26,7 @@ void print_json(const std::vector<gpu::DeviceInfo>& devices)
                         {"usable", device.usable},
                         {"reason", device.reason}});
     }
-    fmt::print("{}\n", list.dump(2));
+    fmt::print("{}", json_text(list));
 }
 
 void print_table(const std::vector<gpu::DeviceInfo>& devices)

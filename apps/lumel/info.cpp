@@ -8,10 +8,7 @@ namespace lumel {
 
 int run(const InfoArguments& arguments)
 {
-    std::string text = describe(arguments.scene, arguments.options, arguments.json);
-    if (text.empty() || text.back() != '\n')
-        text += '\n';
-    fmt::print("{}", text);
+    fmt::print("{}", describe(arguments.scene, arguments.options, arguments.json));
     return kExitDone;
 }
 

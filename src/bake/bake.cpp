@@ -15,21 +15,6 @@
 #include "solve/methods.h"
 
 namespace lumel {
-namespace {
-
-DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
-{
-    const ViewOptions views = views_of(options.solver.method);
-    return {.kind = options.directional,
-            .rule = rule_of(options.solver.method),
-            .seed = seed_of(options.solver.method),
-            .batch = std::uint32_t(views.batch),
-            .projection = views.projection,
-            .hemicube = std::uint32_t(views.hemicube),
-            .shots = directional_shots(solver_shots)};
-}
-
-}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
@@ -64,11 +49,11 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
-        if (has_lights(setting.world.scene))
+        if (has_lights(setting.prepared.scene))
             log_warning("the directional layers say of sky, sun and lamps only how much light they "
                         "send, as if it came along the normal");
         directional = gather_directional(
-            device, setting.resident, setting.world.scene, setting.world.lumels, setting.near,
+            device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.tell(fraction); });
     }
@@ -88,7 +73,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     output.outdate(kMatrixFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
-    return write_bake(output, options, setting.world, device, *solution->solver,
+    return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }
 

@@ -49,7 +49,7 @@ double mean_light(const Lumels& lumels, const std::vector<glm::vec3>& irradiance
 }  // namespace
 
 Correction::Correction(const EditedScene& edit, const StoredSolution& solution,
-                       const BakedFolder& baked, Stages& stages)
+                       const BakeRecord& baked, Stages& stages)
     : edit_(edit),
       baked_(baked),
       stages_(stages),
@@ -134,8 +134,8 @@ TwoEstimates Correction::gather_until(double residual, UpdateRow& row)
 TwoEstimates Correction::gather(const std::vector<Asked>& asked, ChangedLightOptions options,
                                 UpdateRow& row)
 {
-    options.seed = baked_.seed;
-    options.centre = baked_.centre;
+    options.seed = seed_of(baked_.solver.method);
+    options.centre = rule_of(baked_.solver.method) == SampleRule::centre;
     const Prepared &was = edit_.before, &is = edit_.now;
     const SeenScene before{&was.scene, &was.rays, &was.lumels, &hits_before_, sent_before()};
     const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
@@ -194,7 +194,7 @@ CarriedLight Correction::carry(const std::vector<glm::vec3>& source, double erro
     const LightCarrier carrier(is.rays, is.lumels, world, hits_now_);
     CarriedLight carried =
         carrier.carry(source, error, std::max(kMostParticles * source.size(), kFewParticles),
-                      baked_.seed, [&](const CarryState& state) {
+                      seed_of(baked_.solver.method), [&](const CarryState& state) {
                           const double part = state.error > 0.0 ? error / state.error : 0.0;
                           return stages_.tell(std::min(part * part, 1.0), state.particles);
                       });

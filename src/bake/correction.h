@@ -14,7 +14,7 @@ namespace lumel {
 class Correction {
 public:
     /// All must outlive this.
-    Correction(const EditedScene& edit, const StoredSolution& solution, const BakedFolder& baked,
+    Correction(const EditedScene& edit, const StoredSolution& solution, const BakeRecord& baked,
                Stages& stages);
 
     /// Emission that came, went or changed, and what is reflected otherwise of `lights`, D' - D [N]
@@ -37,7 +37,7 @@ private:
     glm::vec3 unsent(std::size_t i, const glm::vec3& light, const SentLight& sent) const;
 
     const EditedScene& edit_;
-    const BakedFolder& baked_;
+    const BakeRecord& baked_;
     Stages& stages_;
     HitLumels hits_before_, hits_now_;
     std::vector<Asked> asked_;       ///< [N now]

@@ -4,73 +4,50 @@
 #include <array>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "bake/bake.h"
+#include "bake/lighting.h"
 #include "bake/prepare.h"
-#include "directional/spherical_harmonics.h"
+#include "bake/sources.h"
 #include "gpu/device.h"
+#include "relight/relight_solver.h"
+#include "solve/methods.h"
 #include "world/occluders.h"
-#include "world/world.shared.h"
+#include "world/world.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
 
-using nlohmann::ordered_json;
+/// Bytes on the device, by what takes them. Direct light is gone before the solver is made.
+struct GraphicsMemory {
+    std::uint64_t world = 0, direct_light = 0, solver = 0, directional = 0;
 
-/// Bytes of graphics memory a stochastic bake holds at its peak, but for the near field, whose
-/// size is known only once it is built: about this many pairs a lumel.
-constexpr double kNearPairsPerLumel = 60.0;
+    std::uint64_t most() const { return world + std::max(direct_light, solver + directional); }
+};
 
-std::uint64_t view_memory(const SolverOptions& solver)
+GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
+                               const BakeOptions& options)
 {
-    const ViewOptions views = views_of(solver.method);
-    return view_pixels(views.projection, std::uint32_t(views.hemicube)) * sizeof(float) *
-           std::uint64_t(views.batch);
+    const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
+    const SolveSize size{
+        &prepared.lumels,
+        near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
+    return {.world = World::device_bytes(prepared.lumels, occluders),
+            .direct_light = direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+            .solver = keeps_sources_apart(options)
+                          ? RelightSolver::device_bytes(
+                                size, std::get<MatrixOptions>(options.solver.method))
+                          : solver_bytes(size, options.solver),
+            .directional = directional_bytes(size, directional_options(options, 0))};
 }
 
-std::uint64_t near_field_memory(std::uint64_t lumels)
+Json json_of(const GraphicsMemory& bytes)
 {
-    return std::uint64_t(double(lumels) * kNearPairsPerLumel) * 2 * sizeof(float);
-}
-
-/// What gather_directional() holds beside the solver: sums of the bands, sources, and views and a
-/// near field of its own.
-std::uint64_t directional_memory(std::uint64_t lumels, const BakeOptions& options)
-{
-    if (options.directional == Directional::none)
-        return 0;
-    const auto coefficients = std::uint64_t(coefficient_count(int(options.directional)));
-    return lumels * ((coefficients + 1) * sizeof(glm::vec3) + sizeof(glm::vec4)) +
-           near_field_memory(lumels) + view_memory(options.solver);
-}
-
-/// What the solver holds, and after it gather_directional().
-std::uint64_t solver_memory(std::uint64_t lumels, const BakeOptions& options)
-{
-    constexpr std::uint64_t vectors_per_lumel = 15;  // Iteration's vec3 arrays
-    return lumels *
-               (sizeof(glm::vec4) + vectors_per_lumel * sizeof(glm::vec3) + 2 * sizeof(float)) +
-           view_memory(options.solver) + near_field_memory(lumels) +
-           directional_memory(lumels, options);
-}
-
-std::uint64_t world_memory(const Prepared& world, const Occluders& occluders)
-{
-    return world.lumels.lumels.size() * 2 * sizeof(Lumel) +
-           world.lumels.pieces.size() * 2 * sizeof(Piece) +
-           occluders.positions.size() * (3 * sizeof(glm::vec3) + sizeof(std::uint32_t)) +
-           occluders.indices.size() * sizeof(std::uint32_t);
-}
-
-/// Direct light is found before the solver is made.
-std::uint64_t graphics_memory(const Prepared& world, const Occluders& occluders,
-                              const BakeOptions& options)
-{
-    const float diagonal = glm::length(world.rays.high() - world.rays.low());
-    return world_memory(world, occluders) +
-           std::max(direct_light_bytes(world.scene, world.lumels, diagonal),
-                    solver_memory(world.lumels.lumels.size(), options));
+    return {{"world", bytes.world},
+            {"direct_light", bytes.direct_light},
+            {"solver", bytes.solver},
+            {"directional", bytes.directional}};
 }
 
 std::size_t triangle_count(const Scene& scene)
@@ -82,22 +59,22 @@ std::size_t triangle_count(const Scene& scene)
     return count;
 }
 
-ordered_json facts(const Prepared& world, const BakeOptions& options)
+Json facts(const Prepared& prepared, const BakeOptions& options)
 {
-    const Scene& scene = world.scene;
-    const Occluders occluders = find_occluders(scene);
+    const Scene& scene = prepared.scene;
+    const Occluders occluders = find_occluders(scene, {}, &prepared.atlas);
     std::size_t emissive = 0, authored = 0, buried = 0, back = 0;
     for (const Material& material : scene.materials)
         emissive += material.emitted != glm::vec3(0.0f);
-    for (const Surface& surface : world.atlas.surfaces)
+    for (const Surface& surface : prepared.atlas.surfaces)
         authored += surface.authored;
     double area = 0.0;
-    for (const Lumel& lumel : world.lumels.lumels) {
+    for (const Lumel& lumel : prepared.lumels.lumels) {
         buried += (lumel.flags & kLumelBuried) != 0;
         back += (lumel.flags & kLumelBack) != 0;
         area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
     }
-    ordered_json json;
+    Json json;
     json["scene"] = scene.path;
     json["hash"] = scene.hash;
     json["meshes"] = scene.meshes.size();
@@ -113,23 +90,25 @@ ordered_json facts(const Prepared& world, const BakeOptions& options)
     json["sky_irradiance_lx"] = {sky.r, sky.g, sky.b};
     json["cameras"] = scene.cameras.size();
     json["surface_area_m2"] = area;
-    json["surfaces"] = world.atlas.surfaces.size();
+    json["surfaces"] = prepared.atlas.surfaces.size();
     json["surfaces_with_own_lightmap_uv"] = authored;
-    json["charts"] = world.atlas.chart_count;
-    json["atlas_width"] = world.atlas.width;
-    json["atlas_height"] = world.atlas.height;
-    json["texels_per_metre"] = world.atlas.texels_per_metre;
-    json["lumels"] = world.lumels.lumels.size();
+    json["charts"] = prepared.atlas.chart_count;
+    json["atlas_width"] = prepared.atlas.width;
+    json["atlas_height"] = prepared.atlas.height;
+    json["texels_per_metre"] = prepared.atlas.texels_per_metre;
+    json["lumels"] = prepared.lumels.lumels.size();
     json["back_lumels"] = back;
     json["buried_lumels"] = buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
-    json["graphics_memory_bytes"] = graphics_memory(world, occluders, options);
+    const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
+    json["graphics_memory_bytes"] = memory.most();
+    json["graphics_memory_parts"] = json_of(memory);
     json["warnings"] = scene.warnings;
-    json["notes"] = world.atlas.notes;
+    json["notes"] = prepared.atlas.notes;
     return json;
 }
 
-std::string lightmap_uv_text(const ordered_json& json)
+std::string lightmap_uv_text(const Json& json)
 {
     const auto all = json["surfaces"].get<std::size_t>();
     const auto own = json["surfaces_with_own_lightmap_uv"].get<std::size_t>();
@@ -139,7 +118,7 @@ std::string lightmap_uv_text(const ordered_json& json)
                       : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
 }
 
-std::string text_of(const ordered_json& json)
+std::string text_of(const Json& json)
 {
     const auto count = [&](const char* key) { return json[key].get<std::size_t>(); };
     std::string text = json["scene"].get<std::string>() + "\n";
@@ -176,10 +155,10 @@ std::string text_of(const ordered_json& json)
 
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
 {
-    const Prepared world(read_scene(scene_path, MaterialModel::diffuse, options.lights),
-                         options.atlas);
-    const ordered_json all = facts(world, options);
-    return json ? all.dump(2, ' ', false, ordered_json::error_handler_t::replace) : text_of(all);
+    const Prepared prepared(read_scene(scene_path, MaterialModel::diffuse, options.lights),
+                            options.atlas);
+    const Json all = facts(prepared, options);
+    return json ? json_text(all) : text_of(all);
 }
 
 }  // namespace lumel

@@ -8,11 +8,11 @@ namespace {
 
 /// Filling and seams mix lumels of slightly different normals: brings the layers of covered texels
 /// back in line with the map.
-void match_texels(FinishedMaps& maps, const Prepared& world,
+void match_texels(FinishedMaps& maps, const Prepared& prepared,
                   const std::vector<std::uint32_t>& shown)
 {
     const DirectionalFit fit(maps.layers.size() > std::size_t(coefficient_count(1)) ? 2 : 1);
-    const std::vector<glm::vec3> normals = world_normals(world.scene, world.lumels);
+    const std::vector<glm::vec3> normals = world_normals(prepared.scene, prepared.lumels);
     parallel_for(shown.size(), 4096, [&](std::size_t first, std::size_t last) {
         std::vector<glm::vec3> own(maps.layers.size());
         for (std::size_t texel = first; texel < last; ++texel) {
@@ -34,13 +34,14 @@ void match_texels(FinishedMaps& maps, const Prepared& world,
 
 }  // namespace
 
-DirectionalMaps finish_directional(const Prepared& world, const std::vector<glm::vec3>& irradiance,
+DirectionalMaps finish_directional(const Prepared& prepared,
+                                   const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients)
 {
     FinishedMaps maps =
-        finish_maps(world.scene, world.atlas, world.lumels, irradiance, coefficients);
+        finish_maps(prepared.scene, prepared.atlas, prepared.lumels, irradiance, coefficients);
     if (!coefficients.empty())
-        match_texels(maps, world, shown_lumels(world.lumels, irradiance));
+        match_texels(maps, prepared, shown_lumels(prepared.lumels, irradiance));
     DirectionalMaps result{std::move(maps.light), {}};
     for (std::size_t c = 0; c < maps.layers.size(); ++c)
         result.layers.push_back({"sh." + std::to_string(c), std::move(maps.layers[c])});

@@ -19,7 +19,8 @@ struct DirectionalMaps {
 
 /// irradiance [N] [lx], coefficients [4 or 9][N] [cd/m²]. At every covered texel the layers give
 /// the irradiance of the map back, for the shading normal of the lumel there.
-DirectionalMaps finish_directional(const Prepared& world, const std::vector<glm::vec3>& irradiance,
+DirectionalMaps finish_directional(const Prepared& prepared,
+                                   const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients);
 
 /// The layers' description in the file.

@@ -9,6 +9,7 @@
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "solve/methods.h"
 #include "visibility/eye_views.h"
 #include "visibility/illumination_maps.h"
 #include "visibility/probe.h"
@@ -76,7 +77,7 @@ void set_grey(Image& image, std::size_t pixel, float value)
 
 /// What the lumel sees from its own point.
 Picture view_from(const gpu::Device& device, const World& world, std::size_t lumel,
-                  const SolverOptions& options)
+                  const ViewOptions& options)
 {
     const Lumel at = world.lumels().download()[lumel];
     const std::array eye{eye_at(at.position, at.normal)};
@@ -163,7 +164,7 @@ void write_dump(OutputFolder& folder, const gpu::Device& device, const Solved& s
     const Lumels& lumels = solved.prepared.lumels;
     const std::vector<glm::vec3> radiosity = radiosity_of(lumels, solved.irradiance);
     const std::vector<glm::vec3> power = power_of(lumels, radiosity);
-    write(folder, view_from(device, solved.world, brightest(power), options));
+    write(folder, view_from(device, solved.world, brightest(power), views_of(options.method)));
     write_illumination(folder, device, solved, radiosity);
     if (!solved.near.column.empty())
         write(

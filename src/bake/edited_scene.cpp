@@ -126,7 +126,7 @@ std::uint64_t recoloured_instances(const EditedScene& edit)
 }  // namespace
 
 EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
-                         const BakedFolder& baked)
+                         const BakeRecord& baked)
     : before(
           std::move(scene_before),
           [&](const Scene& scene) {
@@ -141,7 +141,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
       now(
           std::move(scene_now),
           [&](const Scene& scene) {
-              return kept_atlas(before.scene, before.atlas, scene, matches, baked.gutter);
+              return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
           },
           [&](const Scene& scene, const RayScene& rays, Lumels& lumels) {
               return bury_anew(scene, rays, solution, lumels);

@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include "bake/baked_folder.h"
 #include "bake/prepare.h"
 #include "bake/solution_file.h"
-#include "output/report.h"
+#include "record/bake_record.h"
 #include "update/changed_light.h"
 #include "update/matches.h"
 
@@ -20,7 +19,7 @@ inline bool is_buried(const Lumel& lumel)
 /// Stays where it was made.
 struct EditedScene {
     /// before: as read from the bake's scene.glb. Throws Error.
-    EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakedFolder& baked);
+    EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked);
     EditedScene(const EditedScene&) = delete;
     EditedScene& operator=(const EditedScene&) = delete;
 

@@ -20,9 +20,9 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
 {
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
-    const Lumels& lumels = solution->lumels ? *solution->lumels : setting.world.lumels;
+    const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
     solution->solver = make_solver({.device = device,
-                                    .world = setting.resident,
+                                    .world = setting.world,
                                     .lumels = lumels,
                                     .near = setting.near,
                                     .known = known,
@@ -38,7 +38,7 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
                                       const BakeOptions& options,
                                       const std::vector<glm::vec3>& direct, Stages& stages)
 {
-    const Lumels& lumels = setting.world.lumels;
+    const Lumels& lumels = setting.prepared.lumels;
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), direct, stages);
@@ -65,14 +65,26 @@ DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32
             .centre = rule_of(solver.method) == SampleRule::centre};
 }
 
+DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
+{
+    const ViewOptions views = views_of(options.solver.method);
+    return {.kind = options.directional,
+            .rule = rule_of(options.solver.method),
+            .seed = seed_of(options.solver.method),
+            .batch = std::uint32_t(views.batch),
+            .projection = views.projection,
+            .hemicube = std::uint32_t(views.hemicube),
+            .shots = directional_shots(solver_shots)};
+}
+
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages)
 {
-    if (!has_lights(setting.world.scene))
+    if (!has_lights(setting.prepared.scene))
         return {};
     stages.begin("sky and lamps");
     DirectLight light =
-        direct_light(device, setting.resident, setting.world.scene, setting.world.lumels,
+        direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
                      direct_light_options(options.solver, options.sky_directions),
                      [&](double fraction) { return stages.tell(fraction); });
     stages.note_times(light.times);

@@ -13,6 +13,9 @@ namespace lumel {
 /// The direct light that suits a solver: without the sky if the solver gathers that.
 DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32_t sky_directions);
 
+/// The directional light asked for, of a solution that took `solver_shots`.
+DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots);
+
 /// Sky and lamps' direct light, as the stage "sky and lamps"; empty if there are none.
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages);

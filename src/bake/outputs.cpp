@@ -7,10 +7,11 @@
 #include "bake/solution_file.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
-#include "images/write_bytes.h"
 #include "output/folder.h"
 #include "output/gltf_write.h"
 #include "preview/preview.h"
+#include "record/origin.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -32,70 +33,76 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
 
 }  // namespace
 
-void write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-               const Prepared& world, std::span<const Layer> directional)
+float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
+                const Prepared& prepared, std::span<const Layer> directional)
 {
     std::map<std::string, std::string> metadata = {
-        {"quantity", "irradiance"},        {"unit", "lx"},
-        {"colorSpace", "linear Rec. 709"}, {"alpha", "coverage"},
-        {"sceneHash", world.scene.hash},   {"software", "lumel " LUMEL_VERSION}};
+        {"quantity", "irradiance"},         {"unit", "lx"},
+        {"colorSpace", "linear Rec. 709"},  {"alpha", "coverage"},
+        {"sceneHash", prepared.scene.hash}, {"software", "lumel " + lumel_version()}};
     if (!directional.empty())
         metadata.merge(directional_metadata());
     write_exr(folder.path(name + ".exr"), map, half ? Precision::float16 : Precision::float32,
               metadata, directional);
-    write_png(folder.path(name + ".png"), tone_map(map));
+    const float exposure = choose_exposure(map);
+    write_png(folder.path(name + ".png"), tone_map(map, exposure));
+    return exposure;
 }
 
-void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
-                 const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
-                 const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
+float write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
+                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
+                  const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
 {
-    const DirectionalMaps maps = finish_directional(world, irradiance, coefficients);
+    const DirectionalMaps maps = finish_directional(prepared, irradiance, coefficients);
     const Image& map = maps.light;
-    const Image radiance =
-        finish_map(world.scene, world.atlas, world.lumels, radiance_of(world.lumels, irradiance));
-    write_map(folder, kLightmap, map, options.half, world, maps.layers);
-    write_solution(folder.path(kSolutionFile), world.lumels, irradiance, world.open);
-    write_scene_glb(folder.path("scene.glb"), world.scene, world.atlas, map);
-    write_baked_glb(folder.path("scene-baked.glb"), world.scene, world.atlas, radiance);
+    const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
+                                      radiance_of(prepared.lumels, irradiance));
+    const float exposure = write_map(folder, kLightmap, map, options.half, prepared, maps.layers);
+    write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
+    write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map);
+    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, radiance);
     if (device && options.preview_width > 0) {
         stages.begin("preview");
-        const View view = choose_view(world.scene, world.rays);
+        const View view = choose_view(prepared.scene, prepared.rays);
         write_png(folder.path("preview.png"),
-                  tone_map(render_preview(*device, world.scene, world.atlas, map, view,
+                  tone_map(render_preview(*device, prepared.scene, prepared.atlas, map, view,
                                           options.preview_width)));
     }
+    return exposure;
 }
 
-BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    write_light(folder, options, world, &device, irradiance, results.directional.coefficients,
-                stages);
+    const float exposure = write_light(folder, options, prepared, &device, irradiance,
+                                       results.directional.coefficients, stages);
     stages.end();
     device.check_validation();
 
-    const std::string report =
-        to_json(bake_report(options, world, device, solver, results, stages));
-    write_text(folder.path("report.json"), report);
+    const BakeRecord record = record_of(options, prepared, results, exposure);
+    const Json report = to_json(bake_report(record, prepared, device, solver, results, stages));
+    write_json(folder.path(kReportFile), report);
     folder.commit();
-    return {results.shots, results.error, stages.seconds(), results.interrupted, report};
+    return {results.shots, results.error, stages.seconds(), results.interrupted, json_text(report)};
 }
 
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
-                            const ReferenceOptions& reference, const Prepared& world,
+                            const ReferenceOptions& reference, const Prepared& prepared,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
-    write_map(folder, kLightmap, finish_map(world.scene, world.atlas, world.lumels, irradiance),
-              options.half, world);
+    const float exposure = write_map(
+        folder, kLightmap, finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance),
+        options.half, prepared);
     stages.end();
-    const std::string report =
-        to_json(reference_report(options.lights, reference, world, stopped, stages));
-    write_text(folder.path("report.json"), report);
+    Report facts = reference_report(options, reference, prepared, stopped, stages);
+    facts.exposure = exposure;
+    const Json report = to_json(facts);
+    write_json(folder.path(kReportFile), report);
     folder.commit();
-    return {std::uint64_t(reference.samples_per_lumel), -1.0, stages.seconds(), stopped, report};
+    return {std::uint64_t(reference.samples_per_lumel), -1.0, stages.seconds(), stopped,
+            json_text(report)};
 }
 
 }  // namespace lumel

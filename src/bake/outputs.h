@@ -10,7 +10,7 @@
 #include "gpu/device.h"
 #include "images/image_files.h"
 #include "output/folder.h"
-#include "output/report.h"
+#include "record/report.h"
 #include "solve/solver.h"
 
 namespace lumel {
@@ -29,26 +29,27 @@ struct Results {
     DirectionalLight directional;  ///< empty if not asked for
 };
 
-/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking.
-void write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-               const Prepared& world, std::span<const Layer> directional = {});
+/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking. Returns
+/// the exposure of the latter [1/lx].
+float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
+                const Prepared& prepared, std::span<const Layer> directional = {});
 
 /// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.
-/// device: for the preview, which is left out without one. irradiance [N] [lx], coefficients as of
-/// DirectionalLight.
-void write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& world,
-                 const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
-                 const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
+/// Returns the exposure of lightmap.png. device: for the preview, which is left out without one.
+/// irradiance [N] [lx], coefficients as of DirectionalLight.
+float write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
+                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
+                  const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
 
 /// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
-BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& world,
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages);
 
 /// Writes all files of `lumel reference`.
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
-                            const ReferenceOptions& reference, const Prepared& world,
+                            const ReferenceOptions& reference, const Prepared& prepared,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages);
 
 }  // namespace lumel

@@ -13,12 +13,12 @@
 #include "core/log.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
-#include "images/write_bytes.h"
 #include "live/still_part.h"
 #include "output/folder.h"
 #include "output/movie.h"
 #include "preview/preview.h"
 #include "scene/animation.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -303,11 +303,11 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
         report.files.push_back(row.file);
     if (filmed)
         report.files.emplace_back(kFilm);
-    report.files.emplace_back("report.json");
-    const std::string text = to_json(report);
-    write_text(output.path("report.json"), text);
+    report.files.emplace_back(kReportFile);
+    const Json json = to_json(report);
+    write_json(output.path(kReportFile), json);
     output.commit();
-    return {written, stages.seconds(), stages.stopped(), text};
+    return {written, stages.seconds(), stages.stopped(), json_text(json)};
 }
 
 }  // namespace lumel

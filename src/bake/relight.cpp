@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
-
-#include "bake/baked_folder.h"
 #include "bake/outputs.h"
 #include "bake/solution_file.h"
 #include "bake/stages.h"
 #include "bake/states_file.h"
 #include "core/usage.h"
 #include "finish/finish.h"
+#include "record/bake_record.h"
+#include "record/origin.h"
 #include "relight/matrix_file.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -26,7 +26,7 @@ constexpr std::size_t kStatesAtOnce = 16;
 constexpr double kMostStrangers = 0.01;
 
 /// The matrix of a folder, if it is that of the bake in it.
-Relightable read_matrix(const std::string& folder, const BakedFolder& baked,
+Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
                         const StoredSolution& solution)
 {
     const std::string path = (fs::path(folder) / kMatrixFile).string();
@@ -43,10 +43,10 @@ Relightable read_matrix(const std::string& folder, const BakedFolder& baked,
     return light;
 }
 
-Prepared read_world(const std::string& folder, const BakedFolder& baked,
+Prepared read_world(const std::string& folder, const BakeRecord& baked,
                     const StoredSolution& solution)
 {
-    Scene scene = read_scene((fs::path(folder) / "scene.glb").string(), MaterialModel::diffuse, {});
+    Scene scene = read_scene((fs::path(folder) / kSceneFile).string(), MaterialModel::diffuse, {});
     scene.hash = baked.scene_hash;  // its vertices are split, its light is the same
     return Prepared(std::move(scene), [&](const Scene& read) {
         return written_atlas(read, solution.side, float(baked.texels_per_metre), solution.charts);
@@ -96,8 +96,8 @@ void check_states(const RelightSession& session, const std::vector<NamedState>& 
 std::string report_of(const RelightSummary& summary, const RelightSession& session,
                       const gpu::Device& device)
 {
-    nlohmann::ordered_json json;
-    json["lumel"] = LUMEL_VERSION;
+    Json json;
+    json["lumel"] = lumel_version();
     json["device"] = device.info().name;
     json["matrix"] = {{"scene_hash", session.light().scene_hash},
                       {"lumels", session.size()},
@@ -105,13 +105,13 @@ std::string report_of(const RelightSummary& summary, const RelightSession& sessi
                       {"bytes", bytes_of(session.light().matrix)},
                       {"sources", session.names()}};
     json["seconds"] = summary.seconds;
-    json["states"] = nlohmann::ordered_json::array();
+    json["states"] = Json::array();
     for (const StateRow& row : summary.states)
         json["states"].push_back({{"name", row.name},
                                   {"light_seconds", row.light},
                                   {"files_seconds", row.files},
                                   {"files", {row.name + ".exr", row.name + ".png"}}});
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
 {
     Stages stages(progress);
     stages.begin("reading");
-    const BakedFolder baked = read_baked_folder(folder);
+    const BakeRecord baked = read_bake_record(folder);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     Relightable light = read_matrix(folder, baked, solution);
     const std::vector<NamedState> states = read_states(states_path);

@@ -15,9 +15,11 @@
 #include "picture/lobe_rays.h"
 #include "picture/picture.h"
 #include "preview/view.h"
+#include "record/origin.h"
 #include "reference/reference_image.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -101,13 +103,14 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
     stages.begin("following lobes");
-    const WorldLumels standing(setting.world.scene, setting.world.rays, setting.world.lumels);
-    const PowerDraw senders(standing, setting.world.lumels, brightness);
+    const WorldLumels standing(setting.prepared.scene, setting.prepared.rays,
+                               setting.prepared.lumels);
+    const PowerDraw senders(standing, setting.prepared.lumels, brightness);
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
                                .seed = seed_of(options.bake.solver.method)};
     const std::vector<glm::vec3> along =
-        gather_along_lobes(seen.glossy, setting.world.rays, surfaces, lit, senders, lobes,
+        gather_along_lobes(seen.glossy, setting.prepared.rays, surfaces, lit, senders, lobes,
                            [&](double fraction) { return stages.tell(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
         reflected[g] += along[g];
@@ -124,18 +127,24 @@ Image unmultiplied(Image image)
     return image;
 }
 
-void write_picture(const std::string& path, const Image& image)
+/// Returns the exposure of a PNG [m²/cd].
+std::optional<float> write_picture(const std::string& path, const Image& image)
 {
     OutputFile file(path);
-    if (is_exr(path))
+    std::optional<float> exposure;
+    if (is_exr(path)) {
         write_exr(file.path(), image, Precision::float32,
                   {{"quantity", "radiance"},
                    {"unit", "cd/m2"},
                    {"colorSpace", "linear Rec. 709"},
-                   {"software", "lumel " LUMEL_VERSION}});
-    else
-        write_png(file.path(), tone_map(unmultiplied(image)));
+                   {"software", "lumel " + lumel_version()}});
+    } else {
+        const Image shown = unmultiplied(image);
+        exposure = choose_exposure(shown);
+        write_png(file.path(), tone_map(shown, *exposure));
+    }
     file.commit();
+    return exposure;
 }
 
 /// A picture and the facts of it.
@@ -167,14 +176,14 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
         dump.emplace(options.bake.dump);
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
-    const Prepared& world = setting.world;
-    const View view = view_for(world.scene, world.rays, options);
+    const Prepared& prepared = setting.prepared;
+    const View view = view_for(prepared.scene, prepared.rays, options);
     check_size(device, options);
     DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
-    const std::optional<Lumels> lumels = shining(world.lumels, lamps.irradiance);
+    const std::optional<Lumels> lumels = shining(prepared.lumels, lamps.irradiance);
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
-    GlossyIllumination solver(device, setting.resident, lumels ? *lumels : world.lumels,
+    GlossyIllumination solver(device, setting.world, lumels ? *lumels : prepared.lumels,
                               setting.near, std::get<GlossyOptions>(options.bake.solver.method),
                               lamps.irradiance, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
@@ -184,14 +193,15 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, lamps.irradiance);
     if (dump)
-        write_dump(*dump, device, {world, setting.resident, setting.near, irradiance},
+        write_dump(*dump, device, {prepared, setting.world, setting.near, irradiance},
                    options.bake.solver);
-    const SideMaps maps = finish_sides(world.scene, world.atlas, world.lumels, irradiance);
-    const Surfaces surfaces(world.scene);
-    const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
+    const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
+    const Surfaces surfaces(prepared.scene);
+    const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);
     stages.begin("looking");
-    const Seen seen = look(view, options.width, options.height, options.sets, world.rays, surfaces,
-                           world.scene.sky, [&](double fraction) { return stages.tell(fraction); });
+    const Seen seen =
+        look(view, options.width, options.height, options.sets, prepared.rays, surfaces,
+             prepared.scene.sky, [&](double fraction) { return stages.tell(fraction); });
     Image image =
         compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
@@ -203,7 +213,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
                           .lamps = std::move(lamps)};
-    return {std::move(image), picture_report(options, world, device, solver, results, stages)};
+    return {std::move(image), picture_report(options, prepared, device, solver, results, stages)};
 }
 
 Made make(Scene scene, RenderOptions options, Stages& stages)
@@ -214,8 +224,9 @@ Made make(Scene scene, RenderOptions options, Stages& stages)
 
 RenderSummary summary_of(const Report& report)
 {
-    return {report.picture_width, report.picture_height, report.shots,   report.estimated_error,
-            report.wall_seconds,  report.interrupted,    to_json(report)};
+    return {report.picture_width,      report.picture_height, report.shots,
+            report.estimated_error,    report.wall_seconds,   report.interrupted,
+            json_text(to_json(report))};
 }
 
 }  // namespace
@@ -235,7 +246,7 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     stages.begin("reading");
     Scene scene = read_scene(scene_path, MaterialModel::glossy, options.bake.lights);
     Made made = make(std::move(scene), options, stages);
-    write_picture(picture_path, made.image);
+    made.report.exposure = write_picture(picture_path, made.image);
     made.report.files = {std::filesystem::path(picture_path).filename().string()};
     return summary_of(made.report);
 }

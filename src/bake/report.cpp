@@ -1,56 +1,53 @@
 #include "bake/report.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include <fmt/format.h>
-
 #include "core/usage.h"
+#include "record/light_settings.h"
+#include "record/origin.h"
+#include "record/solver_settings.h"
+#include "record/words.h"
 #include "relight/matrix_file.h"
 #include "solve/methods.h"
 
 namespace lumel {
 namespace {
 
-const char* text_of(SampleRule rule)
+const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    kSolutionFile,
+                                              kSceneFile,     "scene-baked.glb", kReportFile};
+constexpr const char* kPreview = "preview.png";
+
+std::string file_of(const Scene& scene)
 {
-    return rule == SampleRule::area ? "area" : "centre";
+    return std::filesystem::path(scene.path).filename().string();
 }
 
-const char* text_of(Directional directional)
-{
-    return directional == Directional::none ? "none"
-                                            : (directional == Directional::sh1 ? "sh1" : "sh2");
-}
-
-const char* text_of(Parts parts)
-{
-    return parts == Parts::all ? "all" : (parts == Parts::direct ? "direct" : "indirect");
-}
-
-const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    "solution.exr",
-                                              "scene.glb",    "scene-baked.glb", "report.json"};
-
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
-Report common(const Scene& scene, const Stages& stages)
+/// A report of something that is no bake.
+Report report_on(const Scene& scene, const LightOptions& lights)
 {
     Report report;
-    report.lumel_version = LUMEL_VERSION;
-    report.scene = std::filesystem::path(scene.path).filename().string();
+    report.lumel_version = lumel_version();
+    report.date = local_time();
+    report.library_versions = library_versions();
+    report.scene = file_of(scene);
     report.scene_hash = scene.hash;
+    report.lights = light_settings(lights);
+    return report;
+}
+
+/// Adds what the work took.
+void add_usage(Report& report, const Scene& scene, const Stages& stages)
+{
     report.stages = stages.times();
     report.wall_seconds = stages.seconds();
     report.cpu_seconds = cpu_seconds();
     report.peak_host_bytes = std::int64_t(peak_memory_bytes());
     report.warnings = scene.warnings;
-    return report;
 }
 
-Report common(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Stages& stages)
+void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lumels& lumels)
 {
-    Report report = common(scene, stages);
     report.atlas_width = atlas.width;
     report.atlas_height = atlas.height;
     report.texels_per_metre = double(atlas.texels_per_metre);
@@ -63,12 +60,12 @@ Report common(const Scene& scene, const Atlas& atlas, const Lumels& lumels, cons
     for (const Lumel& lumel : lumels.lumels)
         report.buried_lumels += (lumel.flags & kLumelBuried) != 0;
     report.notes = atlas.notes;
-    return report;
 }
 
-Report common(const Prepared& world, const Stages& stages)
+void add_facts(Report& report, const Prepared& prepared, const Stages& stages)
 {
-    return common(world.scene, world.atlas, world.lumels, stages);
+    add_usage(report, prepared.scene, stages);
+    add_sizes(report, prepared.scene, prepared.atlas, prepared.lumels);
 }
 
 void add_device(Report& report, const gpu::Device& device)
@@ -79,34 +76,6 @@ void add_device(Report& report, const gpu::Device& device)
     report.peak_gpu_bytes = std::int64_t(device.peak_bytes());
 }
 
-/// Of the options that the method reads.
-Settings settings_of(const MethodOptions& method)
-{
-    Settings settings;
-    for (const OptionInfo& option : method_of(method).options)
-        settings.emplace_back(option.name, option.get(method));
-    return settings;
-}
-
-Settings settings_of(const BakeOptions& options)
-{
-    Settings settings = settings_of(options.solver.method);
-    for (const auto& setting :
-         Settings{{"sky-directions", std::to_string(options.sky_directions)},
-                  {"shots", std::to_string(options.solver.max_shots)},
-                  {"time", fmt::format("{}", options.solver.max_seconds)},
-                  {"error", fmt::format("{}", 100.0 * options.solver.target_error)},
-                  {"gutter", std::to_string(options.atlas.gutter)},
-                  {"max-size", std::to_string(options.atlas.max_size)}})
-        settings.push_back(setting);
-    return settings;
-}
-
-void append(Settings& settings, const Settings& more)
-{
-    settings.insert(settings.end(), more.begin(), more.end());
-}
-
 /// Adds what stages took on the device, their names after `before`.
 void add_times(Report& report, const std::string& before, const gpu::StageTimes& times)
 {
@@ -114,17 +83,12 @@ void add_times(Report& report, const std::string& before, const gpu::StageTimes&
         report.gpu_milliseconds.emplace_back(before + stage, std::vector<double>{ms});
 }
 
-/// What all solvers have to say, whatever is made of the solution.
-Report solved(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
-              const Solver& solver, const Results& results, const Stages& stages)
+/// Adds what all solvers have to say, whatever is made of the solution.
+void add_solution(Report& report, const gpu::Device& device, const Solver& solver,
+                  const Results& results)
 {
-    Report report = common(world, stages);
-    report.settings = settings_of(options);
-    append(report.settings, settings_of(options.lights));
-    report.settings.emplace_back("near-field-pairs", std::to_string(results.near_pairs));
-    report.seed = seed_of(options.solver.method);
     add_device(report, device);
-    report.method = method_of(options.solver.method).id;
+    report.near_pairs = results.near_pairs;
     report.shots = results.shots;
     report.iterations = results.iterations;
     report.estimated_error = results.error;
@@ -138,114 +102,149 @@ Report solved(const BakeOptions& options, const Prepared& world, const gpu::Devi
     add_times(report, "", solver.times());
     report.gpu_milliseconds.emplace_back("longest submission",
                                          std::vector<double>{solver.longest_submission()});
-    return report;
 }
 
 /// Adds what a picture is of.
-void add_picture(Report& report, const RenderOptions& options, const Settings& settings)
+void add_picture(Report& report, const RenderOptions& options)
 {
     report.picture_width = options.width;
     report.picture_height = options.height;
     if (options.camera >= 0)
-        report.settings.emplace_back("camera", std::to_string(options.camera));
-    report.settings.insert(report.settings.end(), settings.begin(), settings.end());
+        report.settings["camera"] = options.camera;
+}
+
+Json path_tracer_settings(std::uint32_t seed)
+{
+    return {{"method", "reference"}, {"options", {{"seed", seed}}}};
 }
 
 }  // namespace
 
-Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
+                     float exposure)
+{
+    BakeRecord record{.scene = file_of(prepared.scene),
+                      .scene_hash = prepared.scene.hash,
+                      .lights = options.lights,
+                      .atlas = options.atlas,
+                      .solver = options.solver,
+                      .sky_directions = options.sky_directions,
+                      .parts = options.parts,
+                      .directional = options.directional,
+                      .half = options.half,
+                      .side = prepared.atlas.width,
+                      .texels_per_metre = double(prepared.atlas.texels_per_metre),
+                      .shots = results.shots,
+                      .iterations = results.iterations,
+                      .error = results.error,
+                      .interrupted = results.interrupted,
+                      .exposure = exposure,
+                      .files = kBakedFiles};
+    if (options.preview_width > 0)
+        record.files.emplace_back(kPreview);
+    if (results.relightable)
+        record.files.emplace_back(kMatrixFile);
+    return record;
+}
+
+BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
+                     const Prepared& prepared, std::optional<float> exposure, bool preview,
+                     bool interrupted)
+{
+    baked.scene = file_of(prepared.scene);
+    baked.scene_hash = prepared.scene.hash;
+    baked.lights = options.lights;
+    baked.side = prepared.atlas.width;
+    baked.texels_per_metre = double(prepared.atlas.texels_per_metre);
+    if (row.solved_anew)
+        baked.error = row.residual;
+    else if (baked.error >= 0.0)
+        baked.error = std::hypot(baked.error, row.residual);
+    baked.interrupted = interrupted;
+    baked.exposure = exposure ? exposure : baked.exposure;
+    baked.files = kBakedFiles;
+    if (preview)
+        baked.files.emplace_back(kPreview);
+    return baked;
+}
+
+Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages)
 {
-    Report report = solved(options, world, device, solver, results, stages);
-    report.settings.emplace_back("only", text_of(options.parts));
-    report.settings.emplace_back("half", options.half ? "true" : "false");
-    report.settings.emplace_back("directional", text_of(options.directional));
+    Report report = report_of(record);
+    add_facts(report, prepared, stages);
+    add_solution(report, device, solver, results);
     report.directional_shots = results.directional.shots;
     add_times(report, "directional: ", results.directional.times);
-    report.files = kBakedFiles;
-    if (options.preview_width > 0)
-        report.files.emplace_back("preview.png");
-    if (results.relightable)
-        report.files.emplace_back(kMatrixFile);
     return report;
 }
 
-Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
-                     const Prepared& world, const gpu::Device* device, const Stages& stages)
+Report update_report(const BakeRecord& record, const UpdateRow& row, const Prepared& prepared,
+                     const gpu::Device* device, const Stages& stages)
 {
-    Report report = common(world, stages);
-    const Settings lights_before = settings_of(baked.lights);
-    for (const auto& entry : baked.settings)
-        if (std::find(lights_before.begin(), lights_before.end(), entry) == lights_before.end())
-            report.settings.push_back(entry);
-    append(report.settings, settings_of(options.lights));
-    report.seed = baked.seed;
+    Report report = report_of(record);
+    add_facts(report, prepared, stages);
     if (device)
         add_device(report, *device);
-    report.method = baked.method;
-    report.shots = baked.shots;
-    report.iterations = baked.iterations;
-    if (row.solved_anew)
-        report.estimated_error = row.residual;
-    else if (baked.error >= 0.0)
-        report.estimated_error = std::hypot(baked.error, row.residual);
-    report.interrupted = stages.stopped();
     report.update = row;
-    report.files = kBakedFiles;
-    if (device && options.preview_width > 0)
-        report.files.emplace_back("preview.png");
     return report;
 }
 
-Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
-                        const Prepared& world, bool stopped, const Stages& stages)
+Report reference_report(const BakeOptions& options, const ReferenceOptions& reference,
+                        const Prepared& prepared, bool stopped, const Stages& stages)
 {
-    Report report = common(world, stages);
-    report.method = "reference";
-    report.settings = {{"spp", std::to_string(reference.samples_per_lumel)},
-                       {"sampling", text_of(reference.rule)},
-                       {"gloss", world.scene.model == MaterialModel::glossy ? "true" : "false"},
-                       {"only", text_of(reference.parts)}};
-    append(report.settings, settings_of(lights));
-    report.seed = reference.seed;
+    Report report = report_on(prepared.scene, options.lights);
+    add_facts(report, prepared, stages);
+    report.settings = atlas_settings(options.atlas);
+    report.settings["half"] = options.half;
+    report.settings["spp"] = reference.samples_per_lumel;
+    report.settings["sampling"] = word_of(reference.rule);
+    report.settings["gloss"] = prepared.scene.model == MaterialModel::glossy;
+    report.settings["only"] = word_of(reference.parts);
+    report.solver = path_tracer_settings(reference.seed);
     report.interrupted = stopped;
-    report.files = {"lightmap.exr", "lightmap.png", "report.json"};
+    report.files = {"lightmap.exr", "lightmap.png", kReportFile};
     return report;
 }
 
-Report picture_report(const RenderOptions& options, const Prepared& world,
+Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages)
 {
-    Report report = solved(options.bake, world, device, solver, results, stages);
-    add_picture(report, options,
-                {{"places", std::to_string(options.sets)},
-                 {"eye-shots", std::to_string(options.shots)},
-                 {"lobe-rays", std::to_string(options.rays)}});
+    Report report = report_on(prepared.scene, options.bake.lights);
+    add_facts(report, prepared, stages);
+    add_solution(report, device, solver, results);
+    report.settings = atlas_settings(options.bake.atlas);
+    report.settings["sky-directions"] = options.bake.sky_directions;
+    add_picture(report, options);
+    report.settings["places"] = options.sets;
+    report.settings["eye-shots"] = options.shots;
+    report.settings["lobe-rays"] = options.rays;
+    report.solver = solver_settings(options.bake.solver);
     return report;
 }
 
 Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages)
 {
-    Report report = common(live.scene(), live.atlas(), live.lumels(), stages);
+    Report report = report_on(live.scene(), {});
+    add_usage(report, live.scene(), stages);
+    add_sizes(report, live.scene(), live.atlas(), live.lumels());
     add_device(report, device);
     const bool crosses = options.redistribution == Redistribution::cross;
     report.settings = {{"redistribution", crosses ? "cross" : "incremental"},
-                       {"animation", std::to_string(options.animation)},
-                       {"frames", std::to_string(options.frames)},
-                       {"fps", fmt::format("{}", options.fps)},
-                       {"budget", fmt::format("{}", options.budget_ms)},
-                       {"residual", fmt::format("{}", 100.0 * options.residual)},
-                       {"exposure", fmt::format("{}", options.exposure)},
-                       {"gutter", std::to_string(options.atlas.gutter)},
-                       {"max-size", std::to_string(options.atlas.max_size)}};
-    append(report.settings, settings_of(MethodOptions(options.solver)));
-    report.method = method_of(MethodOptions(options.solver)).id;
+                       {"animation", options.animation},
+                       {"frames", options.frames},
+                       {"fps", options.fps},
+                       {"budget", options.budget_ms},
+                       {"residual", options.residual}};
+    report.settings.update(atlas_settings(options.atlas));
+    report.solver = solver_settings({.method = options.solver});
     for (const FrameRow& frame : frames)
         report.shots += frame.hemicubes;
     report.frames = std::move(frames);
     report.interrupted = stages.stopped();
+    report.exposure = options.exposure;
     report.picture_width = options.width;
     report.picture_height = height;
     add_times(report, "", live.times());
@@ -254,11 +253,11 @@ Report play_report(const PlayOptions& options, const LiveScene& live, const gpu:
 
 Report path_traced_report(const RenderOptions& options, const Scene& scene, const Stages& stages)
 {
-    Report report = common(scene, stages);
-    report.method = "reference";
-    add_picture(report, options, {{"paths", std::to_string(options.paths)}});
-    append(report.settings, settings_of(options.bake.lights));
-    report.seed = seed_of(options.bake.solver.method);
+    Report report = report_on(scene, options.bake.lights);
+    add_usage(report, scene, stages);
+    add_picture(report, options);
+    report.settings["paths"] = options.paths;
+    report.solver = path_tracer_settings(seed_of(options.bake.solver.method));
     report.interrupted = stages.stopped();
     return report;
 }

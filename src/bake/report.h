@@ -1,31 +1,40 @@
 #pragma once
-// What a bake has to say of itself.
+// What bakes, pictures and films have to say of themselves.
 
-#include "bake/baked_folder.h"
 #include "bake/outputs.h"
 #include "bake/play.h"
 #include "bake/render.h"
 #include "bake/update.h"
-#include "output/report.h"
+#include "record/bake_record.h"
 
 namespace lumel {
 
+/// What a bake is. exposure: of lightmap.png.
+BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
+                     float exposure);
+
+/// What a bake is once it was corrected. exposure: of lightmap.png if it was written anew.
+/// preview: a picture was written.
+BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
+                     const Prepared& prepared, std::optional<float> exposure, bool preview,
+                     bool interrupted);
+
 /// The facts of a bake.
-Report bake_report(const BakeOptions& options, const Prepared& world, const gpu::Device& device,
+Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages);
 
+/// The facts of a bake that was corrected. device: of the preview and of lights, or none.
+Report update_report(const BakeRecord& record, const UpdateRow& row, const Prepared& prepared,
+                     const gpu::Device* device, const Stages& stages);
+
 /// The facts of a reference.
-Report reference_report(const LightOptions& lights, const ReferenceOptions& reference,
-                        const Prepared& world, bool stopped, const Stages& stages);
+Report reference_report(const BakeOptions& options, const ReferenceOptions& reference,
+                        const Prepared& prepared, bool stopped, const Stages& stages);
 
 /// The facts of a picture of a solved scene. options.height: as the picture is.
-Report picture_report(const RenderOptions& options, const Prepared& world,
+Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
-
-/// The facts of a bake that was corrected. device: of the preview and of lights, or none.
-Report update_report(const UpdateOptions& options, const BakedFolder& baked, const UpdateRow& row,
-                     const Prepared& world, const gpu::Device* device, const Stages& stages);
 
 /// The facts of a film. height: of the pictures [pixels].
 Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,

@@ -33,12 +33,12 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const Prepared& world, const SolverOptions& options, Stages& stages)
+NearField near_field_of(const Prepared& prepared, const SolverOptions& options, Stages& stages)
 {
-    tell_user(world);
-    note_sizes(world, stages);
+    tell_user(prepared);
+    note_sizes(prepared, stages);
     stages.begin("near field");
-    NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
+    NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
     stages.note(fmt::format(
         "{} close pairs take {}", near.column.size(),
         mebibytes(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
@@ -70,11 +70,11 @@ private:
 
 }  // namespace
 
-std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options)
+std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
     if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
-        particles.emplace(world.scene, world.atlas, world.rays, world.lumels);
+        particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
     return particles;
 }
 
@@ -87,10 +87,10 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
-    : world(in_stage(std::move(scene), stages), lay_out),
-      near(near_field_of(world, options.solver, stages)),
-      resident(upload_to(device, stages), world.scene, world.lumels, &world.atlas),
-      particles(particles_for(world, options.solver))
+    : prepared(in_stage(std::move(scene), stages), lay_out),
+      near(near_field_of(prepared, options.solver, stages)),
+      world(upload_to(device, stages), prepared.scene, prepared.lumels, &prepared.atlas),
+      particles(particles_for(prepared, options.solver))
 {
 }
 
@@ -119,22 +119,22 @@ void tell_warnings(const Scene& scene)
         log_warning(warning);
 }
 
-void note_sizes(const Prepared& world, Stages& stages)
+void note_sizes(const Prepared& prepared, Stages& stages)
 {
-    const std::vector<Lumel>& lumels = world.lumels.lumels;
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
     const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
         return (lumel.flags & kLumelBuried) != 0;
     });
     stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
                             "buried",
-                            world.atlas.chart_count, world.atlas.width, world.atlas.height,
-                            lumels.size(), world.lumels.pieces.size(), buried));
+                            prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
+                            lumels.size(), prepared.lumels.pieces.size(), buried));
 }
 
-void tell_user(const Prepared& world)
+void tell_user(const Prepared& prepared)
 {
-    tell_warnings(world.scene);
-    for (const std::string& note : world.atlas.notes)
+    tell_warnings(prepared.scene);
+    for (const std::string& note : prepared.atlas.notes)
         log_info(note);
 }
 

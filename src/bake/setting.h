@@ -16,14 +16,14 @@ namespace lumel {
 void tell_warnings(const Scene& scene);
 
 /// Says what the scene's reader and the atlas had to say.
-void tell_user(const Prepared& world);
+void tell_user(const Prepared& prepared);
 
 /// Notes how large the world is, as lumels count.
 void note_sizes(const Prepared& world, Stages& stages);
 
 /// Who carries what lobes send on, for a solver that knows gloss; none for Scheme::paper, whose
 /// shooters send it. The world must outlive them.
-std::optional<LobeParticles> particles_for(const Prepared& world, const SolverOptions& options);
+std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options);
 
 /// A scene on a device with all that a solver is made of. Stays where it was made.
 struct Setting {
@@ -35,9 +35,9 @@ struct Setting {
     Setting(const Setting&) = delete;
     Setting& operator=(const Setting&) = delete;
 
-    Prepared world;
+    Prepared prepared;
     NearField near;
-    World resident;
+    World world;
     std::optional<LobeParticles> particles;  ///< see particles_for
 
     /// The same for a solver, null if there are none.

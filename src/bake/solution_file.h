@@ -9,8 +9,6 @@
 
 namespace lumel {
 
-inline constexpr const char* kSolutionFile = "solution.exr";
-
 /// What the file says, texel by texel.
 struct StoredSolution {
     int side = 0;                        ///< of the atlas [texels]

@@ -11,17 +11,17 @@ std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting&
                                        const BakeOptions& options, DirectLight& told,
                                        Stages& stages)
 {
-    const Prepared& world = setting.world;
-    if (has_lights(world.scene))
+    const Prepared& prepared = setting.prepared;
+    if (has_lights(prepared.scene))
         stages.begin("sky and lamps");
     std::vector<KnownSource> sources;
-    for (LightSource& source : light_sources(world.scene, world.lumels)) {
+    for (LightSource& source : light_sources(prepared.scene, prepared.lumels)) {
         KnownSource& known = sources.emplace_back(KnownSource{std::move(source), {}});
-        const Scene lamps = lamps_of(world.scene, known.source);
+        const Scene lamps = lamps_of(prepared.scene, known.source);
         if (!has_lights(lamps))
             continue;
         DirectLight light =
-            direct_light(device, setting.resident, lamps, world.lumels,
+            direct_light(device, setting.world, lamps, prepared.lumels,
                          direct_light_options(options.solver, options.sky_directions),
                          [&](double fraction) { return stages.tell(fraction); });
         known.direct = std::move(light.irradiance);
@@ -53,11 +53,11 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
                                         const BakeOptions& options, Stages& stages)
 {
     auto solution = std::make_unique<Solution>();
-    const Prepared& world = setting.world;
+    const Prepared& prepared = setting.prepared;
     std::vector<KnownSource> sources =
         known_sources(device, setting, options, solution->lamps, stages);
     stages.begin("solving");
-    auto solver = std::make_unique<RelightSolver>(device, setting.resident, world.lumels,
+    auto solver = std::make_unique<RelightSolver>(device, setting.world, prepared.lumels,
                                                   setting.near, options.solver, std::move(sources));
     while (!solver->done() && stages.tell(solver->fraction(), solver->state().shots))
         solver->step();
@@ -65,7 +65,7 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();
     if (solver->done() && solution->lamps.finished)
-        solution->relightable = solver->relightable(world.scene.hash);
+        solution->relightable = solver->relightable(prepared.scene.hash);
     if (const Transport* transport = solver->transport())
         solution->form_factors = row_of(*transport);
     solution->solver = std::move(solver);

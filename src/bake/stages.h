@@ -6,7 +6,7 @@
 
 #include "bake/bake.h"
 #include "gpu/commands.h"
-#include "output/report.h"
+#include "record/report.h"
 
 namespace lumel {
 

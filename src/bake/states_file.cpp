@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "scene/gltf_files.h"
-#include "scene/gltf_json.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -64,8 +63,7 @@ NamedState state_of(const JsonView& view)
 
 std::vector<NamedState> read_states(const std::string& path)
 {
-    const Bytes bytes = read_file(path, path);
-    const Json json = parse_json(path, bytes.data(), bytes.size());
+    const Json json = read_json(path);
     const JsonView root(path, json);
     allow_only(root, {"states"});
     std::vector<NamedState> states;

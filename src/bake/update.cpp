@@ -5,16 +5,17 @@
 #include <filesystem>
 #include <optional>
 
-#include "bake/baked_folder.h"
 #include "bake/correction.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
 #include "bake/report.h"
 #include "bake/setting.h"
-#include "images/write_bytes.h"
 #include "output/folder.h"
+#include "record/bake_record.h"
+#include "record/light_settings.h"
 #include "relight/matrix_file.h"
 #include "solve/methods.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -27,7 +28,7 @@ constexpr double kUsualError = 0.02;
 
 /// D' - D [N] [lx] in the edited scene.
 std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedScene& edit,
-                                        const BakedFolder& baked, Stages& stages)
+                                        const BakeRecord& baked, Stages& stages)
 {
     Scene as_before = edit.now.scene;
     as_before.lights = edit.before.scene.lights;
@@ -40,8 +41,8 @@ std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedS
         const World world(device, scene, edit.now.lumels, &edit.now.atlas);
         return direct_light(device, world, scene, edit.now.lumels,
                             {.sky_directions = baked.sky_directions,
-                             .seed = baked.seed,
-                             .centre = baked.centre},
+                             .seed = seed_of(baked.solver.method),
+                             .centre = rule_of(baked.solver.method) == SampleRule::centre},
                             [&](double fraction) {
                                 stages.tell(fraction);
                                 return true;
@@ -57,13 +58,11 @@ std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedS
 
 /// H' [N] [lx] by the bake's solver, in the edit's atlas.
 std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& edit,
-                                  BakedFolder& baked, UpdateRow& row, Stages& stages)
+                                  BakeRecord& baked, UpdateRow& row, Stages& stages)
 {
     BakeOptions options;
     options.sky_directions = baked.sky_directions;
-    options.solver.method = method_of(baked.method).defaults();
-    set_option(options.solver.method, "seed", std::to_string(baked.seed));
-    set_option(options.solver.method, "sampling", baked.centre ? "centre" : "area");
+    options.solver.method = baked.solver.method;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
         edit.now.scene, [&](const Scene&) { return edit.now.atlas; }, device, options, stages);
@@ -78,7 +77,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
 
 /// H' [N] [lx], corrected if that is less work. device: made if it is needed.
 std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution& solution,
-                                   BakedFolder& baked, const UpdateOptions& options, UpdateRow& row,
+                                   BakeRecord& baked, const UpdateOptions& options, UpdateRow& row,
                                    std::optional<gpu::Device>& device, Stages& stages)
 {
     Correction correction(edit, solution, baked, stages);
@@ -97,7 +96,7 @@ void check_paths(const std::string& folder, const std::string& scene_path)
 {
     namespace fs = std::filesystem;
     std::error_code ignored;
-    if (fs::equivalent(fs::path(folder) / "scene.glb", scene_path, ignored))
+    if (fs::equivalent(fs::path(folder) / kSceneFile, scene_path, ignored))
         throw Error(ErrorKind::input, scene_path,
                     "is the bake's own file; save the edited scene elsewhere, and keep this one");
 }
@@ -110,14 +109,15 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     UpdateOptions options = given;
     Stages stages(progress);
     stages.begin("reading");
-    BakedFolder baked = read_baked_folder(folder);
+    BakeRecord baked = read_bake_record(folder);
     check_correctable(folder, baked);
     check_paths(folder, scene_path);
-    if (settings_of(options.lights).empty())
+    check_light_files(baked.lights);
+    if (light_settings(options.lights).empty())
         options.lights = baked.lights;
     const StoredSolution solution =
         read_solution((std::filesystem::path(folder) / kSolutionFile).string());
-    Scene before = read_scene((std::filesystem::path(folder) / "scene.glb").string(),
+    Scene before = read_scene((std::filesystem::path(folder) / kSceneFile).string(),
                               MaterialModel::diffuse, baked.lights);
     Scene now = read_scene(scene_path, MaterialModel::diffuse, options.lights);
     OutputFolder output(folder);
@@ -128,6 +128,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     UpdateRow row = changes_of(edit);
     row.error_before = baked.error;
     std::optional<gpu::Device> device;
+    std::optional<float> exposure;
     if (row.any()) {
         if (row.relit || options.preview_width > 0)
             device.emplace(options.device);
@@ -138,17 +139,19 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         files.half = baked.half;
         files.preview_width = options.preview_width;
         output.outdate(kMatrixFile);
-        write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {}, stages);
+        exposure = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
+                               stages);
     }
     stages.end();
     if (device)
         device->check_validation();
-    const Report report =
-        update_report(options, baked, row, edit.now, device ? &*device : nullptr, stages);
-    const std::string text = to_json(report);
-    write_text(output.path("report.json"), text);
+    const BakeRecord record = corrected(std::move(baked), options, row, edit.now, exposure,
+                                        device && options.preview_width > 0, stages.stopped());
+    const Json report =
+        to_json(update_report(record, row, edit.now, device ? &*device : nullptr, stages));
+    write_json(output.path(kReportFile), report);
     output.commit();
-    return {row, report.estimated_error, stages.seconds(), stages.stopped(), text};
+    return {row, record.error, stages.seconds(), stages.stopped(), json_text(report)};
 }
 
 }  // namespace lumel

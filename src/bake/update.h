@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bake/bake.h"
-#include "output/report.h"
+#include "record/report.h"
 
 namespace lumel {
 

@@ -6,9 +6,7 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "bake/baked_folder.h"
 #include "bake/solution_file.h"
 #include "bake/stages.h"
 #include "bake/why_picture.h"
@@ -16,8 +14,11 @@
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
+#include "record/bake_record.h"
+#include "record/light_settings.h"
 #include "relight/senders.h"
 #include "solve/methods.h"
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
@@ -110,26 +111,26 @@ std::vector<std::pair<std::string, double>> sums_by_name(const std::vector<WhyRo
     return list;
 }
 
-nlohmann::ordered_json numbers(const glm::vec3& v)
+Json numbers(const glm::vec3& v)
 {
     return {v.x, v.y, v.z};
 }
 
 std::string report_of(const WhySummary& summary)
 {
-    nlohmann::ordered_json json;
+    Json json;
     json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
     json["lumel"] = {{"instance", summary.instance},
                      {"texel", {summary.texel.x, summary.texel.y}},
                      {"place", numbers(summary.place)},
                      {"irradiance", numbers(summary.solved)},
                      {"found", numbers(summary.found)}};
-    json["by_name"] = nlohmann::ordered_json::array();
+    json["by_name"] = Json::array();
     for (const auto& [name, share] : summary.by_name)
         json["by_name"].push_back({{"name", name}, {"share", share}});
-    json["senders"] = nlohmann::ordered_json::array();
+    json["senders"] = Json::array();
     for (const WhyRow& row : summary.rows) {
-        nlohmann::ordered_json sender = {{"share", row.share}, {"name", row.name}};
+        Json sender = {{"share", row.share}, {"name", row.name}};
         if (!row.material.empty())
             sender["material"] = row.material;
         if (row.place) {
@@ -139,19 +140,19 @@ std::string report_of(const WhySummary& summary)
         sender["light"] = numbers(row.light);
         json["senders"].push_back(std::move(sender));
     }
-    return json.dump(2) + "\n";
+    return json_text(json);
 }
 
-WhySummary summary_of(const Prepared& world, std::uint32_t lumel, const Senders& senders)
+WhySummary summary_of(const Prepared& prepared, std::uint32_t lumel, const Senders& senders)
 {
-    const Lumel& there = world.lumels.lumels[lumel];
-    const Instance& instance = world.scene.instances[there.instance];
+    const Lumel& there = prepared.lumels.lumels[lumel];
+    const Instance& instance = prepared.scene.instances[there.instance];
     WhySummary summary{.instance = instance.name,
                        .place = instance.transform * glm::vec4(there.position, 1.0f),
                        .found = senders.light};
     const double whole = luminance(senders.light);
     for (const Sender& sender : senders.list)
-        summary.rows.push_back(row_of(world.scene, sender, whole));
+        summary.rows.push_back(row_of(prepared.scene, sender, whole));
     summary.by_name = sums_by_name(summary.rows);
     return summary;
 }
@@ -163,23 +164,26 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
 {
     Stages stages(progress);
     stages.begin("reading");
-    const BakedFolder baked = read_baked_folder(folder);
+    const BakeRecord baked = read_bake_record(folder);
     check_whole(folder, baked);
+    check_light_files(baked.lights);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
-    const Prepared world(read_scene((fs::path(folder) / "scene.glb").string(),
-                                    method_of(baked.method).materials, baked.lights),
-                         [&](const Scene& scene) {
-                             return written_atlas(scene, solution.side,
-                                                  float(baked.texels_per_metre), solution.charts);
-                         });
-    const std::vector<glm::vec3> irradiance = irradiance_of(solution, world.lumels);
+    const Prepared prepared(read_scene((fs::path(folder) / kSceneFile).string(),
+                                       method_of(baked.solver.method).materials, baked.lights),
+                            [&](const Scene& scene) {
+                                return written_atlas(scene, solution.side,
+                                                     float(baked.texels_per_metre),
+                                                     solution.charts);
+                            });
+    const std::vector<glm::vec3> irradiance = irradiance_of(solution, prepared.lumels);
     const glm::ivec2 texel = texel_of(options, solution.side);
-    const std::uint32_t lumel = lumel_at(texel, world.lumels, irradiance);
+    const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
 
     stages.begin("rays");
-    const Senders senders = find_senders(world.scene, world.rays, world.atlas, world.lumels,
-                                         irradiance, lumel, {.seed = baked.seed});
-    WhySummary summary = summary_of(world, lumel, senders);
+    const Senders senders =
+        find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
+                     lumel, {.seed = seed_of(baked.solver.method)});
+    WhySummary summary = summary_of(prepared, lumel, senders);
     summary.texel = texel;
     summary.solved = irradiance[lumel];
     summary.report = report_of(summary);
@@ -188,7 +192,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
         OutputFolder output(folder);
         const gpu::Device device(options.device);
         write_png(output.path(kPicture),
-                  why_picture(device, world, irradiance, senders.density, lumel, options.width));
+                  why_picture(device, prepared, irradiance, senders.density, lumel, options.width));
         device.check_validation();
         output.commit();
     }

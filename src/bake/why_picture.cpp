@@ -33,24 +33,24 @@ Scene white(Scene scene)
     return scene;
 }
 
-glm::vec3 world_position(const Prepared& world, const Lumel& lumel)
+glm::vec3 world_position(const Prepared& prepared, const Lumel& lumel)
 {
-    return world.scene.instances[lumel.instance].transform * glm::vec4(lumel.position, 1.0f);
+    return prepared.scene.instances[lumel.instance].transform * glm::vec4(lumel.position, 1.0f);
 }
 
 /// [N] what is to be seen through white paper: R 0…1 by density, G 1 where the mark is.
-std::vector<glm::vec3> layers_of(const Prepared& world, std::span<const float> density,
+std::vector<glm::vec3> layers_of(const Prepared& prepared, std::span<const float> density,
                                  std::uint32_t marked)
 {
     const float densest = *std::max_element(density.begin(), density.end());
-    const Lumel& centre = world.lumels.lumels[marked];
-    const glm::vec3 at = world_position(world, centre);
+    const Lumel& centre = prepared.lumels.lumels[marked];
+    const glm::vec3 at = world_position(prepared, centre);
     std::vector<glm::vec3> layers;
     for (std::size_t i = 0; i < density.size(); ++i) {
-        const Lumel& lumel = world.lumels.lumels[i];
+        const Lumel& lumel = prepared.lumels.lumels[i];
         const bool near =
             lumel.instance == centre.instance &&
-            glm::distance(world_position(world, lumel), at) <= kMarkSize * centre.size;
+            glm::distance(world_position(prepared, lumel), at) <= kMarkSize * centre.size;
         const float heat = densest > 0.0f ? std::pow(density[i] / densest, kHeatPower) : 0.0f;
         layers.push_back(std::numbers::pi_v<float> * glm::vec3(heat, near ? 1.0f : 0.0f, 0.0f));
     }
@@ -66,17 +66,17 @@ glm::vec3 heat_color(float heat)
 
 }  // namespace
 
-Image why_picture(const gpu::Device& device, const Prepared& world,
+Image why_picture(const gpu::Device& device, const Prepared& prepared,
                   std::span<const glm::vec3> irradiance, std::span<const float> density,
                   std::uint32_t lumel, int width)
 {
-    const View view = choose_view(world.scene, world.rays);
+    const View view = choose_view(prepared.scene, prepared.rays);
     const auto picture = [&](const Scene& scene, std::span<const glm::vec3> values) {
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, values);
-        return render_preview(device, scene, world.atlas, map, view, width);
+        const Image map = finish_map(prepared.scene, prepared.atlas, prepared.lumels, values);
+        return render_preview(device, scene, prepared.atlas, map, view, width);
     };
-    Image result = tone_map(picture(world.scene, irradiance));
-    const Image layers = picture(white(world.scene), layers_of(world, density, lumel));
+    Image result = tone_map(picture(prepared.scene, irradiance));
+    const Image layers = picture(white(prepared.scene), layers_of(prepared, density, lumel));
     for (int y = 0; y < result.height; ++y)
         for (int x = 0; x < result.width; ++x) {
             float* pixel = result.at(x, y);

@@ -4,6 +4,7 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/version.h>
 
 namespace lumel {
 
@@ -28,6 +29,11 @@ bool parallel_steps(std::size_t count, std::size_t step, std::size_t grain,
             return false;
     }
     return true;
+}
+
+std::string tbb_version()
+{
+    return TBB_runtime_version();
 }
 
 }  // namespace lumel

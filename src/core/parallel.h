@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace lumel {
 
@@ -16,5 +17,8 @@ void parallel_for(std::size_t count, std::size_t grain,
 bool parallel_steps(std::size_t count, std::size_t step, std::size_t grain,
                     const std::function<void(std::size_t first, std::size_t last)>& body,
                     const std::function<bool(std::size_t done)>& go_on);
+
+/// Of the library that runs the loops.
+std::string tbb_version();
 
 }  // namespace lumel

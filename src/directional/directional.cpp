@@ -212,6 +212,18 @@ void settle_all(DirectionalLight& light, const DirectionalFit& fit, const Scene&
 
 }  // namespace
 
+std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions& options)
+{
+    if (options.kind == Directional::none)
+        return 0;
+    const std::size_t count = size.count();
+    const auto coefficients = std::uint64_t(coefficient_count(int(options.kind)));
+    return EyeViews::device_bytes(options.projection, options.hemicube, options.batch) +
+           kMostBatch * (sizeof(Eye) + sizeof(Shot)) +
+           count * (sizeof(glm::vec4) + (1 + coefficients) * sizeof(glm::vec3)) +
+           NearRows::device_bytes(count, size.near_pairs) + PowerPyramid::device_bytes(count);
+}
+
 std::uint64_t directional_shots(std::uint64_t solver_shots)
 {
     return std::clamp(solver_shots, kFewestShots, kMostShots);

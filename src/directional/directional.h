@@ -9,6 +9,7 @@
 #include "directional/directional_fit.h"
 #include "gpu/commands.h"
 #include "nearfield/near_field.h"
+#include "nearfield/solve_size.h"
 #include "visibility/eye_views.h"
 #include "world/world.h"
 
@@ -33,6 +34,10 @@ struct DirectionalLight {
     std::uint64_t shots = 0;
     gpu::StageTimes times;  ///< on the device [ms]
 };
+
+/// Bytes on the device that gather_directional() takes, on one whose images may be as large as is
+/// wanted.
+std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions& options);
 
 /// As many shooters as suit a solution that took `solver_shots`.
 std::uint64_t directional_shots(std::uint64_t solver_shots);

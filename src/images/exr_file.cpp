@@ -18,11 +18,12 @@
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
+#include <OpenEXRConfig.h>
 #include <half.h>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "images/image_files.h"
-#include "images/write_bytes.h"
 
 namespace lumel {
 namespace {
@@ -171,6 +172,11 @@ Image read_exr(const std::string& path, const std::string& layer)
     } catch (const std::exception& error) {
         throw Error(ErrorKind::input, path, std::string("cannot be read as EXR: ") + error.what());
     }
+}
+
+std::string openexr_version()
+{
+    return OPENEXR_VERSION_STRING;
 }
 
 }  // namespace lumel

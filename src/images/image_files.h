@@ -56,4 +56,8 @@ float display_from_linear(float exposed);
 /// The exact sRGB curve (IEC 61966-2-1): linear 0…1 to code 0…1.
 float srgb_from_linear(float linear);
 
+/// Of the libraries that write EXR and PNG: "3.1.5".
+std::string openexr_version();
+std::string libpng_version();
+
 }  // namespace lumel

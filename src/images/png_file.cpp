@@ -9,8 +9,8 @@
 #include <png.h>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "images/image_files.h"
-#include "images/write_bytes.h"
 
 namespace lumel {
 namespace {
@@ -89,6 +89,11 @@ void write_png(const std::string& path, const Image& image)
 {
     const std::vector<unsigned char> bytes = encode_png(image);
     write_bytes(path, std::as_bytes(std::span(bytes)));
+}
+
+std::string libpng_version()
+{
+    return PNG_LIBPNG_VER_STRING;
 }
 
 }  // namespace lumel

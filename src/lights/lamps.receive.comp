@@ -60,7 +60,8 @@ float profile_towards(Lamp lamp, vec3 direction)
 
 vec3 intensity_towards(Lamp lamp, vec3 direction)
 {
-    const float cone = clamp(-dot(direction, lamp.z) * lamp.cone_scale + lamp.cone_offset, 0.0, 1.0);
+    const float cone =
+        clamp(-dot(direction, lamp.z) * lamp.cone_scale + lamp.cone_offset, 0.0, 1.0);
     const float profile = lamp.profile == kNoProfile ? 1.0 : profile_towards(lamp, direction);
     return lamp.intensity * (cone * cone * profile);
 }

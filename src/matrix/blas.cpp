@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <sstream>
 #include <vector>
 
 #include <cblas.h>
@@ -74,6 +75,15 @@ void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t column
     sgeqrf_(&length, &count, a.data(), &length, factors.data(), work.data(), &work_size, &info);
     sorgqr_(&length, &count, &count, a.data(), &length, factors.data(), work.data(), &work_size,
             &info);
+}
+
+std::string openblas_version()
+{
+    // "OpenBLAS 0.3.21 DYNAMIC_ARCH …"
+    std::istringstream words(openblas_get_config());
+    std::string name, version;
+    words >> name >> version;
+    return version;
 }
 
 }  // namespace lumel::blas

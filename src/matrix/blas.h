@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace lumel::blas {
 
@@ -31,5 +32,8 @@ void eigenvectors(std::span<float> a, std::uint32_t n);
 
 /// Makes the rows of a [rows][columns], rows ≤ columns, orthonormal; they span what they did.
 void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns);
+
+/// Of the BLAS that is loaded: "0.3.21".
+std::string openblas_version();
 
 }  // namespace lumel::blas

@@ -344,6 +344,13 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
     return table;
 }
 
+std::uint64_t count_near_pairs(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                               const NearFieldOptions& options)
+{
+    const WorldLumels world(scene, rays, lumels);
+    return find_near_pairs(world, lumels, fitting_radius(world, options)).partner.size();
+}
+
 NearField build_near_field_among(const std::vector<char>& chosen, const Scene& scene,
                                  const RayScene& rays, const Lumels& lumels,
                                  NearFieldOptions options)

@@ -38,6 +38,11 @@ struct NearField {
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options);
 
+/// Pairs that build_near_field() looks at: as many as its table has, and those that do not see each
+/// other.
+std::uint64_t count_near_pairs(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                               const NearFieldOptions& options);
+
 /// The table of pairs of which both lumels are chosen [N], with the radius given.
 NearField build_near_field_among(const std::vector<char>& chosen, const Scene& scene,
                                  const RayScene& rays, const Lumels& lumels,

@@ -27,6 +27,12 @@ NearRows::NearRows(const gpu::Device& device, const NearField& near, std::size_t
 {
 }
 
+std::uint64_t NearRows::device_bytes(std::size_t lumel_count, std::uint64_t pairs)
+{
+    return (lumel_count + 1) * sizeof(std::uint32_t) +
+           pairs * (sizeof(std::uint32_t) + sizeof(float));
+}
+
 void NearRows::replace(const NearField& near)
 {
     first_ = gpu::Array<std::uint32_t>(*device_, starts_of(near, count_));

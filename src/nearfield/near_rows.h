@@ -11,6 +11,8 @@ class NearRows {
 public:
     NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count);
 
+    static std::uint64_t device_bytes(std::size_t lumel_count, std::uint64_t pairs);
+
     /// Takes another table in. Nothing may be at work on the former.
     void replace(const NearField& near);
 

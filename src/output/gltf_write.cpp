@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/files.h"
 #include "images/image_files.h"
-#include "images/write_bytes.h"
 #include "output/baked_materials.h"
 #include "output/baked_meshes.h"
 #include "output/glb_builder.h"

@@ -310,4 +310,9 @@ float RayScene::lift() const
     return kLift * std::max({reach.x, reach.y, reach.z, glm::length(high() - low())});
 }
 
+std::string embree_version()
+{
+    return RTC_VERSION_STRING;
+}
+
 }  // namespace lumel

@@ -66,4 +66,7 @@ private:
     std::unique_ptr<Data> data_;
 };
 
+/// Of the library that traces the rays: "3.13.5".
+std::string embree_version();
+
 }  // namespace lumel

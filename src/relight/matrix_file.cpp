@@ -18,11 +18,10 @@
 #include <type_traits>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/fingerprint.h"
-#include "images/write_bytes.h"
 #include "matrix/half.h"
 #include "matrix/stored.h"
-#include "scene/gltf_files.h"
 
 namespace lumel {
 namespace {

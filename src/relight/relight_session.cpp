@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "relight/matrix_file.h"
-#include "scene/gltf_json.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {

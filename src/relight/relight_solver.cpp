@@ -48,6 +48,13 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
         begin_source();
 }
 
+std::uint64_t RelightSolver::device_bytes(const SolveSize& size, const MatrixOptions& options)
+{
+    // One after the other.
+    return std::max(FormFactors::device_bytes(size, options.transport.views),
+                    StochasticRadiosity::device_bytes(size, direct_options(options)));
+}
+
 void RelightSolver::step()
 {
     if (builder_) {

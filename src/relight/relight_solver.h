@@ -25,6 +25,9 @@ public:
                   const NearField& near, const SolverOptions& options,
                   std::vector<KnownSource> sources);
 
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
+
     void step() override;
     bool done() const { return !builder_ && next_ == sources_.size(); }
     double fraction() const;  ///< of the work, roughly, 0…1

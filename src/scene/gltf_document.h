@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/gltf_files.h"
-#include "scene/gltf_json.h"
+#include "json/json_view.h"
 
 namespace lumel {
 

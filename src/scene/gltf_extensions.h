@@ -1,7 +1,7 @@
 #pragma once
 // Which glTF extensions Lumel understands.
 
-#include "scene/gltf_json.h"
+#include "json/json_view.h"
 
 namespace lumel {
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "core/error.h"
@@ -14,9 +13,6 @@ namespace lumel {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// [bytes] Twice what a .glb can hold.
-constexpr std::streamoff kLargestFile = std::streamoff(1) << 33;
 
 int hex_digit(char c)
 {
@@ -114,33 +110,6 @@ bool lies_in(const fs::path& folder, const fs::path& file)
 }
 
 }  // namespace
-
-Bytes read_file(const std::string& path, const std::string& place)
-{
-    const auto fail = [&](const char* what) { throw Error(ErrorKind::input, place, what); };
-    std::error_code ignored;
-    const fs::file_status status = fs::status(path, ignored);
-    if (!fs::exists(status))
-        fail("there is no such file");
-    if (fs::is_directory(status))
-        fail("is a folder, not a file");
-    if (!fs::is_regular_file(status))
-        fail("is not a regular file");
-
-    std::ifstream stream(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-    if (size < 0)
-        fail("cannot be opened for reading");
-    if (size == 0)
-        fail("is empty");
-    if (size > kLargestFile)
-        fail("is larger than 8 GiB");
-    Bytes bytes(static_cast<std::size_t>(size));
-    stream.seekg(0);
-    if (!stream.read(reinterpret_cast<char*>(bytes.data()), size))
-        fail("cannot be read");
-    return bytes;
-}
 
 Bytes read_uri(const JsonView& uri, const std::string& scene_path)
 {

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/number.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {

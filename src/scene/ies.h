@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/gltf_files.h"
+#include "core/files.h"
 #include "scene/scene.h"
 
 namespace lumel {

@@ -1,19 +1,18 @@
 #include "scene/light_options.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <glm/gtc/constants.hpp>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/number.h"
 #include "scene/clear_sky.h"
-#include "scene/gltf_files.h"
 #include "scene/ies.h"
 #include "scene/scene_hash.h"
 #include "scene/sky_file.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {
@@ -120,60 +119,6 @@ void attach_profile(Scene& scene, const LightProfile& profile)
 }
 
 }  // namespace
-
-std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions& options)
-{
-    std::vector<std::pair<std::string, std::string>> settings;
-    const auto say = [&](const char* name, const std::vector<double>& values) {
-        std::string text;
-        for (const double value : values) {
-            std::array<char, 32> digits{};
-            std::snprintf(digits.data(), digits.size(), "%s%.7g", text.empty() ? "" : ",", value);
-            text += digits.data();
-        }
-        settings.emplace_back(name, text);
-    };
-    if (!options.sky_file.empty())
-        settings.emplace_back("sky", options.sky_file);
-    else if (const auto& color = options.sky_color)
-        say("sky", {color->r, color->g, color->b});
-    if (options.sky_scale != 1.0f)
-        say("sky-scale", {options.sky_scale});
-    if (options.sky_rotation != 0.0)
-        say("sky-rotation", {glm::degrees(options.sky_rotation)});
-    if (const auto& sun = options.sun)
-        say("sun", {glm::degrees(sun->azimuth), glm::degrees(sun->elevation)});
-    if (options.sun_angle)
-        say("sun-angle", {glm::degrees(*options.sun_angle)});
-    if (options.light_radius > 0.0f)
-        say("light-radius", {options.light_radius});
-    for (const LightProfile& profile : options.profiles)
-        settings.emplace_back("ies", profile.light + "=" + profile.path);
-    return settings;
-}
-
-LightOptions light_options_of(const std::vector<std::pair<std::string, std::string>>& settings)
-{
-    LightOptions options;
-    for (const auto& [name, text] : settings) {
-        const double value = number_of(text).value_or(0.0);
-        if (name == "sky")
-            set_sky(options, text);
-        else if (name == "sky-scale")
-            options.sky_scale = float(value);
-        else if (name == "sky-rotation")
-            options.sky_rotation = glm::radians(value);
-        else if (name == "sun")
-            set_sun(options, text);
-        else if (name == "sun-angle")
-            options.sun_angle = float(glm::radians(value));
-        else if (name == "light-radius")
-            options.light_radius = float(value);
-        else if (name == "ies")
-            add_profile(options, text);
-    }
-    return options;
-}
 
 void add_lights(Scene& scene, const LightOptions& options)
 {

@@ -27,12 +27,6 @@ struct LightOptions {
     std::vector<LightProfile> profiles;
 };
 
-/// What the options were given as, for reports: name and value. Those left alone are left out.
-std::vector<std::pair<std::string, std::string>> settings_of(const LightOptions& options);
-
-/// The options that settings_of said so; settings of other names are skipped. Throws Error{input}.
-LightOptions light_options_of(const std::vector<std::pair<std::string, std::string>>& settings);
-
 /// Adds the lights to a scene, or changes its own, and renews its hash. A sky given here takes the
 /// place of the file's. Throws Error{input} for files that cannot be read and lights that are not
 /// there.

@@ -8,8 +8,8 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "images/image_files.h"
-#include "scene/gltf_files.h"
 #include "scene/gltf_image.h"
 
 namespace lumel {

@@ -35,6 +35,12 @@ Figures::Figures(const gpu::Device& device, std::size_t lumel_count)
 {
 }
 
+std::uint64_t Figures::device_bytes(std::size_t lumel_count)
+{
+    const std::size_t parts = (lumel_count + kSumGroup - 1) / kSumGroup;
+    return (parts + 2) * sizeof(Terms);
+}
+
 void Figures::add_up(gpu::Commands& commands, const gpu::Array<Terms>& totals) const
 {
     commands.dispatch(total_, {parts_, totals}, TotalParams{std::uint32_t(parts_.size())},

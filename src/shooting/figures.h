@@ -16,6 +16,8 @@ class Figures {
 public:
     Figures(const gpu::Device& device, std::size_t lumel_count);
 
+    static std::uint64_t device_bytes(std::size_t lumel_count);
+
     /// [groups of kSumGroup lumels]
     const gpu::Array<Terms>& parts() const { return parts_; }
     /// totals[0] = Σ parts.

@@ -208,6 +208,14 @@ void Iteration::end_phase()
     ++phase_;
 }
 
+std::uint64_t Iteration::device_bytes(std::size_t lumel_count, std::uint64_t near_pairs)
+{
+    constexpr std::uint64_t kVectors = 9, kHalves = 3;  // arrays of vec3 [N] and [2][N]
+    return lumel_count * (sizeof(glm::vec4) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
+           NearRows::device_bytes(lumel_count, near_pairs) + Figures::device_bytes(lumel_count) +
+           sizeof(Terms);
+}
+
 void Iteration::begin_batch(gpu::Pacer& pacer)
 {
     take_figures(pacer);

@@ -40,6 +40,9 @@ public:
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
+    /// Bytes on the device.
+    static std::uint64_t device_bytes(std::size_t lumel_count, std::uint64_t near_pairs);
+
     /// Before each batch: hears figures that are due, and lets leaky sums fade.
     void begin_batch(gpu::Pacer& pacer);
     /// Ends a batch: so many shots went into direct() and into indirect(). Returns true if X is

@@ -32,6 +32,11 @@ std::size_t node_count(const PyramidLayout& layout)
 
 }  // namespace
 
+std::uint64_t PowerPyramid::device_bytes(std::size_t lumel_count)
+{
+    return (node_count(make_layout(lumel_count)) + 1) * sizeof(float);
+}
+
 PowerPyramid::PowerPyramid(const gpu::Device& device, std::size_t lumel_count)
     : layout_(make_layout(lumel_count)),
       array_(device, node_count(layout_)),

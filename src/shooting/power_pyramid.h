@@ -19,6 +19,8 @@ public:
     void build(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
                const gpu::Array<glm::vec4>& surface, float by_area, float area_sum);
 
+    static std::uint64_t device_bytes(std::size_t lumel_count);
+
     const gpu::Array<float>& array() const { return array_; }
     const PyramidLayout& layout() const { return layout_; }
     /// [1] on the device: Φ = Σ 𝓛(X_j) A_j of the last build.

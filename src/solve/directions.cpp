@@ -156,6 +156,25 @@ const GlobalDirections::Chunk& GlobalDirections::chunk_of(std::uint32_t half, st
     return chunks.back();
 }
 
+std::uint64_t GlobalDirections::device_bytes(const SolveSize& size,
+                                             const DirectionsOptions& options)
+{
+    const std::uint32_t side = options.map_side > 0
+                                   ? std::uint32_t(options.map_side)
+                                   : parallel_side(*size.lumels, size.diagonal, kPixelsPerLumel);
+    const std::uint32_t slabs =
+        options.layers == Layers::stochastic ? std::max(options.slabs, 1u) : 1;
+    const std::uint32_t maps = wanted_batch(options, side, slabs);
+    const std::uint64_t seen =
+        options.layers == Layers::peel ? std::bit_floor(maps) * size.count() : 1;
+    // Two chunks of directions for each half, and one that is being made.
+    constexpr std::uint64_t kChunks = 5;
+    return IlluminationMaps::device_bytes(options.layers, side, maps, slabs) +
+           kChunks * kChunk * (sizeof(ParallelView) + sizeof(GlobalDirection)) +
+           (2 * size.texels() + seen + 1) * sizeof(std::uint32_t) + size.count() * sizeof(Heard) +
+           Iteration::device_bytes(size.count(), 0);
+}
+
 void GlobalDirections::step()
 {
     iteration_.begin_batch(pacer_);

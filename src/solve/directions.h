@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
 #include "solve/directions.shared.h"
 #include "solve/options.h"
@@ -19,6 +20,10 @@ public:
     /// `world` must hold the atlas. Throws Error{device} if the device cannot keep the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const DirectionsOptions& options, std::span<const glm::vec3> known = {});
+
+    /// Bytes on the device at most, on one whose images and arrays may be as large as is wanted.
+    /// Slabs that the device is to choose count as one.
+    static std::uint64_t device_bytes(const SolveSize& size, const DirectionsOptions& options);
 
     void step() override;
     /// From now on lumels emit as in `lumels`, and the sky is as it is now. For options with a

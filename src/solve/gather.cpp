@@ -204,6 +204,19 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
     });
 }
 
+std::uint64_t GatherRadiosity::device_bytes(const SolveSize& size, const GatherOptions& options)
+{
+    constexpr std::uint64_t kVectors = 4, kHalves = 1;  // arrays of vec3 [N] and [2][N]
+    const auto side = std::uint32_t(options.hemicube);
+    const std::uint32_t views = wanted_hemicubes(options, 1);
+    return LitViews::device_bytes(side, views) +
+           view_pixels(Projection::hemicube, side) * gpu::kManySamples * sizeof(float) +
+           views * (sizeof(Eye) + sizeof(GatheringPoint) + sizeof(glm::vec3)) +
+           size.count() * (sizeof(std::uint32_t) + sizeof(glm::vec4) +
+                           (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
+           2 * size.texels() * sizeof(std::uint32_t) + Figures::device_bytes(size.count());
+}
+
 void GatherRadiosity::step()
 {
     const auto open = std::uint32_t(order_.size());

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "solve/gather.shared.h"
 #include "solve/options.h"
@@ -19,6 +20,10 @@ public:
     /// `world` must hold the atlas. Hemicubes count as shots.
     GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                     const GatherOptions& options, double target_error);
+
+    /// Bytes on the device at most, of a scene without coloured glass, on one whose images may be
+    /// as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const GatherOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

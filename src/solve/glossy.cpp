@@ -140,6 +140,24 @@ void GlossyIllumination::begin()
     });
 }
 
+std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const GlossyOptions& options)
+{
+    constexpr std::uint64_t kVectors = 7, kHalves = 2;  // arrays of vec3 [N] and [2][N]
+    const std::size_t count = size.count();
+    const auto batch = std::uint32_t(options.views.batch);
+    // Without particles the last irradiance of every shooter is kept.
+    const std::uint64_t last = options.scheme == Scheme::paper ? std::uint64_t(batch) * count : 1;
+    return EyeViews::device_bytes(options.views.projection, std::uint32_t(options.views.hemicube),
+                                  batch) +
+           kMostGlossyBatch *
+               (2 * sizeof(Eye) + sizeof(GlossyShot) + kMostLobes * sizeof(GlossyLobe)) +
+           count *
+               (sizeof(glm::vec4) + sizeof(Gloss) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
+           last * sizeof(glm::vec3) + phong_albedo_table().size() * sizeof(float) +
+           Figures::device_bytes(count) + NearRows::device_bytes(count, size.near_pairs) +
+           PowerPyramid::device_bytes(count);
+}
+
 void GlossyIllumination::step()
 {
     take_figures();

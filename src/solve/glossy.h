@@ -9,6 +9,7 @@
 #include "lobes/eye_image.h"
 #include "lobes/lobe_particles.h"
 #include "nearfield/near_rows.h"
+#include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "shooting/power_pyramid.h"
 #include "solve/glossy.shared.h"
@@ -33,6 +34,10 @@ public:
                        const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
+
+    /// Bytes on the device at most, but for an eye, on one whose images may be as large as is
+    /// wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const GlossyOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

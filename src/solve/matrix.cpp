@@ -40,6 +40,12 @@ MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
         builder_.emplace(device, world, lumels, near, options.transport);
 }
 
+std::uint64_t MatrixRadiosity::device_bytes(const SolveSize& size, const MatrixOptions& options)
+{
+    return FormFactors::device_bytes(size, options.transport.views) +
+           StochasticRadiosity::device_bytes(size, direct_options(options));
+}
+
 void MatrixRadiosity::step()
 {
     if (!builder_) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "nearfield/solve_size.h"
 #include "solve/stochastic.h"
 #include "transport/transport.h"
 
@@ -17,6 +18,9 @@ public:
     MatrixRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                     const NearField& near, const MatrixOptions& options,
                     std::span<const glm::vec3> known);
+
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
 
     void step() override;
     /// The error is that of direct light.

@@ -315,6 +315,12 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
         return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known);
 }
 
+template <class Method, class Options>
+std::uint64_t bytes_of(const SolveSize& size, const MethodOptions& options)
+{
+    return Method::device_bytes(size, std::get<Options>(options));
+}
+
 constexpr float kUsualRadius = NearFieldOptions{}.radius;
 /// Glossy multiplies by the near field in every iteration, and what close pairs exchange loses its
 /// lobes: few pairs are better.
@@ -335,7 +341,8 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = false,
      .defaults = defaults<StochasticOptions>,
      .options = kStochasticOptions,
-     .make = make<StochasticRadiosity, StochasticOptions>},
+     .make = make<StochasticRadiosity, StochasticOptions>,
+     .device_bytes = bytes_of<StochasticRadiosity, StochasticOptions>},
     {.id = "glossy",
      .title = "Stochastic glossy global illumination",
      .paper = "[BSS05], [NNS99]",
@@ -346,7 +353,8 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = false,
      .defaults = defaults<GlossyOptions>,
      .options = kGlossyOptions,
-     .make = make<GlossyIllumination, GlossyOptions>},
+     .make = make<GlossyIllumination, GlossyOptions>,
+     .device_bytes = bytes_of<GlossyIllumination, GlossyOptions>},
     {.id = "directions",
      .title = "Global directions with stochastic depth buffering",
      .paper = "[TN11]",
@@ -357,7 +365,8 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = false,
      .defaults = defaults<DirectionsOptions>,
      .options = kDirectionsOptions,
-     .make = make<GlobalDirections, DirectionsOptions>},
+     .make = make<GlobalDirections, DirectionsOptions>,
+     .device_bytes = bytes_of<GlobalDirections, DirectionsOptions>},
     {.id = "progressive",
      .title = "Progressive refinement radiosity",
      .paper = "[CCWG88], [Hoef13]",
@@ -368,7 +377,8 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = false,
      .defaults = defaults<ProgressiveOptions>,
      .options = kProgressiveOptions,
-     .make = make<ProgressiveRadiosity, ProgressiveOptions>},
+     .make = make<ProgressiveRadiosity, ProgressiveOptions>,
+     .device_bytes = bytes_of<ProgressiveRadiosity, ProgressiveOptions>},
     {.id = "gather",
      .title = "Gather radiosity by hemicubes on every lumel",
      .paper = "[CG85], [Hoef13]",
@@ -380,7 +390,8 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = false,
      .defaults = defaults<GatherOptions>,
      .options = kGatherOptions,
-     .make = make<GatherRadiosity, GatherOptions>},
+     .make = make<GatherRadiosity, GatherOptions>,
+     .device_bytes = bytes_of<GatherRadiosity, GatherOptions>},
     {.id = "matrix",
      .title = "Form-factor matrices of all reflections",
      .paper = "[SF17]",
@@ -392,9 +403,15 @@ constexpr MethodInfo kMethods[] = {
      .can_keep_sources = true,
      .defaults = defaults<MatrixOptions>,
      .options = kMatrixOptions,
-     .make = make<MatrixRadiosity, MatrixOptions>},
+     .make = make<MatrixRadiosity, MatrixOptions>,
+     .device_bytes = bytes_of<MatrixRadiosity, MatrixOptions>},
 };
 static_assert(std::size(kMethods) == std::variant_size_v<MethodOptions>);
+
+bool has_near_field(const MethodOptions& method)
+{
+    return method_of(method).near_radius > kNoNearField && !is_papers(method);
+}
 
 std::string listed(const std::vector<const MethodInfo*>& methods)
 {
@@ -523,12 +540,25 @@ NearFieldOptions near_field_options(const SolverOptions& options)
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius)
 {
-    NearFieldOptions near = near_field_options(options);
-    if (near.radius == kNoNearField || is_papers(options.method))
+    if (!has_near_field(options.method))
         return {};
+    NearFieldOptions near = near_field_options(options);
     if (radius > 0.0f)
         near.radius = radius;
     return build_near_field(scene, rays, lumels, near);
+}
+
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options)
+{
+    return has_near_field(options.method)
+               ? count_near_pairs(scene, rays, lumels, near_field_options(options))
+               : 0;
+}
+
+std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    return method_of(options.method).device_bytes(size, options.method);
 }
 
 std::unique_ptr<Solver> make_solver(const SolverInputs& inputs, const SolverOptions& options)

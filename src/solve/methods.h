@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "nearfield/near_field.h"
+#include "nearfield/solve_size.h"
 #include "solve/options.h"
 #include "solve/solver.h"
 #include "world/world.h"
@@ -62,6 +63,9 @@ struct MethodInfo {
     std::span<const OptionInfo> options;
     std::unique_ptr<Solver> (*make)(const SolverInputs& inputs, const SolverOptions& options);
 
+    /// Device memory of the solver [bytes], roughly, and without the world.
+    std::uint64_t (*device_bytes)(const SolveSize& size, const MethodOptions& options);
+
     /// Null if it does not read an option of that name.
     const OptionInfo* option(std::string_view name) const;
 };
@@ -106,6 +110,13 @@ NearFieldOptions near_field_options(const SolverOptions& options);
 /// NearFieldOptions::radius; 0: as suits the method.
 NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                          const SolverOptions& options, float radius = 0.0f);
+
+/// Close pairs of the near field that near_field_for() would build.
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options);
+
+/// Device memory [bytes] that make_solver()'s solver takes, roughly, and without the world.
+std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options);
 
 /// The solver of options.method.
 std::unique_ptr<Solver> make_solver(const SolverInputs& inputs, const SolverOptions& options);

@@ -137,6 +137,16 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
     });
 }
 
+std::uint64_t ProgressiveRadiosity::device_bytes(const SolveSize& size,
+                                                 const ProgressiveOptions& options)
+{
+    const std::size_t count = size.count();
+    const std::size_t charts = make_patches(*size.lumels).charts.size();
+    return ShotLight::device_bytes(count) + PatchShots::device_bytes(size, options.views) +
+           charts * sizeof(ChartLight) + sizeof(Cursor) + sizeof(glm::vec3) +
+           NearRows::device_bytes(count, size.near_pairs) + Figures::device_bytes(count);
+}
+
 void ProgressiveRadiosity::step()
 {
     take_figures();

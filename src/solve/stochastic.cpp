@@ -92,6 +92,16 @@ void StochasticRadiosity::build_source_pyramid()
     });
 }
 
+std::uint64_t StochasticRadiosity::device_bytes(const SolveSize& size,
+                                                const StochasticOptions& options)
+{
+    const std::size_t count = size.count();
+    return EyeViews::device_bytes(options.views.projection, std::uint32_t(options.views.hemicube),
+                                  std::uint32_t(options.views.batch)) +
+           kMostBatch * (sizeof(Eye) + sizeof(Shot)) +
+           Iteration::device_bytes(count, size.near_pairs) + 2 * PowerPyramid::device_bytes(count);
+}
+
 void StochasticRadiosity::step()
 {
     iteration_.begin_batch(pacer_);

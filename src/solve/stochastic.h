@@ -2,6 +2,7 @@
 // Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
 #include "shooting/power_pyramid.h"
 #include "solve/options.h"
@@ -17,6 +18,9 @@ public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                         const NearField& near, const StochasticOptions& options,
                         std::span<const glm::vec3> known = {});
+
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
 
     void step() override;
     SolverState state() const override { return iteration_.state(); }

@@ -172,6 +172,14 @@ FormFactors::FormFactors(const gpu::Device& device, const World& world, const Lu
                 [&](gpu::Commands& commands) { commands.fill(sending_.buffer(), kOne); });
 }
 
+std::uint64_t FormFactors::device_bytes(const SolveSize& size, const ViewOptions& options)
+{
+    const auto batch = std::uint32_t(options.batch);
+    return EyeViews::device_bytes(options.projection, std::uint32_t(options.hemicube), batch) +
+           batch * (sizeof(Eye) + sizeof(PatchShot)) +
+           size.count() * (sizeof(glm::vec3) + batch * sizeof(float));
+}
+
 /// Block behind the last of the batch that begins at next_.
 std::uint32_t FormFactors::batch_end() const
 {

@@ -8,6 +8,7 @@
 #include "gpu/pacer.h"
 #include "matrix/color_matrix.h"
 #include "nearfield/near_field.h"
+#include "nearfield/solve_size.h"
 #include "transport/form_factors.shared.h"
 #include "transport/patch_shots.shared.h"
 #include "transport/patches.h"
@@ -39,6 +40,10 @@ public:
     /// patches must outlive this.
     FormFactors(const gpu::Device& device, const World& world, const Lumels& lumels,
                 const NearField& near, const VoxelPatches& patches, const ViewOptions& options);
+
+    /// Bytes on the device but for blocks of patches, on one whose images may be as large as is
+    /// wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
 
     bool done() const { return next_ == blocks_.size(); }
     double fraction() const { return double(next_) / double(blocks_.size()); }  ///< done, 0…1

@@ -39,6 +39,23 @@ PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lume
 {
 }
 
+std::uint64_t ShotLight::device_bytes(std::size_t lumel_count)
+{
+    constexpr std::uint64_t kVectors = 4;  // arrays of vec3 [N]
+    return lumel_count * (sizeof(glm::vec4) + kVectors * sizeof(glm::vec3));
+}
+
+std::uint64_t PatchShots::device_bytes(const SolveSize& size, const ViewOptions& options)
+{
+    const Patches layout = make_patches(*size.lumels);
+    const auto batch = std::uint32_t(options.batch);
+    return EyeViews::device_bytes(options.projection, std::uint32_t(options.hemicube), batch) +
+           layout.patches.size() * sizeof(Patch) +
+           layout.charts.size() * (sizeof(PatchChart) + sizeof(std::uint32_t)) +
+           batch * (sizeof(ChosenPatch) + sizeof(Eye) + sizeof(PatchShot)) +
+           size.count() * sizeof(glm::vec3);
+}
+
 void PatchShots::take(gpu::Commands& commands, const ShotLight& light,
                       const gpu::Array<glm::vec3>& ambient)
 {

@@ -4,6 +4,7 @@
 
 #include "gpu/pacer.h"
 #include "nearfield/near_rows.h"
+#include "nearfield/solve_size.h"
 #include "transport/patch_shots.shared.h"
 #include "transport/patches.h"
 #include "visibility/eye_views.h"
@@ -14,6 +15,8 @@ namespace lumel {
 /// The light of a solution. H = T B^s always: what was shot is what arrived.
 struct ShotLight {
     ShotLight(const gpu::Device& device, const Lumels& lumels);
+
+    static std::uint64_t device_bytes(std::size_t lumel_count);
 
     gpu::Array<glm::vec4> surface;    ///< [N] ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission;   ///< [N] E
@@ -26,6 +29,8 @@ class PatchShots {
 public:
     PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
                const ViewOptions& options);
+
+    static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
 
     /// Eyes, shots and sending radiosities of the patches in chosen(). `ambient` [1]: light still
     /// to arrive [lx], for those that send what is unshot.

@@ -119,6 +119,12 @@ std::uint64_t view_pixels(Projection projection, std::uint32_t side)
     return std::uint64_t(tile.width) * tile.height;
 }
 
+std::uint64_t EyeViews::device_bytes(Projection projection, std::uint32_t side,
+                                     std::uint32_t capacity)
+{
+    return view_pixels(projection, side) * tiles_about_square(capacity) * sizeof(float);
+}
+
 float longest_chord(float radius)
 {
     return float(2.0 * std::acos(1.0 - std::min(kMostDeviation / double(radius), 1.0)));

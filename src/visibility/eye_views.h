@@ -35,6 +35,10 @@ public:
     EyeViews(const gpu::Device& device, const World& world, Projection projection,
              std::uint32_t side, std::uint32_t capacity);
 
+    /// Bytes on a device whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(Projection projection, std::uint32_t side,
+                                      std::uint32_t capacity);
+
     std::uint32_t capacity() const { return capacity_; }
     Projection projection() const { return projection_; }
     const EyeViewLayout& layout() const { return layout_; }

@@ -172,6 +172,21 @@ IlluminationMaps::IlluminationMaps(const gpu::Device& device, const World& world
     assert(slabs == 1 || layers == Layers::stochastic);
 }
 
+std::uint64_t IlluminationMaps::device_bytes(Layers layers, std::uint32_t side,
+                                             std::uint32_t capacity, std::uint32_t slabs)
+{
+    const std::uint64_t map = std::uint64_t(side) * side;
+    const std::uint64_t pixels = map * tiles_about_square(capacity * maps_of_slabs(slabs));
+    const std::uint64_t depths = pixels * gpu::image_bytes(gpu::Pixel::depth, 1, 1);
+    const std::uint64_t images = pixels * gpu::image_bytes(gpu::Pixel::rg32u, 1, 1);
+    if (layers == Layers::peel)
+        return depths + 2 * images;
+    if (layers == Layers::stochastic)
+        return depths + images;
+    return depths + map * capacity * sizeof(std::uint32_t) +
+           std::max(map * capacity * kFragmentsPerPixel, kLeastFragments) * sizeof(Fragment);
+}
+
 void IlluminationMaps::draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
                             const IlluminationParams& params)
 {

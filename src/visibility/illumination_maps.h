@@ -43,6 +43,10 @@ public:
                      std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
                      std::uint32_t height, std::uint32_t slabs = 1);
 
+    /// Bytes on a device whose images and arrays may be as large as is wanted.
+    static std::uint64_t device_bytes(Layers layers, std::uint32_t side, std::uint32_t capacity,
+                                      std::uint32_t slabs = 1);
+
     std::uint32_t capacity() const { return capacity_; }  ///< directions
     std::uint32_t slabs() const { return slabs_; }
     const ParallelLayout& layout() const { return layout_; }

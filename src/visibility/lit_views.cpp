@@ -66,6 +66,15 @@ LitViews::LitViews(const gpu::Device& device, const World& world, std::uint32_t 
 {
 }
 
+std::uint64_t LitViews::device_bytes(std::uint32_t side, std::uint32_t capacity)
+{
+    const Tiles tile = hemicube_tiles(side, 1);
+    const std::uint64_t pixels =
+        std::uint64_t(tile.width) * tile.height * tiles_about_square(capacity);
+    return pixels * gpu::kManySamples *
+           (gpu::image_bytes(gpu::Pixel::rgba32, 1, 1) + gpu::image_bytes(gpu::Pixel::depth, 1, 1));
+}
+
 void LitViews::draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, const SurfaceLight& light,
                     std::uint32_t first, std::uint32_t last)
 {

@@ -32,6 +32,9 @@ public:
     LitViews(const gpu::Device& device, const World& world, std::uint32_t side, float near,
              std::uint32_t capacity);
 
+    /// Bytes on a device whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(std::uint32_t side, std::uint32_t capacity);
+
     std::uint32_t capacity() const { return capacity_; }
     const EyeViewLayout& layout() const { return layout_; }
     const gpu::Target& image() const { return image_; }

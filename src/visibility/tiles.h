@@ -18,6 +18,13 @@ inline std::uint32_t tile_columns(std::uint32_t count, std::uint32_t fit)
     return std::min(columns, fit);
 }
 
+/// Tiles of the image in which `count` lie, those that stay empty among them.
+inline std::uint64_t tiles_about_square(std::uint32_t count)
+{
+    const std::uint64_t columns = tile_columns(count, std::max(count, 1u));
+    return columns * ((count + columns - 1) / columns);
+}
+
 /// Tiles of one size, row by row.
 struct Tiles {
     std::uint32_t width, height;  ///< of each [pixels]

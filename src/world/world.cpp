@@ -149,4 +149,15 @@ void World::place(std::span<const glm::mat4> transforms)
     commands.run();
 }
 
+std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)
+{
+    // Lumels, pieces and vertices in their instance's frame and in the world's.
+    return lumels.lumels.size() * 2 * sizeof(Lumel) + lumels.pieces.size() * 2 * sizeof(Piece) +
+           occluders.positions.size() * 2 * sizeof(glm::vec3) +
+           occluders.instances.size() * sizeof(std::uint32_t) +
+           occluders.look.size() * sizeof(glm::vec3) + occluders.place.size() * sizeof(glm::vec2) +
+           occluders.chart.size() * sizeof(glm::vec4) +
+           occluders.indices.size() * sizeof(std::uint32_t);
+}
+
 }  // namespace lumel

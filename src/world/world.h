@@ -61,6 +61,9 @@ public:
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
     /// True if there is coloured glass: views that carry one channel each are needed.
     bool has_coloured_glass() const { return coloured_glass_; }
+    /// Bytes on the device.
+    static std::uint64_t device_bytes(const Lumels& lumels, const Occluders& occluders);
+
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
     glm::vec3 high() const { return high_; }
     const Sky& sky() const { return *sky_; }

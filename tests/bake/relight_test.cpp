@@ -168,7 +168,7 @@ TEST(LightSources, OfManyInstancesAreTheirMaterials)
 TEST(Senders, AddUpToTheLightOfALumel)
 {
     Lit lit;
-    const Prepared& world = lit.setting.world;
+    const Prepared& world = lit.setting.prepared;
     const std::vector<glm::vec3>& irradiance = lit.solution->irradiance;
     double found = 0.0, solved = 0.0;
     bool sky = false, lamp = false, surface = false;
@@ -227,7 +227,7 @@ TEST(MatrixFile, ReadsBackWhatWasWritten)
     const File file;
     write_relightable(file.path, light);
     const Relightable read = read_relightable(file.path);
-    EXPECT_EQ(read.scene_hash, lit.setting.world.scene.hash);
+    EXPECT_EQ(read.scene_hash, lit.setting.prepared.scene.hash);
     EXPECT_EQ(read.place, light.place);
     EXPECT_EQ(to_bytes(read.matrix), to_bytes(light.matrix));
     ASSERT_EQ(read.sources.size(), light.sources.size());

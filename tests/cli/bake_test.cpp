@@ -185,7 +185,7 @@ TEST(Reference, SaysWhetherGlossCounts)
         const Outcome outcome = run_lumel(line);
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
-        EXPECT_EQ(report["settings"]["gloss"], gloss ? "true" : "false") << outcome.out;
+        EXPECT_EQ(report["settings"]["gloss"], gloss) << outcome.out;
     }
 }
 

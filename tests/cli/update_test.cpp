@@ -218,7 +218,7 @@ TEST(Update, AMovedBlockTakesItsShadowInTheSunAlong)
     const Bake bake(sun);
     const std::string before = bake.place.file("before.exr", bytes_of(bake.map()));
     const Json report = bake.follow(move_block);
-    EXPECT_EQ(report["settings"]["sun"], "10,35");
+    EXPECT_EQ(report["lights"]["sun"], Json({{"azimuth", 10}, {"elevation", 35}}));
     EXPECT_EQ(report["update"]["relit"], false);
     EXPECT_EQ(report["update"]["solved_anew"], false);
     EXPECT_GT(Bake::apart(before, bake.map()), 0.1);
@@ -230,7 +230,7 @@ TEST(Update, AnotherSkyIsAnotherLight)
     const Bake bake({"--sky", "1,1,1", "--sky-directions", "64"});
     const std::vector<std::string> sky = {"--sky", "1.1,1.2,1.3"};
     const Json report = bake.follow([](Json&) {}, sky);
-    EXPECT_EQ(report["settings"]["sky"], "1.1,1.2,1.3");
+    EXPECT_EQ(report["lights"]["sky"]["radiance"], Json({1.1, 1.2, 1.3}));
     EXPECT_EQ(report["update"]["relit"], true);
     EXPECT_EQ(report["update"]["solved_anew"], false);
     EXPECT_LE(bake.error(report, {"--sky", "1.1,1.2,1.3", "--sky-directions", "64"}), kAlike);
@@ -247,6 +247,17 @@ TEST(Update, RefusesWhatItCannotCorrect)
     const Bake half;
     expect_one_sentence(run_lumel({"update", half.folder(), half.place.path("out/scene.glb")}), 2,
                         {"scene.glb", "elsewhere"});
+    Json report = Json::parse(bytes_of(half.place.path("out/report.json")));
+    report["settings"]["gutter"] = "two";
+    half.place.file("out/report.json", report.dump());
+    for (const char* command : {"update", "why", "relight"}) {
+        std::vector<std::string> line = {command, half.folder()};
+        if (std::string(command) == "why")
+            line.insert(line.end(), {"--texel", "1,1"});
+        else
+            line.push_back(scene);
+        expect_one_sentence(run_lumel(line), 2, {"report.json: /settings/gutter", "whole number"});
+    }
     std::filesystem::remove(half.place.path("out/solution.exr"));
     expect_one_sentence(run_lumel({"update", half.folder(), scene}), 2, {"solution.exr"});
     half.place.file("out/report.json", "{}");

@@ -48,22 +48,6 @@ TEST(LightOptions, NothingAskedForChangesNothing)
     add_lights(scene, {});
     EXPECT_EQ(scene.hash, hash);
     EXPECT_TRUE(scene.sky.empty());
-    EXPECT_TRUE(settings_of(LightOptions{}).empty());
-}
-
-TEST(LightOptions, AreWhatTheirSettingsSay)
-{
-    LightOptions options;
-    set_sky(options, "1,2,0.5");
-    set_sun(options, "30,50");
-    add_profile(options, "lamp=file.ies");
-    options.sky_scale = 3.0f;
-    options.sky_rotation = 0.5;
-    options.sun_angle = 0.01f;
-    options.light_radius = 0.25f;
-    const auto settings = settings_of(options);
-    EXPECT_EQ(settings.size(), 7u);
-    EXPECT_EQ(settings_of(light_options_of(settings)), settings);
 }
 
 TEST(LightOptions, AConstantSkyLightsAPlaneWithPiTimesItsRadiance)

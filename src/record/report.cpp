@@ -1,15 +1,12 @@
-#include "output/report.h"
+#include "record/report.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include <nlohmann/json.hpp>
+#include "json/json_file.h"
 
 namespace lumel {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // What the numbers in the other files mean.
 Json map_units(bool directional)
@@ -46,12 +43,6 @@ Json picture_units()
             {"png", "tone-mapped for looking, sRGB"}};
 }
 
-// Null for what JSON has no number for.
-Json number(double value)
-{
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json gpu_times(const Report& report)
 {
     Json passes = Json::object();
@@ -59,9 +50,9 @@ Json gpu_times(const Report& report)
         if (runs.empty())
             continue;
         passes[name] = {{"runs", runs.size()},
-                        {"total_ms", number(std::accumulate(runs.begin(), runs.end(), 0.0))},
-                        {"least_ms", number(*std::min_element(runs.begin(), runs.end()))},
-                        {"most_ms", number(*std::max_element(runs.begin(), runs.end()))}};
+                        {"total_ms", std::accumulate(runs.begin(), runs.end(), 0.0)},
+                        {"least_ms", *std::min_element(runs.begin(), runs.end())},
+                        {"most_ms", *std::max_element(runs.begin(), runs.end())}};
     }
     return passes;
 }
@@ -71,10 +62,10 @@ Json timings(const Report& report)
     Json stages = Json::array();
     for (const StageTime& stage : report.stages)
         stages.push_back({{"stage", stage.name},
-                          {"wall_seconds", number(stage.wall_seconds)},
-                          {"cpu_seconds", number(stage.cpu_seconds)}});
-    return {{"wall_seconds", number(report.wall_seconds)},
-            {"cpu_seconds", number(report.cpu_seconds)},
+                          {"wall_seconds", stage.wall_seconds},
+                          {"cpu_seconds", stage.cpu_seconds}});
+    return {{"wall_seconds", report.wall_seconds},
+            {"cpu_seconds", report.cpu_seconds},
             {"stages", stages},
             {"gpu", gpu_times(report)}};
 }
@@ -83,18 +74,17 @@ Json solution(const Report& report)
 {
     Json curve = Json::array();
     for (const ConvergencePoint& point : report.convergence)
-        curve.push_back({{"shots", point.shots},
-                         {"seconds", number(point.seconds)},
-                         {"error", number(point.error)}});
-    Json result = {{"method", report.method},
-                   {"seed", report.seed},
-                   {"shots", report.shots},
+        curve.push_back(
+            {{"shots", point.shots}, {"seconds", point.seconds}, {"error", point.error}});
+    Json result = {{"shots", report.shots},
                    {"iterations", report.iterations},
                    {"interrupted", report.interrupted}};
     if (report.directional_shots > 0)
         result["directional_shots"] = report.directional_shots;
     if (report.estimated_error >= 0.0)
-        result["estimated_error"] = number(report.estimated_error);
+        result["estimated_error"] = report.estimated_error;
+    if (report.exposure)
+        result["exposure"] = shortest(*report.exposure);
     result["convergence"] = curve;
     return result;
 }
@@ -104,10 +94,10 @@ Json frames(const Report& report)
     Json rows = Json::array();
     for (const FrameRow& frame : report.frames)
         rows.push_back({{"file", frame.file},
-                        {"time_s", number(frame.seconds)},
-                        {"update_ms", number(frame.update_ms)},
+                        {"time_s", frame.seconds},
+                        {"update_ms", frame.update_ms},
                         {"hemicubes", frame.hemicubes},
-                        {"residual", number(frame.residual)},
+                        {"residual", frame.residual},
                         {"at_rest", frame.at_rest}});
     return rows;
 }
@@ -115,26 +105,22 @@ Json frames(const Report& report)
 Json form_factors(const FormFactorRow& row)
 {
     return {{"patches", row.patches},
-            {"voxel_metres", number(row.voxel)},
+            {"voxel_metres", row.voxel},
             {"closed_rows", row.closed},
-            {"row_sum_error", number(row.row_sum)},
-            {"worst_row_sum_error", number(row.worst_row_sum)},
-            {"reciprocity_error", number(row.reciprocity)}};
+            {"row_sum_error", row.row_sum},
+            {"worst_row_sum_error", row.worst_row_sum},
+            {"reciprocity_error", row.reciprocity}};
 }
 
 Json update(const UpdateRow& row)
 {
-    Json json = {{"moved", row.moved},
-                 {"appeared", row.appeared},
-                 {"vanished", row.vanished},
-                 {"recoloured", row.recoloured},
-                 {"relit", row.relit},
-                 {"rays", row.rays},
-                 {"particles", row.particles},
-                 {"solved_anew", row.solved_anew},
-                 {"residual", number(row.residual)}};
+    Json json = {{"moved", row.moved},         {"appeared", row.appeared},
+                 {"vanished", row.vanished},   {"recoloured", row.recoloured},
+                 {"relit", row.relit},         {"rays", row.rays},
+                 {"particles", row.particles}, {"solved_anew", row.solved_anew},
+                 {"residual", row.residual}};
     if (row.error_before >= 0.0)
-        json["error_before"] = number(row.error_before);
+        json["error_before"] = row.error_before;
     return json;
 }
 
@@ -146,13 +132,15 @@ Json sizes(const Report& report)
     if (report.atlas_width > 0)
         json.update({{"atlas_width", report.atlas_width},
                      {"atlas_height", report.atlas_height},
-                     {"texels_per_metre", number(report.texels_per_metre)},
+                     {"texels_per_metre", report.texels_per_metre},
                      {"instances", report.instances},
                      {"triangles", report.triangles},
                      {"charts", report.charts},
                      {"lumels", report.lumels},
                      {"buried_lumels", report.buried_lumels},
                      {"pieces", report.pieces}});
+    if (report.near_pairs)
+        json["near_field_pairs"] = *report.near_pairs;
     return json;
 }
 
@@ -178,14 +166,21 @@ Json members(const Texts& texts)
 
 }  // namespace
 
-std::string to_json(const Report& report)
+Json to_json(const Report& report)
 {
     using Texts = std::vector<std::pair<std::string, std::string>>;
     Json json;
+    json["format"] = kReportFormat;
     json["lumel"] = report.lumel_version;
+    if (!report.date.empty())
+        json["date"] = report.date;
     json["libraries"] = members(report.library_versions);
     json["scene"] = members(Texts{{"file", report.scene}, {"hash", report.scene_hash}});
-    json["settings"] = members(report.settings);
+    json["settings"] = report.settings;
+    if (report.lights)
+        json["lights"] = *report.lights;
+    if (report.solver)
+        json["solver"] = *report.solver;
     json["device"] = members(
         Texts{{"name", report.device}, {"driver", report.driver}, {"vulkan", report.vulkan}});
     json["sizes"] = sizes(report);
@@ -203,10 +198,7 @@ std::string to_json(const Report& report)
     json["files"] = report.files;
     json["warnings"] = report.warnings;
     json["notes"] = report.notes;
-
-    // A file name may hold any bytes; JSON may not.
-    constexpr int kIndent = 2;
-    return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json;
 }
 
 }  // namespace lumel

@@ -1,4 +1,4 @@
-#include "scene/gltf_json.h"
+#include "json/json_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,6 +135,17 @@ float JsonView::number() const
     const auto value = static_cast<float>(value_->get<double>());
     if (!std::isfinite(value))
         fail("is too large a number");
+    return value;
+}
+
+double JsonView::number(double low, double high) const
+{
+    const double value = value_->is_number() ? value_->get<double>() : std::nan("");
+    if (!std::isfinite(value))
+        fail("must be a number");
+    if (value < low || value > high)
+        fail("is " + value_->dump() + ", but must lie in " + Json(low).dump() + " to " +
+             Json(high).dump());
     return value;
 }
 

@@ -8,7 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "json/json_view.h"
+
 namespace lumel {
+
+/// Of the form of report.json, in its member "format". What reads it back refuses all others. 1,
+/// which the file did not say, had all settings as strings.
+inline constexpr int kReportFormat = 2;
 
 /// One stage of the bake, in order.
 struct StageTime {
@@ -62,12 +68,14 @@ struct UpdateRow {
 /// out of the file.
 struct Report {
     std::string lumel_version;
+    std::string date;  ///< with its offset, as of local_time()
     std::map<std::string, std::string> library_versions;
 
-    std::string scene;       ///< name of the file, without its folder
-    std::string scene_hash;  ///< Scene::hash
-    std::vector<std::pair<std::string, std::string>> settings;  ///< option and value, as given
-    std::uint64_t seed = 0;
+    std::string scene;                ///< name of the file, without its folder
+    std::string scene_hash;           ///< Scene::hash
+    Json settings = Json::object();   ///< values of options by their names
+    std::optional<Json> lights = {};  ///< as of light_settings()
+    std::optional<Json> solver = {};  ///< as of solver_settings(), as far as it applies
 
     std::string device;  ///< name of the GPU, or of what was used in its place
     std::string driver;
@@ -78,15 +86,16 @@ struct Report {
     double texels_per_metre = 0.0;
     std::uint64_t charts = 0, lumels = 0, pieces = 0, triangles = 0, instances = 0;
     std::uint64_t buried_lumels = 0;
-    int picture_width = 0;   ///< [pixels], 0: maps were made, no picture
-    int picture_height = 0;  ///< [pixels]
+    std::optional<std::uint64_t> near_pairs;  ///< of lumels, solved exactly
+    int picture_width = 0;                    ///< [pixels], 0: maps were made, no picture
+    int picture_height = 0;                   ///< [pixels]
 
-    std::string method;  ///< id of the solver
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
     std::uint64_t directional_shots = 0;  ///< 0: no directional layers
     double estimated_error = -1.0;        ///< relative, < 0: not known
     bool interrupted = false;
+    std::optional<float> exposure;  ///< of the map's or the pictures' PNG [1/lx or m²/cd]
     std::vector<ConvergencePoint> convergence;
     std::vector<FrameRow> frames;
     std::optional<FormFactorRow> form_factors;
@@ -105,7 +114,7 @@ struct Report {
     std::vector<std::string> notes;
 };
 
-/// Units and encodings are added; members come in a fixed order. Ends with a line break.
-std::string to_json(const Report& report);
+/// Units and encodings are added; members come in a fixed order. See docs/report.md.
+Json to_json(const Report& report);
 
 }  // namespace lumel

@@ -55,6 +55,8 @@ public:
     std::size_t index(std::size_t size, const char* array) const;
     /// A number that is finite as float.
     float number() const;
+    /// A finite number in low…high.
+    double number(double low, double high) const;
     bool boolean() const;
     const std::string& string() const;
 

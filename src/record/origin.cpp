@@ -1,0 +1,40 @@
+#include "record/origin.h"
+
+#include <array>
+#include <ctime>
+
+#include "core/parallel.h"
+#include "images/image_files.h"
+#include "matrix/blas.h"
+#include "rays/ray_scene.h"
+
+namespace lumel {
+
+std::string lumel_version()
+{
+    return LUMEL_VERSION;
+}
+
+std::map<std::string, std::string> library_versions()
+{
+    return {{"Embree", embree_version()},
+            {"OpenBLAS", blas::openblas_version()},
+            {"OpenEXR", openexr_version()},
+            {"libpng", libpng_version()},
+            {"oneTBB", tbb_version()}};
+}
+
+std::string local_time()
+{
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    localtime_r(&now, &parts);
+    std::array<char, 40> text{};
+    const std::size_t length =
+        std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S%z", &parts);
+    std::string time(text.data(), length);
+    constexpr std::size_t kMinutes = 2;  // digits; ISO 8601 has a colon before them
+    return length > kMinutes ? time.insert(length - kMinutes, ":") : time;
+}
+
+}  // namespace lumel

@@ -1,0 +1,62 @@
+// What a bake is said to take of the device's memory is what it takes.
+
+#include <gtest/gtest.h>
+
+#include "../support/temporary_folder.h"
+#include "bake/bake.h"
+#include "solved.h"
+#include "json/json_file.h"
+
+namespace lumel {
+namespace {
+
+/// Parts of the peak that what was said may be off by.
+constexpr double kAlike = 0.25;
+
+BakeOptions small(const std::string& method)
+{
+    BakeOptions options;
+    options.atlas.size = 96;
+    options.solver.method = method;
+    options.solver.hemicube = 64;
+    options.solver.max_shots = 64;
+    options.solver.target_error = 0.0;
+    options.solver.patches = 64;
+    options.preview_width = 0;
+    return options;
+}
+
+void expect_as_described(const std::string& scene, const BakeOptions& options)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = support::scene_path(scene);
+    const Json report = Json::parse(bake(path, folder / "out", options).report);
+    const Json said = Json::parse(describe(path, options, true));
+    const auto peak = report["memory"]["peak_gpu_bytes"].get<double>();
+    EXPECT_NEAR(said["graphics_memory_bytes"].get<double>(), peak, kAlike * peak)
+        << options.solver.method << " in " << scene << ": " << said["graphics_memory_parts"];
+}
+
+TEST(GraphicsMemory, OfEveryMethodIsAsDescribed)
+{
+    for (const MethodInfo& method : kMethods)
+        expect_as_described("cornell-box", small(method.id));
+}
+
+TEST(GraphicsMemory, OfDirectionalLayersIsAsDescribed)
+{
+    BakeOptions options = small("stochastic");
+    options.directional = Directional::sh2;
+    expect_as_described("cornell-box", options);
+}
+
+TEST(GraphicsMemory, OfSkyAndLampsIsAsDescribed)
+{
+    BakeOptions options = small("stochastic");
+    set_sky(options.lights, "1,1,1");
+    options.sky_directions = 16;
+    expect_as_described("cornell-box", options);
+}
+
+}  // namespace
+}  // namespace lumel
