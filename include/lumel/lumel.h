@@ -22,6 +22,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -315,6 +316,8 @@ struct BakeSettings {
     /// As `lumel methods` lists them: "stochastic", "glossy", "directions", "progressive",
     /// "gather", "matrix".
     std::string method = "stochastic";
+    /// Of the method, by their names on the command line: {{"patches", "512"}}.
+    std::map<std::string, std::string> options;
     Parts parts = Parts::all;
     std::uint32_t seed = 1;
     double error = 0.02;      ///< estimated relative error to end at, 0: none

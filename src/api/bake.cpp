@@ -34,13 +34,20 @@ lumel::Parts parts_of(Parts parts)
     }
 }
 
+MethodOptions method_of(const BakeSettings& settings)
+{
+    std::map<std::string, std::string> given = settings.options;
+    if (!given.emplace("seed", std::to_string(settings.seed)).second)
+        refuse("options", "the seed is a setting of its own");
+    return method_options(settings.method, given);
+}
+
 BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
 {
     BakeOptions options;
     options.atlas = checked_options(settings.atlas);
     options.parts = parts_of(settings.parts);
-    options.solver.method =
-        method_options(settings.method, {{"seed", std::to_string(settings.seed)}});
+    options.solver.method = method_of(settings);
     options.solver.target_error = settings.error;
     options.solver.max_seconds = settings.seconds;
     options.solver.max_shots = settings.shots;
@@ -108,7 +115,7 @@ Baked bake(const Device& device, const Scene& scene, const BakeSettings& setting
 {
     return translated([&] {
         const BakeOptions options = checked_options(settings, bool(progress));
-        check_materials(method_of(options.solver.method), scene.impl().scene);
+        check_materials(lumel::method_of(options.solver.method), scene.impl().scene);
         return bake_scene(device.impl().device, scene.impl().scene, options, follower(progress));
     });
 }

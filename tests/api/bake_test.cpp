@@ -124,6 +124,8 @@ TEST(BakeInMemory, RefusesSettingsByName)
     refuses({.atlas = {.texels_per_metre = -1.0f}}, "texels_per_metre");
     refuses({.atlas = {.gutter = 65}}, "gutter");
     refuses({.method = "no such method"}, "no such method");
+    refuses({.options = {{"patches", "512"}}}, "patches");
+    refuses({.options = {{"seed", "2"}}}, "seed");
     refuses({.error = -1.0}, "error");
     refuses({.error = 0.0}, "nothing would end the bake");
     refuses({.seconds = -1.0}, "seconds");

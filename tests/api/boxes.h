@@ -1,6 +1,8 @@
 #pragma once
 // Rooms made in memory.
 
+#include <gtest/gtest.h>
+
 #include "../support/source_folder.h"
 #include "lumel/lumel.h"
 
@@ -52,7 +54,7 @@ void expect_error(ErrorKind kind, std::initializer_list<const char*> words, cons
 
 inline std::string scene_path(const std::string& name)
 {
-    return lumel::support::source_path("scenes/" + name + ".gltf");
+    return support::source_path("scenes/" + name + ".gltf");
 }
 
 /// Mean of green light over covered texels [lx].
