@@ -100,7 +100,8 @@ std::vector<std::string> fields_of(const Json& report)
 
 TEST(BakeRecord, IsReadBackAsItWasWritten)
 {
-    for (const BakeRecord& record : {unusual(), BakeRecord{.scene = "a", .scene_hash = "b"}}) {
+    for (const BakeRecord& record :
+         {unusual(), BakeRecord{.scene = "a", .scene_hash = "b", .side = 32}}) {
         const Json report = json_of(record);
         // Through text, as in a file.
         EXPECT_EQ(json_of(read(Json::parse(json_text(report)))), report);
