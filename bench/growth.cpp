@@ -36,7 +36,8 @@ void grow(const Settings& settings)
         const Prepared world = prepare(settings, size);
         const World gpu_world(device, world.scene, world.lumels);
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
-        const auto solver = make_solver(device, gpu_world, world.lumels, none, settings.solver);
+        const auto solver =
+            make_solver({device, gpu_world, world.lumels, none}, solver_of(settings));
         shoot(*solver, kTimedShots);
         double cpu = 1e30, wall = 1e30;
         for (int round = 0; round < kRounds; ++round) {

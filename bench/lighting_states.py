@@ -3,7 +3,7 @@
 
     bench/lighting_states.py build/release/bin/lumel scenes/cornell-box.gltf --size 128
 
-Bakes the scene under an even sky with --solver matrix, lights it anew in as many states as asked
+Bakes the scene under an even sky with --solver matrix, lights it anew in the given number of states
 for, with random colours of the sky and of every emissive material, and bakes some of these states
 by themselves: by the same solver, with another seed, and by the default one.
 """

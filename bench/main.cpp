@@ -13,7 +13,6 @@ int main(int argc, char** argv)
     using namespace lumel;
     using namespace lumel::bench;
     Settings settings;
-    std::string scheme = "phased", sampling = "area", projection = "hemicube", layers = "list";
     CLI::App app("Error against time for each method, on the same atlas");
     app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
     app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
@@ -23,14 +22,14 @@ int main(int argc, char** argv)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
     app.add_option_function<std::string>(
            "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
-           "light from all around, as lumel bake takes it")
+           "light from all directions, as in lumel bake")
         ->type_name("FILE|R,G,B");
     app.add_option_function<std::string>(
            "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
-           "sun, as lumel bake takes it")
+           "sun, as in lumel bake")
         ->type_name("PLACE");
     app.add_option("--sky-directions", settings.sky_directions,
-                   "that the sky's light is taken from")
+                   "directions from which the light of the sky is gathered")
         ->capture_default_str();
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');
@@ -39,57 +38,33 @@ int main(int argc, char** argv)
                    "samples of the reference made here; 0: none")
         ->capture_default_str();
     app.add_option("--save-reference", settings.save_reference, "EXR to keep that reference in");
-    app.add_option("--shots", settings.shots, "stops at which a solver is judged")
+    app.add_option("--shots", settings.shots, "numbers of shooters at which the error is measured")
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--solver", settings.solver.method, "as lumel methods lists")
-        ->capture_default_str();
-    app.add_option("--scheme", scheme, "phased or paper")
-        ->check(CLI::IsMember({"phased", "paper"}));
-    app.add_option("--sampling", sampling, "area or centre")
-        ->check(CLI::IsMember({"area", "centre"}));
-    app.add_option("--batch", settings.solver.batch, "shooters per iteration")
-        ->capture_default_str();
-    app.add_option("--layers", layers, "of --solver directions: list, peel or stochastic")
-        ->check(CLI::IsMember({"list", "peel", "stochastic"}));
-    app.add_option("--lookups", settings.solver.lookups, "with stochastic layers: 1, 3 or 5 wide")
-        ->capture_default_str();
-    app.add_option("--slabs", settings.solver.slabs,
-                   "with stochastic layers: that directions are cut into; 0: as needed")
-        ->capture_default_str()
-        ->check(CLI::Range(0u, kMostSlabs));
-    app.add_option("--leak", settings.solver.leak,
-                   "with --scheme paper: part of the solution that each shot replaces; 0: none")
-        ->capture_default_str()
-        ->check(CLI::Range(0.0, 1.0));
-    app.add_option("--map-side", settings.solver.map_side,
-                   "of illumination maps [pixels]; 0: as suits the lumels")
-        ->capture_default_str();
-    app.add_option("--hemicube", settings.solver.hemicube, "front face [pixels]")
-        ->capture_default_str();
-    app.add_option("--projection", projection, "hemicube or hemisphere")
-        ->check(CLI::IsMember({"hemicube", "hemisphere"}));
-    app.add_option("--projections", settings.cuts,
-                   "compares both projections instead, edges of triangles cut into so many")
+    app.add_option("--solver", settings.given.id, "as lumel methods lists")->capture_default_str();
+    for (const SharedOption& option : options_of_methods()) {
+        const std::string name = option.info->name;
+        app.add_option_function<std::string>(
+               "--" + name,
+               [&settings, name](const std::string& value) { settings.given.values[name] = value; },
+               option.info->help)
+            ->type_name(option.info->type);
+    }
+    app.add_option(
+           "--projections", settings.cuts,
+           "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
     app.add_option("--near", settings.near_radius,
-                   "near field radius [lumel sizes]; 0: as the solver likes it")
+                   "near field radius [lumel sizes]; 0: as suits the solver")
         ->capture_default_str();
-    app.add_option("--seed", settings.solver.seed, "")->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");
     app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    settings.solver.scheme = scheme == "paper" ? Scheme::paper : Scheme::phased;
-    settings.solver.rule = sampling == "centre" ? SampleRule::centre : SampleRule::area;
-    settings.solver.layers = layers == "stochastic" ? Layers::stochastic
-                             : layers == "peel"     ? Layers::peel
-                                                    : Layers::list;
-    settings.solver.projection =
-        projection == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
     try {
+        settings.given.options();  // what is wrong is said before the long work
         if (!settings.cuts.empty())
             compare_projections(settings);
         else if (!settings.growth.empty())

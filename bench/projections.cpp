@@ -23,7 +23,7 @@ constexpr float kGrazing = 1e-3f;  ///< least cosine at both ends of a pair
 constexpr float kOffset = 1e-4f;   ///< by which rays are shortened at both ends [m]
 constexpr std::uint32_t kSeed = 1;
 
-/// Eyes and points to ask about, both on the scene's lumels.
+/// Eyes and points to test, both on the scene's lumels.
 struct Pairs {
     std::vector<Eye> eyes;
     std::vector<Lumel> lumels;            ///< in the world
@@ -32,8 +32,9 @@ struct Pairs {
 
 bool face(const Eye& eye, const Lumel& lumel)
 {
-    const glm::vec3 way = glm::normalize(lumel.position - eye.position);
-    return glm::dot(way, eye.normal) > kGrazing && glm::dot(way, lumel.normal) < -kGrazing;
+    const glm::vec3 direction = glm::normalize(lumel.position - eye.position);
+    return glm::dot(direction, eye.normal) > kGrazing &&
+           glm::dot(direction, lumel.normal) < -kGrazing;
 }
 
 /// Form factor from the eye's point to the lumel, were it seen.
@@ -73,19 +74,19 @@ struct Disagreement {
 
 Disagreement compare(const Pairs& pairs, const std::vector<std::vector<std::uint32_t>>& answers)
 {
-    double asked = 0.0, wrong = 0.0, seen_light = 0.0, wrong_light = 0.0;
+    double tested = 0.0, wrong = 0.0, seen_light = 0.0, wrong_light = 0.0;
     for (std::size_t e = 0; e < pairs.eyes.size(); ++e)
         for (std::size_t i = 0; i < pairs.lumels.size(); ++i) {
             if (!face(pairs.eyes[e], pairs.lumels[i]))
                 continue;
             const bool truth = pairs.seen[e][i] != 0, answer = answers[e][i] != 0;
             const double light = form_factor(pairs.eyes[e], pairs.lumels[i]);
-            asked += 1.0;
+            tested += 1.0;
             wrong += truth != answer;
             seen_light += truth ? light : 0.0;
             wrong_light += truth != answer ? light : 0.0;
         }
-    return {wrong / asked, wrong_light / seen_light};
+    return {wrong / tested, wrong_light / seen_light};
 }
 
 /// Pieces of an edge between two directions, as hemisphere.tesc counts them.
@@ -132,7 +133,8 @@ struct View {
 View look(const gpu::Device& device, const World& world, Projection projection, const Pairs& pairs,
           const Settings& settings)
 {
-    EyeViews views(device, world, projection, std::uint32_t(settings.solver.hemicube), kEyes);
+    EyeViews views(device, world, projection,
+                   std::uint32_t(views_of(settings.given.options()).hemicube), kEyes);
     if (views.capacity() < kEyes)
         throw Error(ErrorKind::input, "--hemicube", "is too large for the views of all eyes");
     const gpu::Array<Eye> eyes(device, std::span<const Eye>(pairs.eyes));

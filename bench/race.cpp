@@ -75,8 +75,8 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
         watch.start();
         const auto irradiance = reference_irradiance(world.scene, world.rays, world.lumels,
                                                      {.samples_per_lumel = spp,
-                                                      .seed = 7 + settings.solver.seed,
-                                                      .rule = settings.solver.rule});
+                                                      .seed = 7 + seed_of(settings.given.options()),
+                                                      .rule = rule_of(settings.given.options())});
         watch.stop();
         rows.push_back(print_row("path tracer (Embree)", std::uint64_t(spp), watch,
                                  error_of(world, irradiance, reference), -1.0));
@@ -91,13 +91,14 @@ std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& dev
     if (!has_lights(prepared.scene))
         return {};
     return direct_light(device, world, prepared.scene, prepared.lumels,
-                        direct_light_options(settings.solver, settings.sky_directions))
+                        direct_light_options(solver_of(settings), settings.sky_directions))
         .irradiance;
 }
 
 std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
                              const std::optional<Image>& reference)
 {
+    const SolverOptions options = solver_of(settings);
     const gpu::Device device(settings.device);
     fmt::print("device: {} ({})\n", device.info().name, device.info().driver);
     {  // The driver compiles shaders when they first run; it keeps them for the next time.
@@ -105,9 +106,8 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         Settings few = settings;
         few.sky_directions = 2;
         light_of(few, device, warm, world);
-        const auto solver = make_solver(
-            device, warm, world.lumels,
-            {.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)}, settings.solver);
+        const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
+        const auto solver = make_solver({device, warm, world.lumels, none}, options);
         for (int i = 0; i < 8; ++i)
             solver->step();
         solver->irradiance();
@@ -115,8 +115,8 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     print_head();
     Stopwatch watch;
     watch.start();
-    const NearField near = near_field_for(world.scene, world.rays, world.lumels, settings.solver,
-                                          settings.near_radius);
+    const NearField near =
+        near_field_for(world.scene, world.rays, world.lumels, options, settings.near_radius);
     const World gpu_world(device, world.scene, world.lumels, &world.atlas);
     watch.stop();
     fmt::print("# near field: {} pairs; set-up {:.2f} cpu-s\n", near.column.size(), watch.cpu);
@@ -124,9 +124,13 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const double before = watch.cpu;
     const std::vector<glm::vec3> direct = light_of(settings, device, gpu_world, world);
     const std::optional<Lumels> lit = shining(world.lumels, direct);
-    const std::optional<LobeParticles> particles = particles_for(world, settings.solver);
-    const auto solver = make_solver(device, gpu_world, lit ? *lit : world.lumels, near,
-                                    settings.solver, {}, particles ? &*particles : nullptr);
+    const std::optional<LobeParticles> particles = particles_for(world, options);
+    const auto solver = make_solver({.device = device,
+                                     .world = gpu_world,
+                                     .lumels = lit ? *lit : world.lumels,
+                                     .near = near,
+                                     .particles = particles ? &*particles : nullptr},
+                                    options);
     watch.stop();
     fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);
     std::vector<Row> rows;
@@ -137,7 +141,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         std::vector<glm::vec3> irradiance = solver->irradiance();
         add_light(irradiance, direct);
         watch.stop();
-        rows.push_back(print_row(settings.solver.method, solver->state().shots, watch,
+        rows.push_back(print_row(settings.given.id, solver->state().shots, watch,
                                  error_of(world, irradiance, reference), solver->state().error));
     }
     for (const auto& [stage, ms] : solver->times())
@@ -163,7 +167,7 @@ void race(const Settings& settings)
         return;
     const double mine = time_to(ours, settings.target), other = time_to(theirs, settings.target);
     fmt::print("to {:.1f} %: {} {:.2f} cpu-s, path tracer {:.2f} cpu-s, ratio {:.3f}\n",
-               100.0 * settings.target, settings.solver.method, mine, other, mine / other);
+               100.0 * settings.target, settings.given.id, mine, other, mine / other);
 }
 
 }  // namespace lumel::bench

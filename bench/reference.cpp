@@ -22,7 +22,7 @@ std::optional<Image> reference_map(const Settings& settings, const Prepared& wor
                                  reference_irradiance(world.scene, world.rays, world.lumels,
                                                       {.samples_per_lumel = settings.reference_spp,
                                                        .seed = 99,
-                                                       .rule = settings.solver.rule}));
+                                                       .rule = rule_of(settings.given.options())}));
     if (!settings.save_reference.empty())
         write_exr(settings.save_reference, map, Precision::float32, {});
     return map;

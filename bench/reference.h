@@ -8,7 +8,7 @@
 
 namespace lumel::bench {
 
-/// The irradiance map that the settings name, or path traced as they say. Empty: none.
+/// The irradiance map that the settings name, or path traced by them. Empty: none.
 std::optional<Image> reference_map(const Settings& settings, const Prepared& world);
 
 }  // namespace lumel::bench

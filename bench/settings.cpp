@@ -29,7 +29,7 @@ void add_lamp(Scene& scene, const Lamp& lamp)
 Prepared prepare(const Settings& settings, int size)
 {
     Scene scene =
-        read_scene(settings.scene, method_of(settings.solver.method).materials, settings.lights);
+        read_scene(settings.scene, method_of(settings.given.id).materials, settings.lights);
     if (const std::vector<float>& l = settings.lamp; !l.empty())
         add_lamp(scene, {{l[0], l[1], l[2]}, {l[3], l[4]}, l[5]});
     return Prepared(std::move(scene), AtlasOptions{.size = size});

@@ -1,5 +1,5 @@
 #pragma once
-// What a run of the benchmark is asked for, and the scene it makes of it.
+// The settings of a run of the benchmark, and the scene that they make.
 
 #include <cstdint>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "bake/prepare.h"
 #include "lights/direct_light.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel::bench {
 
@@ -31,11 +31,27 @@ struct Settings {
     std::vector<int> spp{16, 64, 256};
     std::vector<int> growth;  ///< atlas sides to time instead of racing
     std::vector<int> cuts;    ///< comparing projections instead: pieces of each triangle edge
-    SolverOptions solver;
+    GivenMethod given;        ///< the method and its options
     std::string device;
-    float near_radius = 0.0f;  ///< 0: as the solver likes it
+    float near_radius = 0.0f;  ///< 0: as suits the solver
     double target = 0.02;      ///< relative RMSE that the methods race to
 };
+
+/// Solves without an end of its own: figures say when.
+inline SolverOptions solver_of(const Settings& settings)
+{
+    return {.method = settings.given.options()};
+}
+
+/// A method's options of what was given that it reads: figures compare several methods.
+template <class Options>
+Options options_of(const Settings& settings)
+{
+    MethodOptions method = Options{};
+    for (const auto& [name, value] : settings.given.values)
+        set_option(method, name, value);
+    return std::get<Options>(method);
+}
 
 /// The scene with its lamp, laid out in an atlas of side `size`. Throws Error.
 Prepared prepare(const Settings& settings, int size);

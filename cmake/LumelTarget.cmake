@@ -1,44 +1,67 @@
-# lumel_room(<name> SOURCES … USES <room or target> …): one folder of src as one static library.
-# A room sees only the rooms it names, so a wrong include does not compile into a program.
+# The rooms and who may use whom, ground floor first; tools/lint holds every #include to the same table.
+set(LUMEL_ROOM_TABLE ${PROJECT_SOURCE_DIR}/src/rooms.txt)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LUMEL_ROOM_TABLE})
 
-function(lumel_flags target)
-    target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
-                                             -Wno-missing-field-initializers)
-    target_compile_definitions(${target} PUBLIC GLM_FORCE_CTOR_INIT GLM_ENABLE_EXPERIMENTAL)
-    if(LUMEL_SANITIZE)
-        target_compile_options(${target} PUBLIC -fsanitize=${LUMEL_SANITIZE} -fno-omit-frame-pointer
-                                                -fno-sanitize-recover=all)
-        target_link_options(${target} PUBLIC -fsanitize=${LUMEL_SANITIZE})
-    endif()
+# lumel_rooms(<result>): the rooms of src.
+function(lumel_rooms result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} rooms REGEX "^src/[a-z]+:")
+    list(TRANSFORM rooms REPLACE "^src/([a-z]+):.*" "\\1")
+    set(${result} ${rooms} PARENT_SCOPE)
 endfunction()
 
+# lumel_uses(<room> <result>): what the room or a file of it may use.
+function(lumel_uses room result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} uses REGEX "^src/${room}[/:]")
+    list(TRANSFORM uses REPLACE "^[^:]*: *" "")
+    list(JOIN uses " " uses)
+    separate_arguments(uses)
+    set(${result} ${uses} PARENT_SCOPE)
+endfunction()
+
+# lumel_room(<name> SOURCES … SYSTEM <library> …): one folder of src as one static library.
 function(lumel_room name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;USES;SYSTEM" ${ARGN})
+    cmake_parse_arguments(ROOM "" "" "SOURCES;SYSTEM" ${ARGN})
     add_library(lumel_${name} STATIC ${ROOM_SOURCES})
     lumel_flags(lumel_${name})
-    foreach(used ${ROOM_USES})
-        target_link_libraries(lumel_${name} PUBLIC lumel_${used})
-    endforeach()
-    target_link_libraries(lumel_${name} PRIVATE ${ROOM_SYSTEM})
+    lumel_uses(${name} used)
+    list(TRANSFORM used PREPEND lumel_)
+    target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${ROOM_SYSTEM})
 endfunction()
 
-# lumel_test(<name> [TOGETHER] SOURCES … USES <room> …): one GoogleTest program under tests/. Each of its
-# tests is a process of its own; TOGETHER: one for all, where they share what takes long to make.
+# lumel_test(<name> [LABEL <label>] SOURCES … USES <room> … [PARTS "<part> <label> <filter>" …]):
+# one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
+# (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
+# Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
-    cmake_parse_arguments(TEST "TOGETHER" "" "SOURCES;USES;SYSTEM" ${ARGN})
+    cmake_parse_arguments(TEST "" "LABEL" "SOURCES;USES;SYSTEM;PARTS" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
-    lumel_flags(${name})
-    foreach(used ${TEST_USES})
-        target_link_libraries(${name} PRIVATE lumel_${used})
+    lumel_flags(${name} HEADERS lumel_test_headers)
+    list(TRANSFORM TEST_USES PREPEND lumel_)
+    target_link_libraries(${name} PRIVATE ${TEST_USES} ${TEST_SYSTEM} lumel_test_support
+                                          GTest::gtest GTest::gtest_main)
+    set(rest "*-")
+    foreach(part ${TEST_PARTS})
+        string(REGEX MATCH "^([^ ]+) ([a-z]+) (.+)$" matched "${part}")
+        set(filter ${CMAKE_MATCH_3})
+        lumel_test_entry(${name}.${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${name} --gtest_filter=${filter})
+        string(APPEND rest ":${filter}")
     endforeach()
-    target_link_libraries(${name} PRIVATE ${TEST_SYSTEM} GTest::gtest GTest::gtest_main)
-    target_compile_definitions(${name} PRIVATE LUMEL_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-    if(TEST_TOGETHER)
-        add_test(NAME ${name} COMMAND ${name})
-        # The longest test begins first, or a processor idles while it ends.
-        set_tests_properties(${name} PROPERTIES TIMEOUT 1500 COST 1500)
-    else()
-        gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+    if(NOT TEST_LABEL)
+        set(TEST_LABEL normal)
+    endif()
+    lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest})
+    list(TRANSFORM TEST_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+    list(JOIN sources " " sources)
+    set_property(GLOBAL APPEND PROPERTY LUMEL_TEST_PROGRAMS "${name} $<TARGET_FILE:${name}> ${sources}")
+endfunction()
+
+# lumel_test_entry(<name> <label> <program> <argument> …): what ctest runs. ./test limits processor time;
+# the limit here, by the clock, is for what hangs.
+function(lumel_test_entry name label program)
+    add_test(NAME ${name} COMMAND ${program} ${ARGN})
+    set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 7200
+                         FAIL_REGULAR_EXPRESSION "Running 0 tests")
+    if(label STREQUAL quick)
+        add_dependencies(quick_tests ${program})
     endif()
 endfunction()

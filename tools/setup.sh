@@ -4,9 +4,8 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-volk-dev
-    mesa-vulkan-drivers libglm-dev libtinygltf-dev libopenexr-dev libpng-dev libstb-dev
-    libmeshoptimizer-dev libopenblas-pthread-dev libtbb-dev libembree-dev libcli11-dev libfmt-dev
-    libspdlog-dev nlohmann-json3-dev libbenchmark-dev"
+    mesa-vulkan-drivers libglm-dev libopenexr-dev libpng-dev libstb-dev libopenblas-pthread-dev
+    libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev"
 test_packages="$build_packages vulkan-validationlayers libgtest-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
@@ -14,12 +13,10 @@ ci_packages="$test_packages clang-format clang-tidy"
 package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config glslc:glslc
     clang-format:clang-format clang-tidy:clang-tidy"
 package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
-    libtinygltf-dev:tiny_gltf.h libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h
-    libstb-dev:stb/stb_image.h libmeshoptimizer-dev:meshoptimizer.h libtbb-dev:tbb/tbb.h
-    libopenblas-pthread-dev:cblas.h libembree-dev:embree3/rtcore.h libcli11-dev:CLI/CLI.hpp
-    libfmt-dev:fmt/core.h
-    libspdlog-dev:spdlog/spdlog.h nlohmann-json3-dev:nlohmann/json.hpp
-    libgtest-dev:gtest/gtest.h libbenchmark-dev:benchmark/benchmark.h"
+    libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h libstb-dev:stb/stb_image.h
+    libopenblas-pthread-dev:cblas.h libtbb-dev:tbb/parallel_for.h libembree-dev:embree3/rtcore.h
+    libcli11-dev:CLI/CLI.hpp libfmt-dev:fmt/core.h libspdlog-dev:spdlog/spdlog.h
+    nlohmann-json3-dev:nlohmann/json.hpp libgtest-dev:gtest/gtest.h"
 
 say() { echo "lumel: $*" >&2; }
 die() { say "$*"; exit 1; }
@@ -90,23 +87,36 @@ need_packages() {
     fi
 }
 
+# A build folder keeps what it was configured with in its file `configured`: the path that it was made for,
+# and below it the options.
+
+# kept_options <preset> <options> [<others>]: the folder's own options if they hold these, else these or
+# the others.
+kept_options() {
+    local kept
+    kept=$(tail -n 1 "$root/build/$1/configured" 2>/dev/null) && [[ $kept == *"$2"* ]] || kept=${3:-$2}
+    echo "$kept"
+}
+
+# need_configured <preset> <cmake options>
+need_configured() {
+    local preset=$1 options=$2 folder=$root/build/$1 fresh="" wanted=$root$'\n'$2
+    [[ ! -f $folder/build.ninja || $root/CMakePresets.json -nt $folder/configured ||
+        $(<"$folder/configured") != "$wanted" ]] || return 0
+    progress "configuring"
+    mkdir -p "$folder"
+    [[ ! -f $folder/configured || $(head -n 1 "$folder/configured") == "$root" ]] || fresh=--fresh
+    cd "$root"
+    quietly "$folder/configure.log" "configuring" cmake $fresh --preset "$preset" $options || exit 1
+    cd "$OLDPWD"
+    echo "$wanted" >"$folder/configured"
+}
+
 # need_build <preset> <cmake options> <target …>: configures where needed, builds what changed.
-# A folder keeps its options in the file `configured`, below the path it was made for.
 need_build() {
-    local preset=$1 options=$2 folder=$root/build/$1
+    local preset=$1 folder=$root/build/$1
+    need_configured "$1" "$2"
     shift 2
-    local wanted=$root$'\n'$options
-    if [[ ! -f $folder/build.ninja || $root/CMakePresets.json -nt $folder/configured ||
-          $(<"$folder/configured") != "$wanted" ]]; then
-        progress "configuring"
-        mkdir -p "$folder"
-        local fresh=""
-        [[ ! -f $folder/configured || $(head -n 1 "$folder/configured") == "$root" ]] || fresh=--fresh
-        cd "$root"
-        quietly "$folder/configure.log" "configuring" cmake $fresh --preset "$preset" $options || exit 1
-        cd "$OLDPWD"
-        echo "$wanted" >"$folder/configured"
-    fi
     # At a terminal ninja's own status line shows how far it is, if there is anything to do.
     if [[ -t 2 ]] && ninja -C "$folder" -n "$@" 2>/dev/null | grep -q '^\['; then
         cmake --build "$folder" --target "$@" >&2 </dev/null || die "building failed."

@@ -14,14 +14,13 @@
 
 #include "core/error.h"
 #include "core/number.h"
+#include "manual.h"
+#include "method_options.h"
 
 namespace lumel {
 namespace {
 
 constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
-constexpr int kLargestHemicube = 2048;
-constexpr int kSmallestMap = 16, kLargestMap = 4096;
-constexpr int kLargestBatch = 256;
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
 constexpr int kMostPaths = 100'000'000;
@@ -34,6 +33,15 @@ constexpr int kMostRays = 4096;
 constexpr int kMostDirections = 1'000'000;
 constexpr double kMostDegrees = 36000.0;   // a turn that still has decimals as float
 constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
+
+// Titles that --help and docs/options.md put above options.
+constexpr const char* kLightGroup = "Light";
+constexpr const char* kLightmapGroup = "Lightmap";
+constexpr const char* kMethodGroup = "Method";
+constexpr const char* kStopGroup = "When to stop";
+constexpr const char* kPictureGroup = "Pictures";
+constexpr const char* kAnimationGroup = "Animation";
+constexpr const char* kProgramGroup = "Device and messages";
 
 /// Accepts whole numbers from `low` to `high`.
 CLI::Validator whole(std::int64_t low, std::int64_t high)
@@ -76,17 +84,10 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
-const Choices<Projection> kProjections = {{"hemicube", Projection::hemicube},
-                                          {"hemisphere", Projection::hemisphere}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
-const Choices<Layers> kLayers = {
-    {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
-constexpr const char* kAsNeeded = "auto";
-const Choices<int> kLookups = {{"1", 1}, {"3", 3}, {"5", 5}};
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
-const Choices<Scheme> kSchemes = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 
 /// An option that takes one of a few words.
 template <class Value>
@@ -99,10 +100,15 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
                 value = meaning;
     };
     std::vector<std::string> words;
-    for (const auto& choice : choices)
-        words.push_back(choice.first);
+    std::string standard;
+    for (const auto& [choice, meaning] : choices) {
+        words.push_back(choice);
+        if (meaning == value)
+            standard = choice;
+    }
     return app.add_option_function<std::string>(name, assign, help)
         ->type_name(CLI::detail::join(words, "|"))
+        ->default_str(standard)
         ->check([words](const std::string& word) -> std::string {
             if (std::find(words.begin(), words.end(), word) != words.end())
                 return {};
@@ -110,71 +116,24 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
         });
 }
 
-void add_view_options(CLI::App& app, SolverOptions& solver)
-{
-    app.add_option("--batch", solver.batch, "Shooters per iteration")
-        ->type_name("K")
-        ->capture_default_str()
-        ->check(whole(1, kLargestBatch));
-    add_choice(app, "--projection", solver.projection, kProjections,
-               "What shooters see is drawn on five faces (hemicube, the default) or on one disc");
-    app.add_option(
-           "--hemicube", solver.hemicube,
-           "Side of a hemicube's front face in pixels; a hemisphere's disc is twice as wide")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(16, kLargestHemicube));
-}
-
-void add_map_options(CLI::App& app, SolverOptions& solver)
-{
-    add_choice(app, "--layers", solver.layers, kLayers,
-               "What --solver directions keeps of surfaces behind one another: all of them, at "
-               "once (list, the default) or one after another (peel), or one a pixel by chance "
-               "(stochastic)");
-    add_choice(app, "--lookups", solver.lookups, kLookups,
-               "Side of the square of pixels looked up among stochastic layers (default: 3)");
-    app.add_option_function<std::string>(
-           "--slabs",
-           [&solver](const std::string& text) {
-               solver.slabs = text == kAsNeeded ? 0 : std::uint32_t(std::stoul(text));
-           },
-           "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
-           "stochastic layers; auto (the default): as many as the overdraw asks for")
-        ->type_name("auto|N")
-        ->check(CLI::IsMember({kAsNeeded}) | whole(1, kMostSlabs));
-    app.add_option("--map-side", solver.map_side,
-                   "Side of --solver directions' maps in pixels (default: as suits the lumels)")
-        ->type_name("N")
-        ->check(whole(kSmallestMap, kLargestMap));
-}
-
-void add_matrix_options(CLI::App& app, SolverOptions& solver)
-{
-    app.add_option("--patches", solver.patches, "Patches of --solver matrix, at most")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(kFewestPatches, kMostPatches));
-    app.add_option("--bounces", solver.bounces,
-                   "Reflections that --solver matrix counts (default: all)")
-        ->type_name("K")
-        ->check(whole(1, kMostBounces));
-}
-
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
 {
-    app.add_option("--texels-per-metre", atlas.texels_per_metre, "Density of the lightmap")
+    app.option_defaults()->group(kLightmapGroup);
+    app.add_option("--texels-per-metre", atlas.texels_per_metre,
+                   "Density of the lightmap, the main control of its size")
         ->type_name("N")
+        ->default_str("as fills the atlas")
         ->check(positive());
     app.add_option("--size", atlas.size, "Side of the square atlas in texels, instead of a density")
         ->type_name("N")
+        ->default_str("as needed, from 512")
         ->check(whole(1, kLargestAtlas));
     app.add_option("--max-size", atlas.max_size,
-                   "Largest side allowed; the density is scaled to fit")
+                   "Largest side of the atlas; the density is lowered to fit")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kLargestAtlas));
-    app.add_option("--gutter", atlas.gutter, "Empty texels kept around each chart")
+    app.add_option("--gutter", atlas.gutter, "Empty texels around each chart")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kLargestGutter));
@@ -183,35 +142,40 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
 /// Light from outside, and what lamps are like.
 void add_light_options(CLI::App& app, LightOptions& lights)
 {
+    app.option_defaults()->group(kLightGroup);
     app.add_option_function<std::string>(
            "--sky", [&lights](const std::string& text) { set_sky(lights, text); },
-           "Light from all around: an .exr or .hdr image in cd/m2, +x at its centre, or one colour")
+           "Light from all directions: an .exr or .hdr panorama in cd/m2, +x at its centre, or one "
+           "colour")
         ->type_name("FILE|R,G,B");
-    app.add_option("--sky-scale", lights.sky_scale, "Factor to the light of the sky")
+    app.add_option("--sky-scale", lights.sky_scale, "Factor for the light of the sky")
         ->type_name("F")
+        ->default_str("1")
         ->check(positive());
     app.add_option_function<double>(
            "--sky-rotation",
            [&lights](double degrees) { lights.sky_rotation = glm::radians(degrees); },
-           "Turn the sky, and --sun, about +y, counter-clockwise as seen from above")
+           "Rotate the sky and --sun about +y, counter-clockwise as seen from above")
         ->type_name("DEGREES")
+        ->default_str("0")
         ->check(between(-kMostDegrees, kMostDegrees));
     app.add_option_function<std::string>(
            "--sun", [&lights](const std::string& text) { set_sun(lights, text); },
-           "Sun, and without --sky a clear sky: AZIMUTH (clockwise from north, which is -z), "
-           "ELEVATION in degrees, or LATITUDE,LONGITUDE,DATETIME such as "
+           "Sun, with a clear sky unless there is a --sky: AZIMUTH,ELEVATION in degrees, the "
+           "azimuth clockwise from north (-z), or LATITUDE,LONGITUDE,DATETIME such as "
            "47.5,19.0,2024-06-21T12:00:00Z")
-        ->type_name("PLACE");
+        ->type_name("POSITION");
     app.add_option_function<double>(
            "--sun-angle",
            [&lights](double degrees) { lights.sun_angle = float(glm::radians(degrees)); },
-           "Half the angle of the sun's disc, and of directional lights that have none "
-           "(default: 0.2665 for --sun)")
+           "Half the angle of the sun's disc, and of directional lights without one")
         ->type_name("DEGREES")
+        ->default_str("0.2665 for --sun")
         ->check(between(0.0, kLargestSunAngle));
     app.add_option("--light-radius", lights.light_radius,
-                   "Radius of point and spot lights that have none")
+                   "Radius of point and spot lights without one")
         ->type_name("METRES")
+        ->default_str("0")
         ->check(positive());
     app.add_option_function<std::vector<std::string>>(
            "--ies",
@@ -219,64 +183,47 @@ void add_light_options(CLI::App& app, LightOptions& lights)
                for (const std::string& text : texts)
                    add_profile(lights, text);
            },
-           "IES photometric file for the point or spot lights of a name; may be repeated")
+           "IES photometric file for the point or spot lights of this name; may be repeated")
         ->type_name("LIGHT=FILE")
         ->allow_extra_args(false);  // one at a time, so that a scene may follow
 }
 
+void add_json_flag(CLI::App& app, bool& json)
+{
+    app.option_defaults()->group(kProgramGroup);
+    app.add_flag("--json", json, "Print one JSON document on stdout, and nothing else");
+}
+
 void add_talk_options(CLI::App& app, Talk& talk)
 {
-    app.add_flag("-q,--quiet", talk.quiet, "Say nothing but warnings and errors");
-    app.add_flag("--json", talk.json, "Print the report as JSON on stdout, and nothing else");
+    app.option_defaults()->group(kProgramGroup);
+    auto* quiet = app.add_flag("-q,--quiet", talk.quiet, "Print only warnings and errors");
+    app.add_flag("--verbose", talk.verbose,
+                 "Print stages, sizes, memory and device times on stderr as they become known")
+        ->excludes(quiet);
+    add_json_flag(app, talk.json);
     app.add_flag_callback(
-        "--no-progress", [&talk] { talk.progress = false; }, "Draw no progress line");
-}
-
-void add_method_options(CLI::App& app, SolverOptions& solver)
-{
-    Choices<std::string> methods;
-    for (const MethodInfo& method : kMethods)
-        methods.emplace_back(method.id, method.id);
-    const std::string title = "Method; lumel methods lists them";
-    app.add_option("--solver", solver.method, title)
-        ->type_name("NAME")
-        ->capture_default_str()
-        ->check([methods](const std::string& word) -> std::string {
-            for (const auto& method : methods)
-                if (method.first == word)
-                    return {};
-            return fmt::format("'{}' is not in the list of lumel methods", word);
-        });
-    add_choice(app, "--scheme", solver.scheme, kSchemes,
-               "Iteration scheme: phased (exact near pairs, the default) or the papers'");
-}
-
-void add_solver_options(CLI::App& app, SolverOptions& solver)
-{
-    add_choice(app, "--sampling", solver.rule, kSampleRules,
-               "Receive over the covered area of a lumel (the default) or at its centre");
-    app.add_option("--seed", solver.seed, "Of all random numbers")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
-    add_view_options(app, solver);
+        "--no-progress", [&talk] { talk.progress = false; },
+        "Show no progress line; there is one only where stderr is a terminal");
 }
 
 /// When to stop. Without any of the three the bake ends at the default error.
 void add_stop_options(CLI::App& app, SolverOptions& solver)
 {
+    app.option_defaults()->group(kStopGroup);
     auto* shots = app.add_option("--shots", solver.max_shots, "Stop after this many shooters")
                       ->type_name("N")
                       ->check(whole(1, kMostShots));
-    auto* time = app.add_option("--time", solver.max_seconds, "Stop after this long solving")
+    auto* time = app.add_option("--time", solver.max_seconds, "Stop after solving for this time")
                      ->type_name("SECONDS")
                      ->check(positive());
     auto* error = app.add_option_function<double>(
         "--error", [&solver](double percent) { solver.target_error = percent / 100.0; },
-        fmt::format(
-            "Stop at this estimated error (default: {:g}, or none beside --shots or --time)",
-            100.0 * solver.target_error));
-    error->type_name("PERCENT")->check(positive());
+        "Stop at this estimated error of the whole map");
+    error->type_name("PERCENT")
+        ->default_str(
+            fmt::format("{:g}, or none with --shots or --time", 100.0 * solver.target_error))
+        ->check(positive());
     app.callback([&solver, shots, time, error] {
         if (error->empty() && !(shots->empty() && time->empty()))
             solver.target_error = 0.0;
@@ -285,34 +232,63 @@ void add_stop_options(CLI::App& app, SolverOptions& solver)
 
 void add_sky_directions_option(CLI::App& app, BakeOptions& options)
 {
+    app.option_defaults()->group(kLightGroup);
     app.add_option("--sky-directions", options.sky_directions,
-                   "How many directions the light of the sky is taken from")
+                   "Directions from which the light of the sky is gathered")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(2, kMostDirections));
 }
 
+void add_half_option(CLI::App& app, bool& half)
+{
+    app.option_defaults()->group(kLightmapGroup);
+    app.add_flag("--half", half, "Write lightmap.exr in half precision");
+}
+
+void add_only_option(CLI::App& app, Parts& parts)
+{
+    app.option_defaults()->group(kLightmapGroup);
+    add_choice(app, "--only", parts, kParts, "Bake only direct or only indirect light")
+        ->default_str("both");
+}
+
 void add_directional_option(CLI::App& app, Directional& directional)
 {
+    app.option_defaults()->group(kLightmapGroup);
     add_choice(app, "--directional", directional, kDirectional,
-               "Also write where the light comes from, as spherical harmonics of order 1 or 2");
+               "Also store where the light comes from, as spherical harmonics of order 1 or 2");
 }
 
 void add_device_option(CLI::App& app, std::string& device)
 {
-    app.add_option("--device", device, "Index or part of a name from lumel devices")
-        ->type_name("NAME");
+    app.option_defaults()->group(kProgramGroup);
+    app.add_option("--device", device,
+                   "Vulkan device: its index or a part of its name, see lumel devices")
+        ->type_name("NAME")
+        ->default_str("the best");
+}
+
+void add_dump_option(CLI::App& app, std::string& folder)
+{
+    app.option_defaults()->group(kProgramGroup);
+    app.add_option(
+           "--dump", folder,
+           "Also write intermediate images there, as EXR and PNG: what the brightest lumel "
+           "sees, the surfaces under the sky layer by layer, near-field row sums, and power")
+        ->type_name("FOLDER");
 }
 
 void add_preview_option(CLI::App& app, int& width)
 {
-    app.add_option("--preview-width", width, "Of preview.png; 0: none")
+    app.option_defaults()->group(kPictureGroup);
+    app.add_option("--preview-width", width, "Width of preview.png in pixels; 0: none")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kLargestAtlas));
 }
 
-CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
+CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
     command.add_option("scene", bake.scene, "A .gltf or .glb file")->required()->type_name("FILE");
@@ -322,17 +298,15 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake)
     add_light_options(command, bake.options.lights);
     add_sky_directions_option(command, bake.options);
     add_atlas_options(command, bake.options.atlas);
-    add_method_options(command, bake.options.solver);
-    add_solver_options(command, bake.options.solver);
-    add_map_options(command, bake.options.solver);
-    add_matrix_options(command, bake.options.solver);
+    command.option_defaults()->group(kMethodGroup);
+    add_methods(command, method);
     add_stop_options(command, bake.options.solver);
     add_device_option(command, bake.options.device);
-    command.add_flag("--half", bake.options.half, "Write lightmap.exr in half precision");
-    add_choice(command, "--only", bake.options.parts, kParts,
-               "Of the arriving light only what comes straight from its source, or only the rest");
+    add_half_option(command, bake.options.half);
+    add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);
+    add_dump_option(command, bake.options.dump);
     add_talk_options(command, bake.talk);
     return command;
 }
@@ -351,9 +325,10 @@ CLI::App& add_update(CLI::App& app, UpdateArguments& update)
     command
         .add_option_function<double>(
             "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-            fmt::format("Error of the correction to stop at, of all light (default: {:g})",
-                        100.0 * options.residual))
+            "Stop at this error of the correction, as a part of all light")
         ->type_name("PERCENT")
+        ->group(kStopGroup)
+        ->default_str(fmt::format("{:g}", 100.0 * options.residual))
         ->check(positive());
     add_light_options(command, options.lights);
     add_device_option(command, options.device);
@@ -365,7 +340,8 @@ CLI::App& add_update(CLI::App& app, UpdateArguments& update)
 CLI::App& add_relight(CLI::App& app, RelightArguments& relight)
 {
     CLI::App& command = *app.add_subcommand(
-        "relight", "Light a bake of --solver matrix anew: any states of its lights, at once");
+        "relight",
+        "Light a bake of --solver matrix anew, with its lights dimmed, coloured or switched off");
     command.add_option("folder", relight.folder, "What lumel bake --solver matrix wrote")
         ->required()
         ->type_name("FOLDER");
@@ -383,13 +359,14 @@ CLI::App& add_relight(CLI::App& app, RelightArguments& relight)
 /// A place in a lightmap, as two numbers with a comma.
 void add_place_options(CLI::App& app, WhyOptions& options)
 {
+    app.option_defaults()->group("Point of the lightmap");
     auto* lumel = app.add_option_function<std::vector<double>>(
                          "--lumel",
                          [&options](const std::vector<double>& uv) {
                              options.place = {uv[0], uv[1]};
                          },
-                         "Place in the lightmap as TEXCOORD_1 has it, from 0,0 at its top left "
-                         "corner to 1,1")
+                         "Point of the lightmap in TEXCOORD_1: 0,0 is its top left corner, 1,1 "
+                         "the bottom right one")
                       ->type_name("U,V")
                       ->delimiter(',')
                       ->expected(2)
@@ -398,7 +375,7 @@ void add_place_options(CLI::App& app, WhyOptions& options)
         app.add_option_function<std::vector<int>>(
                "--texel",
                [&options](const std::vector<int>& at) { options.texel = glm::ivec2(at[0], at[1]); },
-               "The same as column and row of texels, from 0,0")
+               "The same as column and row of a texel, from 0,0")
             ->type_name("X,Y")
             ->delimiter(',')
             ->expected(2)
@@ -413,12 +390,13 @@ void add_place_options(CLI::App& app, WhyOptions& options)
 CLI::App& add_why(CLI::App& app, WhyArguments& why)
 {
     CLI::App& command = *app.add_subcommand(
-        "why", "Say what sends light to a place of a baked lightmap, and show it in why.png");
+        "why", "List what sends light to a point of a baked lightmap, and show it in why.png");
     command.add_option("folder", why.folder, "What lumel bake wrote")
         ->required()
         ->type_name("FOLDER");
     add_place_options(command, why.options);
-    command.add_option("--width", why.options.width, "Of why.png in pixels; 0: none")
+    command.add_option("--width", why.options.width, "Width of why.png in pixels; 0: none")
+        ->group(kPictureGroup)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kLargestAtlas));
@@ -430,20 +408,21 @@ CLI::App& add_why(CLI::App& app, WhyArguments& why)
 /// Who looks, and how finely.
 void add_picture_options(CLI::App& app, int& camera, int& width)
 {
-    app.add_option("--camera", camera,
-                   "Number of the file's camera, from 0 (default: the first, or one chosen)")
+    app.option_defaults()->group(kPictureGroup);
+    app.add_option("--camera", camera, "Camera of the file by its number, from 0")
         ->type_name("N")
+        ->default_str("the first, or one that is chosen")
         ->check(whole(0, kMostCameras));
-    app.add_option("--width", width, "Of a picture in pixels")
+    app.add_option("--width", width, "Width of the picture in pixels")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kLargestAtlas));
 }
 
-CLI::App& add_render(CLI::App& app, RenderArguments& render)
+CLI::App& add_render(CLI::App& app, RenderArguments& render, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand(
-        "render", "Solve the light of a scene, gloss and all, and show it to a camera");
+        "render", "Make a picture of a scene from one of its cameras, glossy reflections included");
     RenderOptions& options = render.options;
     command.add_option("scene", render.scene, "A .gltf or .glb file")
         ->required()
@@ -452,32 +431,37 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
         ->required()
         ->type_name("FILE");
     add_picture_options(command, options.camera, options.width);
-    command.add_option("--height", options.height, "Of the picture (default: as the camera says)")
+    command.add_option("--height", options.height, "Height of the picture in pixels")
         ->type_name("N")
+        ->default_str("from the camera")
         ->check(whole(1, kLargestAtlas));
-    command.add_option("--places", options.sets, "Places looked at within each pixel")
+    command.add_option("--places", options.sets, "Sample points in each pixel")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kMostPlaces));
-    command.add_option("--eye-shots", options.shots, "Shooters for glossy reflections in view")
+    command
+        .add_option("--eye-shots", options.shots,
+                    "Shooters for glossy reflections in view, after those of the solution")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostShots));
-    command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each place")
+    command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostRays));
     command
         .add_option("--paths", options.paths,
-                    "Trace this many paths per pixel on the CPU instead, to compare with")
+                    "Trace this many paths per pixel on the processor instead, to compare with")
         ->type_name("N")
         ->check(whole(1, kMostPaths));
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);
-    add_solver_options(command, options.bake.solver);
+    command.option_defaults()->group(kMethodGroup);
+    add_one_method(command, method);
     add_stop_options(command, options.bake.solver);
     add_device_option(command, options.bake.device);
+    add_dump_option(command, options.bake.dump);
     add_talk_options(command, render.talk);
     return command;
 }
@@ -485,40 +469,47 @@ CLI::App& add_render(CLI::App& app, RenderArguments& render)
 /// What is played, and how closely the light follows.
 void add_play_options(CLI::App& app, PlayOptions& options)
 {
-    app.add_option("--frames", options.frames, "Pictures to make (default: the animation's length)")
+    app.option_defaults()->group(kAnimationGroup);
+    app.add_option("--frames", options.frames, "Number of frames")
         ->type_name("N")
+        ->default_str("the animation's length")
         ->check(whole(1, kMostFrames));
-    app.add_option("--fps", options.fps, "Pictures for each second of the animation")
+    app.add_option("--fps", options.fps, "Frames per second of the animation")
         ->type_name("N")
         ->capture_default_str()
         ->check(between(1.0 / kMostFps, kMostFps));
-    app.add_option("--animation", options.animation, "Number of the file's animation, from 0")
+    app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostAnimations));
-    add_choice(app, "--redistribution", options.redistribution, kRedistributions,
-               "How light follows what moves: everything looks anew where it must (incremental, "
-               "the default), or only what moves looks (cross)");
-    app.add_option("--budget", options.budget_ms,
-                   "Milliseconds that the light of each picture may take (default: as it needs)")
+    add_choice(
+        app, "--redistribution", options.redistribution, kRedistributions,
+        "How light follows a move: incremental shoots again past the old and the new position, "
+        "as exact as a new solution; cross uses only views from what moves, which is faster "
+        "where that is small");
+    app.add_option(
+           "--budget", options.budget_ms,
+           "Milliseconds for the light of each frame; where they are not enough it lags behind")
         ->type_name("MS")
+        ->default_str("as needed")
         ->check(positive());
     app.add_option_function<double>(
            "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-           fmt::format("Light left to be shot at which it is at rest (default: {:g})",
-                       100.0 * options.residual))
+           "Light left to be shot, as a part of all, at which a solution is at rest")
         ->type_name("PERCENT")
+        ->default_str(fmt::format("{:g}", 100.0 * options.residual))
         ->check(positive());
     app.add_option("--exposure", options.exposure,
-                   "Factor from cd/m2 to the pictures' brightness (default: as suits the first)")
+                   "Factor from cd/m2 to brightness, the same for all frames")
         ->type_name("F")
+        ->default_str("as suits the first frame")
         ->check(positive());
 }
 
-CLI::App& add_play(CLI::App& app, PlayArguments& play)
+CLI::App& add_play(CLI::App& app, PlayArguments& play, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand(
-        "play", "Show a scene's animation, its light corrected from picture to picture");
+        "play", "Render a scene's animation and correct the light from frame to frame");
     PlayOptions& options = play.options;
     command.add_option("scene", play.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     command.add_option("folder", play.folder, "Where the results go")
@@ -527,7 +518,8 @@ CLI::App& add_play(CLI::App& app, PlayArguments& play)
     add_play_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
-    add_view_options(command, options.solver);
+    command.option_defaults()->group(kMethodGroup);
+    add_one_method(command, method);
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
     return command;
@@ -536,7 +528,8 @@ CLI::App& add_play(CLI::App& app, PlayArguments& play)
 CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
 {
     CLI::App& command =
-        *app.add_subcommand("reference", "Compute the same map by path tracing on the CPU");
+        *app.add_subcommand("reference", "Compute the same map by path tracing on the processor");
+    command.option_defaults()->group(kMethodGroup);
     command.add_option("scene", reference.scene, "A .gltf or .glb file")
         ->required()
         ->type_name("FILE");
@@ -547,7 +540,7 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kMostPaths));
-    command.add_option("--seed", reference.reference.seed, "Of all random numbers")
+    command.add_option("--seed", reference.reference.seed, "Random seed")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, std::numeric_limits<std::uint32_t>::max()));
@@ -555,64 +548,51 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
                "Receive over the covered area of a lumel (the default) or at its centre");
     command.add_flag_callback(
         "--gloss", [&reference] { reference.materials = MaterialModel::glossy; },
-        "Pass light on by glossy reflection too, as --solver glossy does");
-    add_choice(command, "--only", reference.reference.parts, kParts,
-               "Of the arriving light only what comes straight from its source, or only the rest");
+        "Include glossy reflection between surfaces, as --solver glossy does");
+    add_only_option(command, reference.reference.parts);
     add_light_options(command, reference.options.lights);
     add_atlas_options(command, reference.options.atlas);
-    command.add_flag("--half", reference.options.half, "Write lightmap.exr in half precision");
+    add_half_option(command, reference.options.half);
     add_talk_options(command, reference.talk);
     return command;
 }
 
-CLI::App& add_info(CLI::App& app, InfoArguments& info)
+CLI::App& add_info(CLI::App& app, InfoArguments& info, GivenMethod& method)
 {
     CLI::App& command =
-        *app.add_subcommand("info", "Say what is in a scene and what a bake would take");
+        *app.add_subcommand("info", "List what is in a scene and what a bake of it would need");
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
-    add_method_options(command, info.options.solver);
-    add_view_options(command, info.options.solver);
+    command.option_defaults()->group(kMethodGroup);
+    add_methods(command, method);
     add_directional_option(command, info.options.directional);
-    command.add_flag("--json", info.json, "Print JSON");
+    add_json_flag(command, info.json);
     return command;
 }
 
 CLI::App& add_compare(CLI::App& app, CompareArguments& compare)
 {
     CLI::App& command = *app.add_subcommand("compare", "Measure how far map A is from map B");
-    command.add_option("A", compare.map, "The map to judge, an EXR file")
+    command.option_defaults()->group("Comparison");
+    command.add_option("A", compare.map, "The map to measure, an EXR file")
         ->required()
         ->type_name("FILE");
-    command.add_option("B", compare.reference, "The map taken as the truth")
+    command.add_option("B", compare.reference, "The map that is taken as right")
         ->required()
-        ->type_name("FILE");
-    command.add_option("-o,--heat-map", compare.heat_map, "PNG to write (default: A-vs-B.png)")
         ->type_name("FILE");
     command
+        .add_option("-o,--heat-map", compare.heat_map,
+                    "PNG to write; white is a difference of 10 % of the mean")
+        ->type_name("FILE")
+        ->default_str("A-vs-B.png");
+    command
         .add_option("--ignore-above", compare.most,
-                    "Leave out what is brighter than this in B, such as lamps in a picture")
+                    "Leave out texels that are brighter than this in B, such as lamps in a picture")
         ->type_name("VALUE")
         ->check(positive());
-    command.add_flag("--json", compare.json, "Print JSON");
+    add_json_flag(command, compare.json);
     return command;
-}
-
-/// Throws for options that would do nothing.
-void check_map_options(const CLI::App& command, const SolverOptions& solver)
-{
-    const auto require = [&](const char* option, bool used, const char* with) {
-        if (command.count(option) > 0 && !used)
-            throw Error(ErrorKind::input, option, std::string("does nothing without ") + with);
-    };
-    for (const char* option : {"--layers", "--lookups", "--slabs", "--map-side"})
-        require(option, solver.method == "directions", "--solver directions");
-    for (const char* option : {"--lookups", "--slabs"})
-        require(option, solver.layers == Layers::stochastic, "--layers stochastic");
-    if (solver.method == "gather" && solver.projection != Projection::hemicube)
-        throw Error(ErrorKind::input, "--projection",
-                    "must be hemicube with --solver gather, which knows no other");
 }
 
 /// What CLI11 did not accept, as one sentence.
@@ -621,14 +601,14 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error)
     const auto commands = app.get_subcommands();
     const std::string command =
         commands.empty() ? "lumel" : "lumel " + commands.front()->get_name();
-    const std::string advice = "; " + command + " --help shows what there is";
+    const std::string advice = "; " + command + " --help lists what there is";
     const std::vector<std::string> extras = app.remaining(true);
     for (const std::string& word : extras)
         if (word.starts_with('-'))
-            return fmt::format("{} is no option of {}{}", word, command, advice);
+            return fmt::format("{} is not an option of {}{}", word, command, advice);
     if (!extras.empty())
         return commands.empty()
-                   ? fmt::format("{} is no command of {}{}", extras.front(), command, advice)
+                   ? fmt::format("{} is not a command of {}{}", extras.front(), command, advice)
                    : fmt::format("{} was not expected{}", extras.front(), advice);
     return error.what() + advice;
 }
@@ -640,6 +620,9 @@ Arguments parse_arguments(int count, char** values)
     CLI::App app("Lumel bakes the light of a glTF scene into lightmaps.", "lumel");
     app.set_version_flag("--version", "lumel " LUMEL_VERSION);
     app.require_subcommand(1);
+    app.formatter_fn([](const CLI::App* command, const std::string& path, CLI::AppFormatMode) {
+        return help_text(*command, path);
+    });
 
     BakeArguments bake;
     UpdateArguments update;
@@ -651,18 +634,28 @@ Arguments parse_arguments(int count, char** values)
     InfoArguments info;
     CompareArguments compare;
     DevicesArguments devices;
-    const CLI::App& bake_command = add_bake(app, bake);
+    GivenMethod bake_method, info_method;
+    GivenMethod render_method{.id = method_of(render.options.bake.solver.method).id};
+    GivenMethod play_method{.id = method_of(MethodOptions(play.options.solver)).id};
+    const CLI::App& bake_command = add_bake(app, bake, bake_method);
     const CLI::App& update_command = add_update(app, update);
     const CLI::App& relight_command = add_relight(app, relight);
     const CLI::App& why_command = add_why(app, why);
-    const CLI::App& render_command = add_render(app, render);
-    const CLI::App& play_command = add_play(app, play);
+    const CLI::App& render_command = add_render(app, render, render_method);
+    const CLI::App& play_command = add_play(app, play, play_method);
     const CLI::App& reference_command = add_reference(app, reference);
-    const CLI::App& info_command = add_info(app, info);
+    const CLI::App& info_command = add_info(app, info, info_method);
     const CLI::App& compare_command = add_compare(app, compare);
-    CLI::App& devices_command = *app.add_subcommand("devices", "List what Vulkan offers");
-    devices_command.add_flag("--json", devices.json, "Print JSON");
-    app.add_subcommand("methods", "List the solvers");
+    CLI::App& devices_command =
+        *app.add_subcommand("devices", "List the Vulkan devices, and why one cannot be used");
+    add_json_flag(devices_command, devices.json);
+    app.add_subcommand("methods", "List the methods of --solver");
+    // For docs/options.md: no group, so that --help does not list it.
+    const CLI::App& options_command =
+        *app.add_subcommand("options", "Print docs/options.md")->group("");
+
+    for (CLI::App* command : app.get_subcommands({}))
+        command->get_help_ptr()->group(kProgramGroup);
 
     try {
         app.parse(count, values);
@@ -675,7 +668,7 @@ Arguments parse_arguments(int count, char** values)
     }
 
     if (bake_command.parsed()) {
-        check_map_options(bake_command, bake.options.solver);
+        bake.options.solver.method = bake_method.options();
         return bake;
     }
     if (update_command.parsed())
@@ -684,18 +677,26 @@ Arguments parse_arguments(int count, char** values)
         return relight;
     if (why_command.parsed())
         return why;
-    if (render_command.parsed())
+    if (render_command.parsed()) {
+        render.options.bake.solver.method = render_method.options();
         return render;
-    if (play_command.parsed())
+    }
+    if (play_command.parsed()) {
+        play.options.solver = std::get<ProgressiveOptions>(play_method.options());
         return play;
+    }
     if (reference_command.parsed())
         return reference;
-    if (info_command.parsed())
+    if (info_command.parsed()) {
+        info.options.solver.method = info_method.options();
         return info;
+    }
     if (compare_command.parsed())
         return compare;
     if (devices_command.parsed())
         return devices;
+    if (options_command.parsed())
+        return TextArguments{options_page(app)};
     return MethodsArguments{};
 }
 

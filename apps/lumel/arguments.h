@@ -1,5 +1,5 @@
 #pragma once
-// What was asked for on the command line.
+// The command line, parsed.
 
 #include <limits>
 #include <string>
@@ -14,11 +14,12 @@
 
 namespace lumel {
 
-/// What a command says while it works.
+/// What a command prints while it works.
 struct Talk {
     bool quiet = false;    ///< nothing but warnings and errors
     bool json = false;     ///< stdout carries one JSON document and nothing else
     bool progress = true;  ///< a progress line, where stderr is a terminal
+    bool verbose = false;  ///< on stderr what becomes known as it does, a line each
 };
 
 struct BakeArguments {

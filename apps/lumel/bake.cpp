@@ -20,7 +20,7 @@ int run(const BakeArguments& arguments)
                                       summary.seconds, error),
                           summary.interrupted};
     };
-    return do_long_work(arguments.talk, arguments.options.solver.batch, work);
+    return do_long_work(arguments.talk, batch_of(arguments.options.solver.method), work);
 }
 
 }  // namespace lumel

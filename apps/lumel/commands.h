@@ -5,7 +5,7 @@
 
 namespace lumel {
 
-/// Exit codes; documented in README.md.
+/// Exit codes; documented in docs/results.md.
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitUnexpected = 1;
 inline constexpr int kExitInput = 2;

@@ -17,7 +17,7 @@ void watch(int signal)
 {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // A parent that had us ignore the signal (nohup, a shell's background job) knows better.
+    // A parent that had us ignore the signal (nohup, a shell's background job) has its reason.
     if (before.sa_handler == SIG_IGN)
         return;
     struct sigaction action = {};

@@ -6,7 +6,7 @@ namespace lumel {
 /// From now on the first Ctrl-C (or SIGTERM) only sets a flag; a second one ends the program.
 void watch_interrupts();
 
-/// True once the user asked to stop.
+/// True once the user has pressed Ctrl-C.
 bool interrupted();
 
 /// 128 + the signal's number, as shells report it: 130 for Ctrl-C.

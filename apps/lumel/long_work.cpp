@@ -1,9 +1,12 @@
 #include "long_work.h"
 
+#include <cstdio>
+
 #include <fmt/core.h>
 
 #include "commands.h"
 #include "core/log.h"
+#include "core/usage.h"
 #include "interrupt.h"
 #include "progress_bar.h"
 
@@ -15,7 +18,13 @@ int do_long_work(const Talk& talk, int batch,
     watch_interrupts();
     set_quiet(talk.quiet || talk.json);
     ProgressBar bar(talk.progress && !talk.quiet, batch);
+    const double start = wall_seconds();
     const Conclusion conclusion = work([&](const BakeProgress& progress) {
+        if (talk.verbose && !progress.note.empty()) {
+            bar.clear();
+            fmt::print(stderr, "{:9.3f} s  {}: {}\n", wall_seconds() - start, progress.stage,
+                       progress.note);
+        }
         bar.show(progress);
         return !interrupted();
     });

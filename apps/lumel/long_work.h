@@ -8,14 +8,14 @@
 
 namespace lumel {
 
-/// What is said at the end of it.
+/// What is printed at its end.
 struct Conclusion {
     std::string report;    ///< JSON, with its line break
     std::string sentence;  ///< the same in a line for people
     bool interrupted = false;
 };
 
-/// Does long work: a progress line shows how far it is, Ctrl-C asks it to stop early, and stdout
+/// Does long work: a progress line shows how far it is, Ctrl-C stops it early, and stdout
 /// gets its conclusion as `talk` wants it. `batch`: shooters per iteration; 0 where nothing is
 /// shot. Returns the exit code; throws what `work` throws.
 int do_long_work(const Talk& talk, int batch,

@@ -3,12 +3,13 @@
 #include <fmt/core.h>
 
 #include "commands.h"
+#include "solve/methods.h"
 
 namespace lumel {
 
 int run(const MethodsArguments&)
 {
-    for (const MethodInfo& method : kMethods)
+    for (const MethodInfo& method : methods())
         fmt::print("{}  {} {}\n    use it for: {}\n", method.id, method.title, method.paper,
                    method.advice);
     return kExitDone;

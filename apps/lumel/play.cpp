@@ -17,7 +17,7 @@ int run(const PlayArguments& arguments)
                                       summary.seconds),
                           summary.interrupted};
     };
-    return do_long_work(arguments.talk, arguments.options.solver.batch, work);
+    return do_long_work(arguments.talk, arguments.options.solver.views.batch, work);
 }
 
 }  // namespace lumel

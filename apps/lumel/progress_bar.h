@@ -1,5 +1,5 @@
 #pragma once
-// One line at the terminal that says how far a bake is.
+// One line at the terminal that shows how far a bake is.
 
 #include <chrono>
 #include <string>

@@ -17,7 +17,7 @@ int run(const RenderArguments& arguments)
                                       summary.width, summary.height, summary.seconds),
                           summary.interrupted};
     };
-    return do_long_work(arguments.talk, arguments.options.bake.solver.batch, work);
+    return do_long_work(arguments.talk, batch_of(arguments.options.bake.solver.method), work);
 }
 
 }  // namespace lumel

@@ -21,7 +21,7 @@ std::string changes_in(const UpdateRow& row)
     add(row.vanished, "vanished");
     add(row.recoloured, "changed colour");
     if (row.relit)
-        list += list.empty() ? "the light is another" : ", the light is another";
+        list += list.empty() ? "sky or lamps differ" : ", sky or lamps differ";
     return list.empty() ? "nothing has changed" : list;
 }
 
@@ -35,7 +35,7 @@ std::string sentence_of(const UpdateSummary& summary)
             ? ""
             : fmt::format(", estimated error of the map {:.2f} %", 100.0 * summary.error);
     if (row.solved_anew)
-        return fmt::format("{}: so much that it was solved anew, in {:.1f} s{}", changes_in(row),
+        return fmt::format("{}: too much to correct: solved anew in {:.1f} s{}", changes_in(row),
                            summary.seconds, error);
     return fmt::format(
         "{}: corrected with {} rays and {} particles in {:.1f} s, residual {:.2f} %{}",

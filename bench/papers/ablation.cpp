@@ -18,6 +18,7 @@
 #include "preview/view.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
+#include "solve/stochastic.h"
 
 namespace lumel::bench {
 namespace {
@@ -25,8 +26,8 @@ namespace {
 /// Places looked at within a pixel.
 constexpr std::uint32_t kSets = 4;
 
-/// A way to find what lobes reflect to the eye, and what it came to.
-struct Way {
+/// A technique that finds what lobes reflect to the eye, and its result.
+struct Technique {
     const char* name;
     std::uint64_t shots;
     std::uint32_t rays;
@@ -38,7 +39,7 @@ struct Way {
 struct Sight {
     Sight(const AblationSettings& settings, const gpu::Device& device);
 
-    SolverOptions options;
+    SolverOptions options;  ///< of GlossyOptions
     Prepared world;
     NearField near;
     World resident;
@@ -51,7 +52,7 @@ struct Sight {
 
 Settings glossy(Settings settings)
 {
-    settings.solver.method = "glossy";
+    settings.given.id = "glossy";
     return settings;
 }
 
@@ -64,7 +65,7 @@ Seen seen_by_camera(const AblationSettings& settings, const Prepared& world,
 }
 
 Sight::Sight(const AblationSettings& settings, const gpu::Device& device)
-    : options(glossy(settings.shared).solver),
+    : options(solver_of(glossy(settings.shared))),
       world(read_gltf(settings.shared.scene, MaterialModel::glossy),
             AtlasOptions{.size = settings.shared.size}),
       near(build_near_field(world.scene, world.rays, world.lumels, near_field_options(options))),
@@ -95,44 +96,45 @@ std::vector<double> pixels_of(const Sight& sight, const std::vector<glm::vec3>& 
 }
 
 /// One picture, made as lumel render does.
-void take(Way& way, const Sight& sight, GlossyIllumination& solver, const LitScene& lit,
+void take(Technique& technique, const Sight& sight, GlossyIllumination& solver, const LitScene& lit,
           std::uint32_t seed)
 {
     Stopwatch watch;
     watch.start();
-    const EyeSampling sampling{sight.seen.first, way.shots, way.rays};
+    const EyeSampling sampling{sight.seen.first, technique.shots, technique.rays};
     const std::vector<float> brightness = solver.brightness();
     std::vector<glm::vec3> radiance(sight.seen.glossy.size());
-    if (way.shots > 0) {
+    if (technique.shots > 0) {
         solver.look_at(sight.seen.glossy, brightness, sampling);
-        const std::uint64_t end = solver.state().shots + way.shots;
+        const std::uint64_t end = solver.state().shots + technique.shots;
         while (solver.state().shots < end)
             solver.step();
         radiance = solver.eye_radiance();
     }
-    const LobeRayOptions lobes{
-        .rays = way.rays, .shooters = way.shots > 0 ? sampling.shooters() : 0.0f, .seed = seed};
+    const LobeRayOptions lobes{.rays = technique.rays,
+                               .shooters = technique.shots > 0 ? sampling.shooters() : 0.0f,
+                               .seed = seed};
     const PowerDraw senders(sight.standing, sight.world.lumels, brightness);
     const std::vector<glm::vec3> along = gather_along_lobes(sight.seen.glossy, sight.world.rays,
                                                             sight.surfaces, lit, senders, lobes);
     for (std::size_t g = 0; g < radiance.size(); ++g)
         radiance[g] += along[g];
     watch.stop();
-    way.cpu += watch.cpu;
-    way.spread.add(pixels_of(sight, radiance));
+    technique.cpu += watch.cpu;
+    technique.spread.add(pixels_of(sight, radiance));
 }
 
-void print_ways(const std::vector<Way>& ways, const Sight& sight, int seeds)
+void print_techniques(const std::vector<Technique>& techniques, const Sight& sight, int seeds)
 {
     fmt::print("Multiple importance sampling: {} × {} pixels, {} seeds\n\n"
-               "| way | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
+               "| method | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
                "|---|---|---|---|---|---|---|\n",
                sight.seen.width, sight.seen.height, seeds);
-    for (const Way& way : ways) {
-        const double cpu = way.cpu / seeds;
-        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", way.name, way.shots,
-                   way.rays, way.spread.mean(), way.spread.variance(), cpu,
-                   way.spread.variance() * cpu);
+    for (const Technique& technique : techniques) {
+        const double cpu = technique.cpu / seeds;
+        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", technique.name,
+                   technique.shots, technique.rays, technique.spread.mean(),
+                   technique.spread.variance(), cpu, technique.spread.variance() * cpu);
     }
     std::fflush(stdout);
 }
@@ -143,49 +145,50 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
     const Sight sight(settings, device);
     const auto shots = std::uint64_t(settings.eye_shots);
     const auto rays = std::uint32_t(settings.rays);
-    std::vector<Way> ways = {{.name = "shooters alone", .shots = shots, .rays = 0},
-                             {.name = "rays alone", .shots = 0, .rays = rays},
-                             {.name = "both, weighed", .shots = shots, .rays = rays}};
+    std::vector<Technique> techniques = {{.name = "shooters alone", .shots = shots, .rays = 0},
+                                         {.name = "rays alone", .shots = 0, .rays = rays},
+                                         {.name = "both, weighted", .shots = shots, .rays = rays}};
     for (int i = 0; i < settings.seeds; ++i) {
         SolverOptions options = sight.options;
-        options.seed += std::uint32_t(i);
+        auto& gloss = std::get<GlossyOptions>(options.method);
+        gloss.seed += std::uint32_t(i);
         options.max_shots = std::uint64_t(settings.solving_shots);
         options.target_error = 0.0;
-        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, options,
-                                  {}, &*sight.particles);
+        GlossyIllumination solver(device, sight.resident, sight.world.lumels, sight.near, gloss, {},
+                                  &*sight.particles);
         solve(solver, options);
         // Without rays, shooters send what lobes do.
-        GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, options);
+        GlossyIllumination alone(device, sight.resident, sight.world.lumels, sight.near, gloss);
         solve(alone, options);
         const Prepared& world = sight.world;
         const SideMaps maps =
             finish_sides(world.scene, world.atlas, world.lumels, solver.irradiance());
         const LitScene lit(world.scene, world.atlas, world.lumels, maps.front, maps.back);
         if (i == 0) {  // the driver compiles shaders when they first run
-            Way warm = ways.back();
-            take(warm, sight, solver, lit, options.seed);
+            Technique warm = techniques.back();
+            take(warm, sight, solver, lit, gloss.seed);
         }
-        for (Way& way : ways)
-            take(way, sight, way.rays > 0 ? solver : alone, lit, options.seed);
+        for (Technique& technique : techniques)
+            take(technique, sight, technique.rays > 0 ? solver : alone, lit, gloss.seed);
     }
-    print_ways(ways, sight, settings.seeds);
+    print_techniques(techniques, sight, settings.seeds);
 }
 
 /// Light at every lumel after some iterations of the papers' scheme, between seeds.
 Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device& device,
                             const Prepared& world, const World& resident,
-                            const SolverOptions& options)
+                            const StochasticOptions& options)
 {
     Spread spread;
     for (int i = 0; i < settings.seeds; ++i) {
-        SolverOptions seeded = options;
+        StochasticOptions seeded = options;
         seeded.seed += std::uint32_t(i);
-        const auto solver =
-            make_solver(device, resident, world.lumels, no_near_field(world.lumels), seeded);
+        StochasticRadiosity solver(device, resident, world.lumels, no_near_field(world.lumels),
+                                   seeded);
         for (int k = 0; k < settings.iterations; ++k)
-            solver->step();
+            solver.step();
         std::vector<double> values;
-        for (const glm::vec3& irradiance : solver->irradiance())
+        for (const glm::vec3& irradiance : solver.irradiance())
             values.push_back(luminance(irradiance));
         spread.add(values);
     }
@@ -202,7 +205,7 @@ struct Partial {
 void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
 {
     Settings diffuse = settings.shared;
-    diffuse.solver.method = "stochastic";
+    diffuse.given.id = "stochastic";
     const Prepared world = prepare(diffuse, diffuse.size);
     const World resident(device, world.scene, world.lumels);
     fmt::print("\nPartial analytic integration: {} lumels, {} iterations, {} seeds\n\n"
@@ -213,7 +216,9 @@ void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
         for (const Partial& partial : {Partial{"r²", false, 0}, Partial{"r² + A/π", true, 0},
                                        Partial{"r² + A/π, 2 × 2 texels merged", true, 1},
                                        Partial{"r² + A/π, 4 × 4 texels merged", true, 2}}) {
-            SolverOptions options = papers_iteration(diffuse.solver);
+            auto options = options_of<StochasticOptions>(diffuse);
+            options.views.batch = 1;
+            options.iteration.scheme = Scheme::paper;
             options.rule = rule;
             options.disc = partial.disc;
             options.merge = partial.merge;

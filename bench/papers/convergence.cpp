@@ -35,7 +35,7 @@ struct Step {
 
 std::string word_for(const SolverOptions& options)
 {
-    return options.scheme == Scheme::paper ? "paper" : "phased";
+    return is_papers(options.method) ? "paper" : "phased";
 }
 
 bool is_glossy(const SolverOptions& options)
@@ -43,15 +43,16 @@ bool is_glossy(const SolverOptions& options)
     return method_of(options.method).materials == MaterialModel::glossy;
 }
 
-/// The glossy scene from its camera, by so many iterations before the eye looks and as many after.
+/// The glossy scene from its camera, by a number of iterations before the eye looks and as many
+/// after.
 Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options, int iterations)
 {
-    options.max_shots = std::uint64_t(iterations) * std::uint64_t(options.batch);
+    options.max_shots = std::uint64_t(iterations) * std::uint64_t(batch_of(options.method));
     options.target_error = 0.0;
     RenderOptions render_options{.width = settings.width,
                                  .sets = std::uint32_t(std::min(iterations, kMostSets)),
                                  .shots = options.max_shots,
-                                 .rays = options.scheme == Scheme::paper ? 0u : kRays};
+                                 .rays = is_papers(options.method) ? 0u : kRays};
     render_options.bake.atlas.size = settings.shared.size;
     render_options.bake.solver = options;
     render_options.bake.device = settings.shared.device;
@@ -98,7 +99,7 @@ void print_row(const SolverOptions& options, const SolverState& state, double cp
     const std::string measured =
         error ? fmt::format("{:.2f} | {:+.2f}", 100.0 * error->relative_rmse, 100.0 * error->bias)
               : "– | –";
-    fmt::print("| {} | {} | {} | {} | {} | {:.3f} |\n", word_for(options), options.batch,
+    fmt::print("| {} | {} | {} | {} | {} | {:.3f} |\n", word_for(options), batch_of(options.method),
                state.iterations, state.shots, measured, cpu);
     std::fflush(stdout);
 }
@@ -111,13 +112,17 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
-    const LobeParticles* carriers = particles ? &*particles : nullptr;
+    const SolverInputs inputs{.device = device,
+                              .world = resident,
+                              .lumels = world.lumels,
+                              .near = near,
+                              .particles = particles ? &*particles : nullptr};
     {  // the driver compiles shaders when they first run
-        const auto warm = make_solver(device, resident, world.lumels, near, options, {}, carriers);
+        const auto warm = make_solver(inputs, options);
         warm->step();
         warm->irradiance();
     }
-    const auto solver = make_solver(device, resident, world.lumels, near, options, {}, carriers);
+    const auto solver = make_solver(inputs, options);
     std::vector<Step> steps;
     Stopwatch watch;
     for (const int iterations : settings.iterations) {
@@ -150,11 +155,12 @@ void follow_convergence(const ConvergenceSettings& settings)
     fmt::print("{}, {}, {} lumels at {}², {} ({})\n\n"
                "| scheme | K | iterations | shooters | RMSE % | bias % | cpu s |\n"
                "|---|---|---|---|---|---|---|\n",
-               settings.shared.scene, settings.shared.solver.method, world.lumels.lumels.size(),
+               settings.shared.scene, settings.shared.given.id, world.lumels.lumels.size(),
                world.atlas.width, device.info().name, device.info().driver);
     const std::vector<std::vector<Image>> rows{
-        follow(settings, papers_iteration(settings.shared.solver), device, world, reference),
-        follow(settings, settings.shared.solver, device, world, reference)};
+        follow(settings, papers_iteration(settings.shared.given.options()), device, world,
+               reference),
+        follow(settings, solver_of(settings.shared), device, world, reference)};
     if (!settings.folder.empty())
         write_png(stem_of(settings) + "-pictures.png", contact_sheet(rows));
     device.check_validation();

@@ -73,8 +73,8 @@ struct Gathered {
 Gathered gather(const gpu::Device& device, const Prepared& world, const SolverOptions& options)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    const auto solver =
-        make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+    const NearField none = no_near_field(world.lumels);
+    const auto solver = make_solver({device, resident, world.lumels, none}, options);
     Gathered gathered;
     gathered.watch.start();
     solve(*solver, options);
@@ -88,10 +88,10 @@ Gathered gather(const gpu::Device& device, const Prepared& world, const SolverOp
 
 SolverOptions options_for(const DirectionsSettings& settings, const Example& example)
 {
-    SolverOptions options = papers_iteration(settings.shared.solver);
-    options.method = "directions";
-    options.layers = Layers::stochastic;
-    options.lookups = kLookups;
+    auto directions = options_of<DirectionsOptions>(settings.shared);
+    directions.layers = Layers::stochastic;
+    directions.lookups = kLookups;
+    SolverOptions options = papers_iteration(directions);
     options.max_shots =
         std::uint64_t(settings.directions > 0 ? settings.directions : example.directions);
     options.target_error = 0.0;
@@ -102,7 +102,7 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 MapError error_of_layers(const gpu::Device& device, const Prepared& world, SolverOptions options,
                          const Gathered& stochastic)
 {
-    options.layers = Layers::list;
+    std::get<DirectionsOptions>(options.method).layers = Layers::list;
     return compare_maps(stochastic.map, gather(device, world, options).map);
 }
 
@@ -152,8 +152,8 @@ void show_directions(const DirectionsSettings& settings)
                "| scene | triangles | lumels | directions | wall ms per direction | cpu ms "
                "| draw | gather | RMSE against list, % | bias, % |\n"
                "|---|---|---|---|---|---|---|---|---|---|\n",
-               settings.shared.size, settings.shared.solver.map_side, kLookups, kLookups,
-               device.info().name, device.info().driver);
+               settings.shared.size, options_of<DirectionsOptions>(settings.shared).map_side,
+               kLookups, kLookups, device.info().name, device.info().driver);
     std::vector<std::vector<Image>> rows(1);
     for (const Example& example : kExamples) {
         if (rows.back().size() == kPicturesInRow)

@@ -13,7 +13,7 @@
 namespace lumel::bench {
 namespace {
 
-/// A place from where nothing can be told to be there [m].
+/// A place so far away that the box has no effect [m].
 constexpr glm::vec3 kAway{0.0f, 1000.0f, 0.0f};
 
 double apart(const LiveScene& live, const Image& first)
@@ -37,7 +37,7 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
     LiveScene live(device, scene,
                    {.atlas = {.size = settings.shared.size},
                     .redistribution = redistribution,
-                    .solver = settings.shared.solver,
+                    .solver = options_of<ProgressiveOptions>(settings.shared),
                     .movers = {box},
                     .residual = settings.residual});
     live.settle();
@@ -48,9 +48,9 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
     };
     const glm::mat4 home = scene.instances[box].transform;
     const auto before = in_a_row(live.lumels(), live.irradiance());
-    const std::pair<const char*, glm::mat4> ways[] = {
+    const std::pair<const char*, glm::mat4> places[] = {
         {"away", glm::translate(glm::mat4(1.0f), kAway) * home}, {"put back", home}};
-    for (const auto& [after, place] : ways) {
+    for (const auto& [after, place] : places) {
         live.move(box, place);
         live.settle();
         print(after, apart(live, before));

@@ -46,6 +46,7 @@ struct Stage {
     std::uint32_t box = 0;
     std::vector<glm::mat4> places;  ///< one after another
     LiveOptions options;
+    GatherOptions gather;
 };
 
 Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
@@ -57,7 +58,8 @@ Stage set(const ThesisScene& which, const DynamicSettings& settings, int pieces)
     for (int step = 1; step <= settings.steps + 1; ++step)
         stage.places.push_back(turned(stage.scene, stage.box, double(step * settings.degrees)));
     stage.options.atlas.size = which.low_quality ? settings.low_size : settings.shared.size;
-    stage.options.solver = settings.shared.solver;
+    stage.options.solver = options_of<ProgressiveOptions>(settings.shared);
+    stage.gather = options_of<GatherOptions>(settings.shared);
     stage.options.movers = {stage.box};
     stage.options.residual = settings.residual;
     return stage;
@@ -112,10 +114,9 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
 {
     Scene scene = stage.scene;
     scene.instances[stage.box].transform = stage.places.back();
-    SolverOptions options = stage.options.solver;
-    options.method = kNames[kGather];
+    const SolverOptions options{.method = stage.gather};
     const World world(device, scene, laid_out.lumels(), &laid_out.atlas());
-    const auto solver = make_solver(device, world, laid_out.lumels(), {}, options);
+    const auto solver = make_solver({device, world, laid_out.lumels(), {}}, options);
     Outcome outcome;
     Stopwatch watch;
     watch.start();
@@ -265,9 +266,10 @@ std::vector<ThesisScene> scenes_of(const DynamicSettings& settings)
 void follow_moves(const DynamicSettings& settings)
 {
     const gpu::Device device(settings.shared.device);
+    const ViewOptions views = options_of<ProgressiveOptions>(settings.shared).views;
     fmt::print("hemicubes of side {}, {} a batch, {} samples per lumel for the truth, {} ({})\n",
-               settings.shared.solver.hemicube, settings.shared.solver.batch,
-               settings.shared.reference_spp, device.info().name, device.info().driver);
+               views.hemicube, views.batch, settings.shared.reference_spp, device.info().name,
+               device.info().driver);
     std::vector<int> all_pieces{1};
     std::copy_if(settings.pieces.begin(), settings.pieces.end(), std::back_inserter(all_pieces),
                  [](int pieces) { return pieces > 1; });

@@ -36,7 +36,7 @@ struct ConvergenceSettings {
     int width = 256;     ///< of a picture [pixels]
 };
 
-/// [BJ04] figures 5 and 6: error, and what it looks like, after so many iterations.
+/// [BJ04] figures 5 and 6: error and picture after given numbers of iterations.
 void follow_convergence(const ConvergenceSettings& settings);
 
 struct AblationSettings {

@@ -69,11 +69,11 @@ gpu::StageTimes since(const gpu::StageTimes& earlier, gpu::StageTimes now)
     return now;
 }
 
-SolverOptions papers_iteration(SolverOptions options)
+SolverOptions papers_iteration(MethodOptions method)
 {
-    options.scheme = Scheme::paper;
-    options.batch = 1;
-    return options;
+    set_option(method, "scheme", "paper");
+    set_option(method, "batch", "1");
+    return {.method = method};
 }
 
 NearField no_near_field(const Lumels& lumels)

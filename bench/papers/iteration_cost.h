@@ -2,7 +2,7 @@
 // What an iteration takes.
 
 #include "gpu/device.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel::bench {
 
@@ -13,7 +13,7 @@ struct IterationCost {
     gpu::Recorded recorded;  ///< of an iteration in which no error is estimated
 };
 
-/// Of the fastest of a few stretches of so many iterations.
+/// Of the fastest of a few stretches of this number of iterations.
 IterationCost cost_of_iteration(const gpu::Device& device, Solver& solver, int iterations);
 
 /// Sum of the stages named [ms].
@@ -23,7 +23,7 @@ double sum_of(const gpu::StageTimes& stages, std::initializer_list<const char*> 
 gpu::StageTimes since(const gpu::StageTimes& earlier, gpu::StageTimes now);
 
 /// The papers' iteration: one shooter, drawn independently of all others.
-SolverOptions papers_iteration(SolverOptions options);
+SolverOptions papers_iteration(MethodOptions method);
 
 /// Without pairs: the papers have no near field.
 NearField no_near_field(const Lumels& lumels);

@@ -14,7 +14,7 @@
 namespace lumel::bench {
 namespace {
 
-/// Edges are cut into so many pieces at most.
+/// Edges are cut into this number of pieces at most.
 constexpr int kMostPieces = 256;
 
 /// The scene without what is in the room: its blocks stay only as lumels.
@@ -35,14 +35,14 @@ std::size_t drawn_vertices(const Scene& scene)
     return std::size_t(std::unique(indices.begin(), indices.end()) - indices.begin());
 }
 
-/// Vertices of a triangle whose edges are cut into so many pieces.
+/// Vertices of a triangle whose edges are cut into a number of pieces.
 double grid_points(int pieces)
 {
     return 0.5 * (pieces + 1.0) * (pieces + 2.0);
 }
 
-/// The scene drawn with about so many vertices. Triangles share none once they are cut; where
-/// there are too many even so, the blocks go.
+/// The scene drawn with about a given number of vertices. Triangles share none once they are cut;
+/// where there are too many even so, the blocks go.
 Scene drawn_with(const Scene& scene, int vertices)
 {
     const bool whole = std::size_t(vertices) >= drawn_vertices(scene);
@@ -81,18 +81,19 @@ void print_row(int size, std::size_t lumels, const Scene& scene, const Iteration
 void time_iterations(const IterationSettings& settings)
 {
     const gpu::Device device(settings.shared.device);
-    const SolverOptions options = papers_iteration(settings.shared.solver);
+    const SolverOptions options = papers_iteration(settings.shared.given.options());
     fmt::print("{}, {} of side {}, {} ({})\n\n", settings.shared.scene,
-               options.projection == Projection::hemisphere ? "hemispheres" : "hemicubes",
-               options.hemicube, device.info().name, device.info().driver);
+               views_of(options.method).projection == Projection::hemisphere ? "hemispheres"
+                                                                             : "hemicubes",
+               views_of(options.method).hemicube, device.info().name, device.info().driver);
     print_head();
     for (const int size : settings.sizes) {
         const Prepared world = prepare(settings.shared, size);
         for (const int vertices : settings.vertices) {
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
-            const auto solver =
-                make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+            const NearField none = no_near_field(world.lumels);
+            const auto solver = make_solver({device, resident, world.lumels, none}, options);
             print_row(size, world.lumels.lumels.size(), scene,
                       cost_of_iteration(device, *solver, settings.iterations));
         }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kSide = 20.0f;  ///< [m]
 
-/// A train of hills. Each is smaller and runs another way than the one before.
+/// A train of hills. Each is smaller and runs in another direction than the one before.
 struct Wave {
     glm::vec2 per_metre;  ///< [rad / m]
     float height, phase;  ///< [m], [rad]

@@ -43,7 +43,7 @@ constexpr Variant kVariants[] = {{"stochastic, 1 × 1", Layers::stochastic, 1},
                                  {"list", Layers::list, 1},
                                  {"peel", Layers::peel, 1}};
 
-/// One plane, as often as asked for, behind one another.
+/// Copies of one plane, behind one another.
 Scene stack_of(int planes)
 {
     Scene scene;
@@ -149,18 +149,18 @@ struct Chances {
     std::vector<double> found;  ///< for each reach, the share of the planes
 };
 
-/// In maps of so many planes.
+/// In maps of a number of planes.
 Chances measure_chances(const LayersSettings& settings, const gpu::Device& device, int planes,
                         int slabs)
 {
+    const auto shared = options_of<DirectionsOptions>(settings.shared);
     const Prepared world(stack_of(planes), AtlasOptions{.size = kStackAtlas});
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    IlluminationMaps maps(device, resident, Layers::stochastic,
-                          std::uint32_t(settings.shared.solver.map_side), 1,
+    IlluminationMaps maps(device, resident, Layers::stochastic, std::uint32_t(shared.map_side), 1,
                           std::uint32_t(world.lumels.width), std::uint32_t(world.lumels.height),
                           std::uint32_t(slabs));
-    const std::vector<ParallelView> poses = views_from_above(
-        resident, settings.shared.solver.map_side, settings.views, settings.shared.solver.seed);
+    const std::vector<ParallelView> poses =
+        views_from_above(resident, shared.map_side, settings.views, shared.seed);
     const gpu::Array<ParallelView> views(device, std::span<const ParallelView>(poses));
     gpu::Pacer pacer(device);
     Chances chances{.found = std::vector<double>(std::size(kReaches), 0.0)};
@@ -220,12 +220,13 @@ void print_red(const LayersSettings& settings, const gpu::Device& device, const 
     fmt::print("| layers | red error above, % | below, % | wall ms per direction | cpu ms |\n"
                "|---|---|---|---|---|\n");
     for (const Variant& variant : kVariants) {
-        SolverOptions options = papers_iteration(settings.shared.solver);
+        auto options = options_of<DirectionsOptions>(settings.shared);
         options.layers = variant.layers;
         options.lookups = variant.lookups;
         options.slabs = variant.slabs;
+        const NearField none = no_near_field(world.lumels);
         const auto solver =
-            make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+            make_solver({device, resident, world.lumels, none}, papers_iteration(options));
         solver->step();
         solver->irradiance();  // the driver compiles shaders when they first run
         Stopwatch watch;
@@ -249,21 +250,18 @@ void print_red(const LayersSettings& settings, const gpu::Device& device, const 
 void measure_layers(const LayersSettings& settings)
 {
     const gpu::Device device(settings.shared.device);
-    Settings shared = settings.shared;
-    shared.solver.method = "directions";
+    const Settings& shared = settings.shared;
+    const int map_side = options_of<DirectionsOptions>(shared).map_side;
     LightOptions white;
     white.sky_color = glm::vec3(1.0f);
     const Prepared world(read_scene(shared.scene, MaterialModel::diffuse, white),
                          AtlasOptions{.size = shared.size});
-    LayersSettings directed = settings;
-    directed.shared = shared;
     fmt::print("{}, {} lumels at {}², {} directions, maps of {}², {} ({})\n\n", shared.scene,
-               world.lumels.lumels.size(), world.atlas.width, settings.directions,
-               shared.solver.map_side, device.info().name, device.info().driver);
-    print_red(directed, device, world);
-    fmt::print("\nSurfaces found among the lookups, {} maps of {}²\n\n", settings.views,
-               shared.solver.map_side);
-    print_chances(directed, device);
+               world.lumels.lumels.size(), world.atlas.width, settings.directions, map_side,
+               device.info().name, device.info().driver);
+    print_red(settings, device, world);
+    fmt::print("\nSurfaces found among the lookups, {} maps of {}²\n\n", settings.views, map_side);
+    print_chances(settings, device);
     device.check_validation();
 }
 

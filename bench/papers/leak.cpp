@@ -25,7 +25,7 @@ constexpr int kTruthDirections = 8;
 class Gathering {
 public:
     Gathering(const gpu::Device& device, const Prepared& prepared, const World& world,
-              const SolverOptions& options)
+              const DirectionsOptions& options)
         : lumels_(&prepared.lumels),
           solver_(device, world, prepared.lumels, options)
     {
@@ -50,11 +50,11 @@ private:
     GlobalDirections solver_;
 };
 
-SolverOptions options_for(const LeakSettings& settings, double leak)
+DirectionsOptions options_for(const LeakSettings& settings, double leak)
 {
-    SolverOptions options = papers_iteration(settings.shared.solver);
-    options.method = "directions";
-    options.leak = leak;
+    auto options = options_of<DirectionsOptions>(settings.shared);
+    options.batch = 1;
+    options.iteration = {Scheme::paper, leak};
     return options;
 }
 
@@ -73,7 +73,7 @@ void follow_light(const LeakSettings& settings)
     Prepared prepared(read_scene(settings.shared.scene, MaterialModel::diffuse, white),
                       AtlasOptions{.size = settings.shared.size});
     const World world(device, prepared.scene, prepared.lumels, &prepared.atlas);
-    SolverOptions of_truth = options_for(settings, 0.0);
+    DirectionsOptions of_truth = options_for(settings, 0.0);
     of_truth.seed += 1;
     Gathering truth(device, prepared, world, of_truth);
     truth.go_to(kTruthDirections * settings.directions.back());
@@ -84,8 +84,7 @@ void follow_light(const LeakSettings& settings)
                "| directions | mean, RMSE % | bias % | leaky, RMSE % | bias % |\n"
                "|---|---|---|---|---|\n",
                settings.shared.scene, prepared.lumels.lumels.size(), prepared.atlas.width,
-               settings.shared.solver.map_side, settings.leak, device.info().name,
-               device.info().driver);
+               of_truth.map_side, settings.leak, device.info().name, device.info().driver);
     for (const int directions : settings.directions) {
         mean.go_to(directions);
         leaky.go_to(directions);

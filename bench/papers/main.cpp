@@ -20,7 +20,23 @@ namespace lumel::bench {
 namespace {
 
 /// Side of the illumination maps, and of most lightmaps, in [TN11] section 7.
-constexpr int kPapersMap = 512;
+constexpr int kPapersSize = 512;
+constexpr const char* kPapersMap = "512";
+
+/// An option of methods, for those of the figure that read it.
+void add_given(CLI::App* figure, Settings& shared, const std::string& name)
+{
+    for (const SharedOption& option : options_of_methods())
+        if (name == option.info->name)
+            figure
+                ->add_option_function<std::string>(
+                    "--" + name,
+                    [&shared, name](const std::string& value) {
+                        shared.given.values[name] = value;
+                    },
+                    option.info->help)
+                ->type_name(option.info->type);
+}
 
 CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& title,
                      Settings& shared)
@@ -28,18 +44,9 @@ CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& 
     CLI::App* figure = app.add_subcommand(name, title);
     figure->add_option("scene", shared.scene, "glTF scene")->capture_default_str();
     figure->add_option("--device", shared.device, "as lumel devices lists");
-    figure->add_option("--hemicube", shared.solver.hemicube, "front face [pixels]")
-        ->capture_default_str();
-    figure
-        ->add_option_function<std::string>(
-            "--projection",
-            [&shared](const std::string& word) {
-                shared.solver.projection =
-                    word == "hemisphere" ? Projection::hemisphere : Projection::hemicube;
-            },
-            "hemicube or hemisphere")
-        ->check(CLI::IsMember({"hemicube", "hemisphere"}));
-    figure->add_option("--seed", shared.solver.seed, "the first")->capture_default_str();
+    add_given(figure, shared, "hemicube");
+    add_given(figure, shared, "projection");
+    add_given(figure, shared, "seed");
     return figure;
 }
 
@@ -82,10 +89,9 @@ void add_convergence(CLI::App& app, ConvergenceSettings& settings)
     CLI::App* figure = add_figure(app, "convergence", "Error after iterations", settings.shared);
     add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
     add_list(figure, "--iterations", settings.iterations, "ascending; where the error is taken");
-    figure->add_option("--solver", settings.shared.solver.method, "as lumel methods lists")
+    figure->add_option("--solver", settings.shared.given.id, "as lumel methods lists")
         ->capture_default_str();
-    figure->add_option("--batch", settings.shared.solver.batch, "shooters per phased iteration")
-        ->capture_default_str();
+    add_given(figure, settings.shared, "batch");
     figure->add_option("--reference", settings.shared.reference,
                        "EXR to compare with, made for this atlas");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
@@ -93,7 +99,7 @@ void add_convergence(CLI::App& app, ConvergenceSettings& settings)
     figure->add_option("--save-reference", settings.shared.save_reference,
                        "EXR to keep that reference in");
     figure->add_option("-o,--out", settings.folder, "folder for maps and pictures");
-    add_number(figure, "--width", settings.width, "of a picture [pixels]");
+    add_number(figure, "--width", settings.width, "width of a picture [pixels]");
     figure->callback([&settings] { follow_convergence(settings); });
 }
 
@@ -114,11 +120,10 @@ void add_ablation(CLI::App& app, AblationSettings& settings)
 void add_layers(CLI::App& app, LayersSettings& settings)
 {
     settings.shared.scene = "scenes/planes.gltf";
-    settings.shared.solver.map_side = kPapersMap;
+    settings.shared.given.values["map-side"] = kPapersMap;
     CLI::App* figure = add_figure(app, "layers", "What stochastic layers miss", settings.shared);
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_number(figure, "--map-side", settings.shared.solver.map_side,
-               "of the illumination map [pixels]");
+    add_given(figure, settings.shared, "map-side");
     add_number(figure, "--directions", settings.directions, "that light is gathered from");
     add_list(figure, "--overdraw", settings.overdraws, "planes behind one another");
     add_list(figure, "--slabs", settings.slabs, "that they are cut into");
@@ -132,41 +137,36 @@ void add_leak(CLI::App& app, LeakSettings& settings)
     settings.shared.size = 64;
     CLI::App* figure = add_figure(app, "leak", "How leaky means follow light", settings.shared);
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_number(figure, "--map-side", settings.shared.solver.map_side,
-               "of the illumination map [pixels]; 0: as suits the lumels", 0);
+    add_given(figure, settings.shared, "map-side");
     figure->add_option("--leak", settings.leak, "part of the solution that a direction replaces")
         ->check(CLI::Range(1e-6, 0.5))
         ->capture_default_str();
-    add_list(figure, "--directions", settings.directions, "at which the error is taken");
+    add_list(figure, "--directions", settings.directions,
+             "numbers of directions at which the error is taken");
     figure->callback([&settings] { follow_light(settings); });
 }
 
 void add_directions(CLI::App& app, DirectionsSettings& settings)
 {
-    settings.shared.size = kPapersMap;
-    settings.shared.solver.map_side = kPapersMap;
+    settings.shared.size = kPapersSize;
+    settings.shared.given.values["map-side"] = kPapersMap;
     CLI::App* figure = app.add_subcommand("directions", "Scenes lit by global directions");
     figure->add_option("--device", settings.shared.device, "as lumel devices lists");
-    figure->add_option("--seed", settings.shared.solver.seed, "the first")->capture_default_str();
+    add_given(figure, settings.shared, "seed");
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_number(figure, "--map-side", settings.shared.solver.map_side,
-               "of the illumination map [pixels]");
-    settings.shared.solver.slabs = 1;  // as the paper
-    figure
-        ->add_option("--slabs", settings.shared.solver.slabs,
-                     "that directions are cut into; 0: as needed")
-        ->check(CLI::Range(0u, kMostSlabs))
-        ->capture_default_str();
+    add_given(figure, settings.shared, "map-side");
+    settings.shared.given.values["slabs"] = "1";  // as the paper
+    add_given(figure, settings.shared, "slabs");
     add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
     figure->add_option("--sky", settings.sky, "file; else a clear sky");
     figure->add_option("-o,--out", settings.folder, "folder for the picture");
-    add_number(figure, "--width", settings.width, "of each scene's picture [pixels]");
+    add_number(figure, "--width", settings.width, "width of each scene's picture [pixels]");
     figure->callback([&settings] { show_directions(settings); });
 }
 
 void add_residual(CLI::App* figure, double& residual)
 {
-    figure->add_option("--residual", residual, "light still to be shot, of all, to rest at")
+    figure->add_option("--residual", residual, "light still to be shot, as a part of all, at rest")
         ->check(CLI::Range(1e-6, 1.0))
         ->capture_default_str();
 }
@@ -181,15 +181,17 @@ void add_dynamic(CLI::App& app, DynamicSettings& settings)
         ->check(CLI::IsMember({"indirect", "large", "small", "low"}));
     add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
     add_number(figure, "--low-size", settings.low_size, "the same of the low quality scene");
-    add_number(figure, "--hemicube", settings.shared.solver.hemicube, "front face [pixels]");
-    add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
+    add_given(figure, settings.shared, "hemicube");
+    add_given(figure, settings.shared, "batch");
     add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
     add_residual(figure, settings.residual);
     add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
     add_number(figure, "--reference-spp", settings.shared.reference_spp,
                "paths per lumel for the truth; 0: none", 0);
     figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");
-    figure->add_option("--pieces", settings.pieces, "that edges are cut into, for more vertices")
+    figure
+        ->add_option("--pieces", settings.pieces,
+                     "pieces that edges are cut into, for more vertices")
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
@@ -202,7 +204,7 @@ void add_drift(CLI::App& app, DriftSettings& settings)
     settings.shared.size = 64;
     CLI::App* figure = add_figure(app, "drift", "What many moves leave", settings.shared);
     add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
-    add_number(figure, "--batch", settings.shared.solver.batch, "shooters at a time");
+    add_given(figure, settings.shared, "batch");
     add_number(figure, "--degrees", settings.degrees, "that the box turns, there and back");
     add_residual(figure, settings.residual);
     add_number(figure, "--moves", settings.moves, "there and back", 2);
@@ -216,7 +218,7 @@ void add_matrix(CLI::App& app, MatrixSettings& settings)
     add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
     add_list(figure, "--patches", settings.patches, "of the simplified scene, at most");
     add_number(figure, "--lights", settings.lights, "states of light that errors are taken of");
-    figure->add_option("--shares", settings.shares, "of a row that are kept exactly [%]")
+    figure->add_option("--shares", settings.shares, "shares of a row that are kept exactly [%]")
         ->delimiter(',')
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();

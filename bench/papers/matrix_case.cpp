@@ -11,7 +11,7 @@
 namespace lumel::bench {
 namespace {
 
-constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, says nothing
+constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, is of no use
 constexpr int kMostTries = 100;     // places for each light
 constexpr float kMargin = 0.05f;    // of the scene's box: no light within this of its sides
 constexpr std::size_t kLumelsPerTask = 256;
@@ -67,13 +67,13 @@ std::vector<std::vector<glm::vec3>> light_patches(const Prepared& world,
 MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
                             std::uint32_t patches, int lights)
 {
-    SolverOptions options = settings.solver;
-    options.method = "matrix";
-    options.patches = patches;
+    auto options = options_of<MatrixOptions>(settings);
+    options.transport.patches = patches;
     const Prepared world = prepare(settings, settings.size);
-    const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
+    const NearField near =
+        near_field_for(world.scene, world.rays, world.lumels, {.method = options});
     const World resident(device, world.scene, world.lumels);
-    TransportBuilder builder(device, resident, world.lumels, near, transport_options(options));
+    TransportBuilder builder(device, resident, world.lumels, near, options.transport);
     while (!builder.done())
         builder.step();
     Transport transport = builder.finish();

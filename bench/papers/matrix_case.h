@@ -16,8 +16,9 @@ struct MatrixCase {
     std::uint32_t size() const { return form_factors.size; }
 };
 
-/// At most `patches` of the scene; lit by so many point lights, one in each state, at places drawn
-/// from its box, of which those count that light a quarter of its lumels or more. Throws Error.
+/// At most `patches` of the scene; lit by a number of point lights, one in each state, at places
+/// drawn from its box, of which those count that light a quarter of its lumels or more. Throws
+/// Error.
 MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
                             std::uint32_t patches, int lights);
 

@@ -120,7 +120,7 @@ void print_reorderings(const ColorMatrix& matrix, const char* patches)
             if (how == Reordering::none)
                 without = error;
             fmt::print("| {} | {} | {} | {:.3g} | {:.4f} | {:.4f} | {:.2f} | {:.1f} | {:.2f} |\n",
-                       patches, mend ? "mends" : "the paper's", names[std::size_t(how)],
+                       patches, mend ? "mended" : "the paper's", names[std::size_t(how)],
                        std::sqrt(error.squares) / error.entries, error.largest, error.squares,
                        without.squares / error.squares, error.sum, without.sum / error.sum);
             std::fflush(stdout);

@@ -1,5 +1,5 @@
 // [BJ04] section 3.1: "This selection algorithm took almost 10 times longer than all other elements
-// of rendering", said of reading the radiosity back and searching it on the processor; and what
+// of rendering", stated of reading the radiosity back and searching it on the processor; and what
 // replaced it, a search in sums on the device.
 
 #include <algorithm>
@@ -140,18 +140,18 @@ std::vector<float> draw_numbers(int count, std::uint32_t seed)
 void time_selection(const SelectionSettings& settings)
 {
     const gpu::Device device(settings.shared.device);
-    const SolverOptions options = papers_iteration(settings.shared.solver);
+    const SolverOptions options = papers_iteration(settings.shared.given.options());
     fmt::print("{}, {} ({})\n\n"
                "| map | lumels | read-back, cpu ms | wall ms | device, cpu ms | wall ms "
                "| read-back / device | rest of an iteration, ms | read-back / rest "
                "| device / rest | same lumel |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
                settings.shared.scene, device.info().name, device.info().driver);
-    const std::vector<float> numbers = draw_numbers(settings.draws, options.seed);
+    const std::vector<float> numbers = draw_numbers(settings.draws, seed_of(options.method));
     for (const int size : settings.sizes) {
         const Prepared world = prepare(settings.shared, size);
         const World resident(device, world.scene, world.lumels);
-        const auto solver =
-            make_solver(device, resident, world.lumels, no_near_field(world.lumels), options);
+        const NearField none = no_near_field(world.lumels);
+        const auto solver = make_solver({device, resident, world.lumels, none}, options);
         const IterationCost iteration = cost_of_iteration(device, *solver, settings.draws);
         const Power power = power_after(world.lumels, solver->irradiance());
         const DrawCost host = by_read_back(device, power, numbers);

@@ -50,7 +50,7 @@ struct Lumels {
     int width = 0;  ///< of the atlas [texels]
     int height = 0;
     std::vector<Lumel> lumels;    ///< [N] front lumels, and back lumels of double-sided surfaces
-    std::vector<Gloss> gloss;     ///< [N] what their materials say of gloss
+    std::vector<Gloss> gloss;     ///< [N] gloss of their materials
     std::vector<Piece> pieces;    ///< [P]
     std::vector<float> coverage;  ///< [height][width] covered share × opacity of each texel, 0…1
 };

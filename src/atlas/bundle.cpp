@@ -23,13 +23,13 @@ struct Thin {
     std::uint32_t chart = 0;
     glm::dvec3 direction{0.0};    ///< a strip runs along it, unit; zero: smaller than a texel
     double from = 0.0, to = 0.0;  ///< where the strip lies along it [m]
-    bool turned = false;          ///< its own u axis runs the other way
+    bool turned = false;          ///< its own u axis is reversed
 };
 
 /// Kind, facing, direction and cell: what is equal in these is bundled.
 using Key = std::array<long long, 8>;
 
-/// The vertices of each chart, and which way it faces.
+/// The vertices of each chart, and the direction that it faces.
 struct ChartShape {
     std::vector<std::uint32_t> vertices;
     glm::dvec3 normal{0.0};

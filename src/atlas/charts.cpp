@@ -1,4 +1,4 @@
-// Charts: groups of neighbouring triangles that face one way, projected to their plane.
+// Charts: groups of neighbouring triangles that face one direction, projected to their plane.
 
 #include <algorithm>
 #include <numeric>
@@ -49,7 +49,7 @@ void measure_triangles(Cutting& cutting, bool mirrored)
     }
 }
 
-/// Free triangles reached from `seed` that face its way, the best aligned first.
+/// Free triangles reached from `seed` that face its direction, the best aligned first.
 std::vector<std::uint32_t> grow(Cutting& cutting, std::uint32_t seed, std::uint32_t chart)
 {
     using Candidate = std::pair<double, std::uint32_t>;  // 1 - cos to the mean, triangle

@@ -6,7 +6,7 @@ LUMEL_SHARED_BEGIN
 LUMEL_CONST uint kLumelBack = 1u;    ///< flag: the back side of a double-sided surface
 LUMEL_CONST uint kLumelBuried = 2u;  ///< flag: lies under other geometry, no light can reach it
 LUMEL_CONST uint kLumelMoving =
-    4u;  ///< flag: lit by cross redistribution alone, see solve/cross.cpp
+    4u;  ///< flag: lit by cross redistribution alone, see live/cross.cpp
 
 LUMEL_CONST uint kNoLumel = 0xffffffffu;  ///< where a texel has none
 
@@ -27,7 +27,7 @@ struct Lumel {
     uint flags;        ///< kLumelBack | kLumelBuried | kLumelMoving
 };
 
-/// How a lumel reflects where gloss counts: [NNS99]'s model, see solve/phong.glsl.
+/// How a lumel reflects where gloss counts: [NNS99]'s model, see lobes/phong.glsl.
 struct Gloss {
     vec3 diffuse;     ///< ρ_d [1] diffuse reflectance
     vec3 specular;    ///< ρ_s [1] specular reflectance; ρ_d + ρ_s ≤ 1

@@ -30,7 +30,7 @@ constexpr double kLikelyFill = 0.5;
 // Transforms that agree to this relative accuracy share their charts.
 constexpr double kSameScale = 1e-5;
 
-/// A surface on its way into the atlas.
+/// A surface that is being put into the atlas.
 struct Plan {
     std::uint32_t instance = 0;
     std::uint32_t primitive = 0;
@@ -83,11 +83,11 @@ double likely_density(const Scene& scene, const AtlasOptions& options)
     double area = 0.0;
     for (const Instance& instance : scene.instances)
         area += world_area(scene.meshes[instance.mesh], instance.transform);
-    const double asked = options.texels_per_metre > 0.0f ? options.texels_per_metre : 1e30;
+    const double density = options.texels_per_metre > 0.0f ? options.texels_per_metre : 1e30;
     const int side = options.size > 0 ? options.size
-                     : asked < 1e30   ? options.max_size
+                     : density < 1e30 ? options.max_size
                                       : std::min(kDefaultSide, options.max_size);
-    return std::min(asked, side * std::sqrt(kLikelyFill / std::max(area, 1e-30)));
+    return std::min(density, side * std::sqrt(kLikelyFill / std::max(area, 1e-30)));
 }
 
 /// What lengths a transform makes, rounded: instances that differ only in place share charts.
@@ -104,7 +104,7 @@ std::vector<long long> scale_key(const glm::mat4& transform)
     return key;
 }
 
-/// Gives the mesh's own layout one rectangle for the instance, as dense as its surface asks for.
+/// Gives the mesh's own layout one rectangle for the instance, as dense as its surface requires.
 void plan_authored(const Scene& scene, std::uint32_t instance_index, const AuthoredReport& report,
                    Plans& plans)
 {
@@ -278,7 +278,7 @@ void number_charts(const Scene& scene, Atlas& atlas)
     atlas.chart_count = std::uint32_t(centre.size());
 }
 
-/// Looks at the layouts that come with the file, and says which cannot be used.
+/// Checks the layouts that come with the file, and warns of those that cannot be used.
 std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::string>& notes)
 {
     std::vector<AuthoredReport> reports;
@@ -299,15 +299,16 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
 
 }  // namespace
 
-Atlas make_atlas(const Scene& scene, const AtlasOptions& asked)
+Atlas make_atlas(const Scene& scene, const AtlasOptions& requested)
 {
-    check(scene, asked);
+    check(scene, requested);
     Atlas atlas;
-    AtlasOptions options = asked;
+    AtlasOptions options = requested;
     if (options.size > options.max_size) {
         options.size = options.max_size;
         atlas.notes.push_back(fmt::format("the map is limited to {} × {} texels, not {} × {}",
-                                          options.size, options.size, asked.size, asked.size));
+                                          options.size, options.size, requested.size,
+                                          requested.size));
     }
 
     const std::vector<AuthoredReport> reports = check_all(scene, atlas.notes);

@@ -66,7 +66,7 @@ std::optional<Packing> try_pack(const Task& task, double density, int side)
             return std::nullopt;
         rectangles[i] = {int(i), padded.x, padded.y, 0, 0, 0};
     }
-    // The packer's own sort does not say what it does with equals: give it no choice.
+    // The packer's own sort does not specify the order of equal items: leave it no choice.
     std::stable_sort(rectangles.begin(), rectangles.end(),
                      [](const stbrp_rect& a, const stbrp_rect& b) {
                          return a.h > b.h || (a.h == b.h && a.w > b.w);
@@ -131,7 +131,7 @@ int round_up_to_step(double side)
     const int enough = round_up_to_step(kSideGrowth * std::sqrt(task.footprint(0.0)));
     throw Error(ErrorKind::input, "",
                 fmt::format("{} charts do not fit into a map of {} × {} texels even at one texel "
-                            "each; ask for {} × {} or more",
+                            "each; use {} × {} or more",
                             task.sizes.size(), side, side, enough, enough));
 }
 
@@ -165,21 +165,21 @@ Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
              std::vector<std::string>& notes)
 {
     const Task task{sizes, options.gutter};
-    const double asked = options.texels_per_metre;
+    const double density = options.texels_per_metre;
     const int side = options.size > 0 ? options.size : options.max_size;
     std::optional<Packing> packing;
-    if (options.size == 0 && asked > 0.0)
-        packing = grow_to_fit(task, asked, options.max_size);
+    if (options.size == 0 && density > 0.0)
+        packing = grow_to_fit(task, density, options.max_size);
     else if (options.size == 0)
         packing = pack_default(task, options.max_size);
     if (!packing)
-        packing = fill(task, side, asked > 0.0 ? asked : 1e30);
+        packing = fill(task, side, density > 0.0 ? density : 1e30);
     if (!packing)
         throw_too_small(task, side);
-    if (asked > 0.0 && packing->density < asked)
+    if (density > 0.0 && packing->density < density)
         notes.push_back(fmt::format("the map is limited to {} × {} texels: density lowered from "
                                     "{:.4g} to {:.4g} texels per metre",
-                                    side, side, asked, packing->density));
+                                    side, side, density, packing->density));
     return *packing;
 }
 

@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// Side of the map where nothing is asked for: detail for a room, seconds to minutes on a small
+/// Side of the map where no option sets it: detail for a room, seconds to minutes on a small
 /// machine. It is doubled while charts do not fit well.
 constexpr int kDefaultSide = 512;
 
@@ -27,7 +27,7 @@ struct Packing {
 
 /// Places rectangles of the given sizes [m] with `options.gutter` empty texels between any two,
 /// and half as many along the rim. Each size is rounded to whole texels. Adds to `notes` where
-/// the density asked for could not be had. Throws Error{input} if they cannot be made to fit.
+/// the requested density was not possible. Throws Error{input} if they cannot be made to fit.
 Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
              std::vector<std::string>& notes);
 

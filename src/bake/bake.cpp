@@ -2,6 +2,9 @@
 
 #include "bake/bake.h"
 
+#include <optional>
+
+#include "bake/dump.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
 #include "bake/sources.h"
@@ -9,7 +12,7 @@
 #include "lights/direct_light.h"
 #include "output/folder.h"
 #include "relight/matrix_file.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel {
 
@@ -17,7 +20,6 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
 {
     const MethodInfo& method = method_of(options.solver.method);
-    checked_batch(method, options.solver.batch);
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");
@@ -26,6 +28,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // What can fail before the long work should.
     OutputFolder output(folder);
+    std::optional<OutputFolder> dump;
+    if (!options.dump.empty())
+        dump.emplace(options.dump);
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);
@@ -34,6 +39,12 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                                                    : solve_light(device, setting, options, stages);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
+    if (dump) {
+        stages.begin("dumping");
+        write_dump(*dump, device,
+                   {setting.world, setting.resident, setting.near, solution->irradiance},
+                   options.solver);
+    }
 
     DirectionalLight directional;
     if (options.directional != Directional::none) {
@@ -77,6 +88,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     stages.begin("charts");
     const Prepared world(std::move(scene), options.atlas);
     tell_user(world);
+    note_sizes(world, stages);
 
     stages.begin("path tracing");
     bool stopped = false;

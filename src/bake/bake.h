@@ -10,7 +10,7 @@
 #include "lights/direct_light.h"
 #include "reference/reference.h"
 #include "scene/light_options.h"
-#include "solve/solver.h"
+#include "solve/options.h"
 
 namespace lumel {
 
@@ -24,6 +24,7 @@ struct BakeOptions {
     bool half = false;                            ///< lightmap.exr in half precision
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
+    std::string dump;  ///< folder for intermediate images, see dump.h; empty: none
 };
 
 /// State of a running bake, for a progress display.
@@ -33,10 +34,11 @@ struct BakeProgress {
     std::uint64_t shots = 0;  ///< shooters so far
     double error = -1.0;      ///< estimated relative error, < 0: not known yet
     double seconds = 0.0;     ///< since the stage began
+    std::string note;         ///< a fact in one line that has just become known, or empty
 };
 
-/// Called from the baking thread at the start of each stage and often while solving; false ends the
-/// solve early (the best solution so far is still written).
+/// Called from the baking thread at the start and end of each stage, with every note, and
+/// often while solving; false ends the solve early (the best solution so far is still written).
 using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {

@@ -24,9 +24,11 @@ namespace {
 
 /// Rays of the first look at lumels that are new or moved.
 constexpr std::uint32_t kFirstLook = 64;
-/// Lumels whose light is too noisy are gathered with so many times the rays, up to so many times.
+/// Lumels whose light is too noisy are gathered with this factor more rays, up to the second
+/// factor.
 constexpr std::uint32_t kMoreEffort = 4, kMostEffort = 64;
-/// But not beyond about so many rays for each lumel of the scene: then the residual stays larger.
+/// But not beyond about this number of rays for each lumel of the scene: then the residual stays
+/// larger.
 constexpr std::uint64_t kMostRays = 1024;
 /// More particles than this for each lumel take longer than a new solution, if they are more than a
 /// solver's start is worth.
@@ -94,7 +96,7 @@ double Correction::change(const std::vector<glm::vec3>& lights) const
     return change > 0.0 ? change / std::max(whole, 1e-30) : 0.0;
 }
 
-/// Guesses the light of lumels of which all is asked.
+/// Guesses the light of lumels whose whole light is to be found.
 void Correction::look_first(UpdateRow& row)
 {
     std::vector<Asked> asked = asked_;
@@ -132,8 +134,8 @@ TwoEstimates Correction::gather_until(double residual, UpdateRow& row)
 TwoEstimates Correction::gather(const std::vector<Asked>& asked, ChangedLightOptions options,
                                 UpdateRow& row)
 {
-    options.seed = baked_.solver.seed;
-    options.centre = baked_.solver.rule == SampleRule::centre;
+    options.seed = seed_of(baked_.solver.method);
+    options.centre = rule_of(baked_.solver.method) == SampleRule::centre;
     const Prepared &was = edit_.before, &is = edit_.now;
     const SeenScene before{&was.scene, &was.rays, &was.lumels, &hits_before_, sent_before()};
     const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
@@ -192,7 +194,7 @@ CarriedLight Correction::carry(const std::vector<glm::vec3>& source, double erro
     const LightCarrier carrier(is.rays, is.lumels, world, hits_now_);
     CarriedLight carried =
         carrier.carry(source, error, std::max(kMostParticles * source.size(), kFewParticles),
-                      baked_.solver.seed, [&](const CarryState& state) {
+                      seed_of(baked_.solver.method), [&](const CarryState& state) {
                           const double part = state.error > 0.0 ? error / state.error : 0.0;
                           return stages_.tell(std::min(part * part, 1.0), state.particles);
                       });

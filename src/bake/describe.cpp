@@ -11,6 +11,7 @@
 #include "bake/sources.h"
 #include "gpu/device.h"
 #include "relight/relight_solver.h"
+#include "solve/methods.h"
 #include "world/occluders.h"
 #include "world/world.h"
 #include "json/json_file.h"
@@ -35,7 +36,8 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
     return {.world = World::device_bytes(prepared.lumels, occluders),
             .direct_light = direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
             .solver = keeps_sources_apart(options)
-                          ? RelightSolver::device_bytes(size, options.solver)
+                          ? RelightSolver::device_bytes(
+                                size, std::get<MatrixOptions>(options.solver.method))
                           : solver_bytes(size, options.solver),
             .directional = directional_bytes(size, directional_options(options, 0))};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Directional light as layers of lightmap.exr. docs/directional.md says what they mean.
+// Directional light as layers of lightmap.exr. docs/directional.md describes them.
 
 #include <map>
 #include <string>
@@ -23,7 +23,7 @@ DirectionalMaps finish_directional(const Prepared& prepared,
                                    const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients);
 
-/// What the file says of the layers.
+/// The layers' description in the file.
 std::map<std::string, std::string> directional_metadata();
 
 }  // namespace lumel

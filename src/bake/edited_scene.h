@@ -26,15 +26,15 @@ struct EditedScene {
     Prepared before;
     Matches matches;
     std::vector<Ball> balls;  ///< around what moved
-    /// [N now] Open shares of lumels whose pieces are still the whole; 1 of others. What is
-    /// gathered at points all over them is so much of what their open part gets, as the rest sees
+    /// [N now] Open shares of lumels whose pieces are still the whole; 1 of others. Light
+    /// gathered at points all over them is this part of that of their open part, as the rest sees
     /// nothing.
     std::vector<float> thinned;
     Prepared now;
     /// [N now] The lumel of the same texel and side before, kNoLumel where there was none that
     /// could be seen.
     std::vector<std::uint32_t> same;
-    /// [N now] Of those, the lumels that also stand where they stood, as open as they were.
+    /// [N now] Of those, the lumels that are also in the same place, as open as they were.
     std::vector<std::uint32_t> partner;
 
 private:

@@ -1,6 +1,7 @@
 #include "bake/lighting.h"
 
 #include "shooting/lumel_arrays.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -20,8 +21,13 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
-    solution->solver = make_solver(device, setting.world, lumels, setting.near, options, known,
-                                   setting.carriers());
+    solution->solver = make_solver({.device = device,
+                                    .world = setting.world,
+                                    .lumels = lumels,
+                                    .near = setting.near,
+                                    .known = known,
+                                    .particles = setting.carriers()},
+                                   options);
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
     return solution;
@@ -45,7 +51,8 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
     if (options.parts == Parts::direct)
         return first;
     SolverOptions onward = options.solver;
-    onward.sky = false;
+    if (auto* directions = std::get_if<DirectionsOptions>(&onward.method))
+        directions->sky = false;
     return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages);
 }
 
@@ -53,19 +60,20 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
 
 DirectLightOptions direct_light_options(const SolverOptions& solver, std::uint32_t sky_directions)
 {
-    return {.sky_directions = gathers_sky(solver) ? 0 : sky_directions,
-            .seed = solver.seed,
-            .centre = solver.rule == SampleRule::centre};
+    return {.sky_directions = gathers_sky(solver.method) ? 0 : sky_directions,
+            .seed = seed_of(solver.method),
+            .centre = rule_of(solver.method) == SampleRule::centre};
 }
 
 DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t solver_shots)
 {
+    const ViewOptions views = views_of(options.solver.method);
     return {.kind = options.directional,
-            .rule = options.solver.rule,
-            .seed = options.solver.seed,
-            .batch = std::uint32_t(options.solver.batch),
-            .projection = options.solver.projection,
-            .hemicube = std::uint32_t(options.solver.hemicube),
+            .rule = rule_of(options.solver.method),
+            .seed = seed_of(options.solver.method),
+            .batch = std::uint32_t(views.batch),
+            .projection = views.projection,
+            .hemicube = std::uint32_t(views.hemicube),
             .shots = directional_shots(solver_shots)};
 }
 
@@ -75,9 +83,12 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
     if (!has_lights(setting.prepared.scene))
         return {};
     stages.begin("sky and lamps");
-    return direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
-                        direct_light_options(options.solver, options.sky_directions),
-                        [&](double fraction) { return stages.tell(fraction); });
+    DirectLight light =
+        direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
+                     direct_light_options(options.solver, options.sky_directions),
+                     [&](double fraction) { return stages.tell(fraction); });
+    stages.note_times(light.times);
+    return light;
 }
 
 std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light)

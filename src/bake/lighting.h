@@ -31,14 +31,14 @@ struct Solution {
         lumels;  ///< the solver's, which it reads while it lives; none: the world's
     std::unique_ptr<Solver> solver;
     SolveRun run;
-    std::vector<glm::vec3> irradiance;          ///< [N] [lx] of the parts asked for
+    std::vector<glm::vec3> irradiance;          ///< [N] [lx] of the requested parts
     std::optional<Relightable> relightable;     ///< where sources were kept apart to the end
     std::optional<FormFactorRow> form_factors;  ///< the same
 };
 
-/// Solves for the parts of the light that options.parts asks for. Emissive surfaces' direct light
-/// is what the solver finds where nothing reflects; what all direct light leaves on the surfaces is
-/// then what indirect light starts from. So indirect light takes two solves, and its first bounce
+/// Solves for the parts of the light that options.parts names. The direct light of emissive
+/// surfaces is what the solver finds where nothing reflects; indirect light then starts from all
+/// direct light that surfaces reflect. So indirect light takes two solves, and its first bounce
 /// is diffuse whatever the method. One solve would not do: its sums do not keep apart what emissive
 /// surfaces send and what lamps leave on the surfaces.
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,

@@ -11,6 +11,7 @@
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "record/report.h"
+#include "solve/solver.h"
 
 namespace lumel {
 

@@ -26,7 +26,7 @@ namespace {
 constexpr int kMostFrames = 100'000;
 constexpr const char* kFilm = "play.mp4";
 constexpr const char* kFramePattern = "frame-%04d.png";
-/// The user is heard at least this often [ms].
+/// Cancellation is polled at least this often [ms].
 constexpr double kSlice = 200.0;
 /// Places beyond this [m] overflow what is computed with them.
 constexpr double kFarthest = 1e9;
@@ -49,7 +49,7 @@ int frames_of(const PlayOptions& options, const Animation& animation)
     if (frames > double(kMostFrames))
         throw Error(ErrorKind::input, fmt::format("--fps {}", options.fps),
                     fmt::format("makes {:.0f} frames of the animation, more than the {} that are "
-                                "made at once; --frames takes fewer",
+                                "made at once; use fewer --frames",
                                 frames, kMostFrames));
     return int(frames);
 }
@@ -85,7 +85,7 @@ bool has_material(const Scene& scene, const Instance& instance, int material)
 struct ChangingLamp {
     std::uint32_t instance = 0;
     const AnimatedMaterial* material = nullptr;
-    glm::vec3 factor{1.0f};  ///< last told to the live scene
+    glm::vec3 factor{1.0f};  ///< last set in the live scene
 };
 
 /// An instance's light changes as a whole: its other materials must be dark.
@@ -100,10 +100,10 @@ std::vector<ChangingLamp> changing_lamps(const Scene& scene, const Animation& an
             for (int other = 0; other < int(scene.materials.size()); ++other)
                 if (other != material.material && has_material(scene, instance, other) &&
                     scene.materials[std::size_t(other)].emitted != glm::vec3(0.0f))
-                    throw Error(ErrorKind::input,
-                                fmt::format("{}: \"{}\"", scene.path, instance.name),
-                                "shines by several materials, and the light of one changes; give "
-                                "each a mesh of its own");
+                    throw Error(
+                        ErrorKind::input, fmt::format("{}: \"{}\"", scene.path, instance.name),
+                        "has several emissive materials, and the light of one changes; give "
+                        "each a mesh of its own");
             lamps.push_back({i, &material});
         }
     return lamps;
@@ -159,7 +159,7 @@ public:
             chosen_ = choose_view(shown_, RayScene(shown_));
     }
 
-    /// Lets the scene, and its light, reach the time of a frame. Nothing if stopped on the way.
+    /// Moves the scene, and its light, to the time of a frame. Nothing if stopped before.
     std::optional<FrameRow> follow(int frame, Stages& stages)
     {
         const double time = time_of(options_, frame);
@@ -225,7 +225,7 @@ private:
     std::uint64_t hemicubes_ = 0;
 };
 
-/// The scene at the first frame, with all that is to be said to the user.
+/// The scene at the first frame, with all warnings for the user.
 Scene read_start(const std::string& path, const Animation& animation, const PlayOptions& options)
 {
     Scene scene = read_gltf(path);
@@ -236,7 +236,7 @@ Scene read_start(const std::string& path, const Animation& animation, const Play
     return scene;
 }
 
-/// Makes the film if it can; else says what there is to do.
+/// Makes the film if it can; else prints how to make it.
 bool film(const OutputFolder& output, double fps)
 {
     const std::string ffmpeg = find_ffmpeg();
@@ -258,7 +258,6 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
                  const ProgressFunction& progress)
 {
     PlayOptions options = given;
-    checked_batch(method_of("progressive"), options.solver.batch);
     Stages stages(progress);
     stages.begin("reading");
     const Animation animation = read_animation(scene_path, options.animation);
@@ -272,6 +271,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);
+    stages.watch(device);
     tell_warnings(start);
 
     stages.begin("charts");

@@ -11,7 +11,7 @@ namespace lumel {
 
 struct PlayOptions {
     AtlasOptions atlas;
-    SolverOptions solver;
+    ProgressiveOptions solver;
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     Redistribution redistribution = Redistribution::incremental;
     double residual = LiveOptions{}.residual;  ///< light still to be shot, as a part of all
@@ -32,7 +32,7 @@ struct PlaySummary {
 };
 
 /// Writes frame-0001.png …, report.json and, if ffmpeg is installed, play.mp4 into `folder`. If
-/// `progress` says stop, the frames done so far. Throws Error.
+/// `progress` returns false, the frames done so far. Throws Error.
 PlaySummary play(const std::string& scene_path, const std::string& folder,
                  const PlayOptions& options, const ProgressFunction& progress = {});
 

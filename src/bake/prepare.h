@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// Reads a scene and adds the lights asked for. Throws Error.
+/// Reads a scene and adds the lights of the options. Throws Error.
 Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
 
 /// Throws Error{input} if the scene has no camera of that number; -1 stands for any.
@@ -21,8 +21,8 @@ void check_camera(const Scene& scene, int camera);
 struct Prepared {
     /// Lays out and lifts a scene. Throws Error.
     Prepared(Scene scene, const AtlasOptions& options);
-    /// The same with an atlas that `lay_out` makes of the scene, and what `bury` says of lumels
-    /// that mark_buried would mark; its result is `open`.
+    /// The same with an atlas that `lay_out` makes of the scene, and with `bury` in place of
+    /// mark_buried; its result is `open`.
     using LayOut = std::function<Atlas(const Scene&)>;
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {});

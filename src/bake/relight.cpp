@@ -128,6 +128,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
     const Prepared world = read_world(folder, baked, solution);
     const std::vector<std::uint32_t> numbers = numbers_in(light, world.lumels, folder);
     const gpu::Device device(options.device);
+    stages.watch(device);
     RelightSession session(device, std::move(light));
     check_states(session, states, states_path);
     OutputFolder output((fs::path(folder) / "states").string());

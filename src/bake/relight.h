@@ -26,7 +26,7 @@ struct RelightSummary {
     std::string report;  ///< JSON
 };
 
-/// Lights what `lumel bake --solver matrix` wrote into `folder` anew, as the file at `states` says
+/// Lights what `lumel bake --solver matrix` wrote into `folder` anew, by the file at `states`
 /// (see read_states()): states/NAME.exr, irradiance [lx], and states/NAME.png. Throws Error.
 RelightSummary relight(const std::string& folder, const std::string& states,
                        const RelightOptions& options, const ProgressFunction& progress = {});

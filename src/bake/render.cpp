@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "bake/dump.h"
 #include "bake/lighting.h"
 #include "bake/report.h"
 #include "bake/setting.h"
@@ -23,8 +24,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kMethod = "glossy";  ///< of kMethods: the one that knows gloss
-constexpr int kLargestPicture = 16384;     ///< side [pixels]
+constexpr int kLargestPicture = 16384;  ///< side [pixels]
 
 bool is_exr(const std::string& path)
 {
@@ -39,8 +39,8 @@ void check(const std::string& path, const RenderOptions& options)
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
-    if (options.paths == 0)
-        checked_batch(method_of(kMethod), options.bake.solver.batch);
+    if (options.paths > 0 && !options.bake.dump.empty())
+        throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
     const OutputFile can_be_written(path);
 }
 
@@ -56,7 +56,7 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
                         std::to_string(most) + " that fit this device with that many --places");
 }
 
-/// The view asked for, as wide as the picture.
+/// The requested view, as wide as the picture.
 View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
 {
     check_camera(scene, options.camera);
@@ -108,7 +108,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     const PowerDraw senders(standing, setting.prepared.lumels, brightness);
     const LobeRayOptions lobes{.rays = options.rays,
                                .shooters = shots > 0 ? sampling.shooters() : 0.0f,
-                               .seed = options.bake.solver.seed};
+                               .seed = seed_of(options.bake.solver.method)};
     const std::vector<glm::vec3> along =
         gather_along_lobes(seen.glossy, setting.prepared.rays, surfaces, lit, senders, lobes,
                            [&](double fraction) { return stages.tell(fraction); });
@@ -162,7 +162,7 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
     const ReferenceImageOptions reference{.width = options.width,
                                           .height = options.height,
                                           .samples_per_pixel = options.paths,
-                                          .seed = options.bake.solver.seed};
+                                          .seed = seed_of(options.bake.solver.method)};
     Image image = reference_image(scene, rays, view, reference,
                                   [&](double fraction) { return stages.tell(fraction); });
     stages.end();
@@ -171,6 +171,9 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 
 Made shoot(Scene scene, RenderOptions options, Stages& stages)
 {
+    std::optional<OutputFolder> dump;
+    if (!options.bake.dump.empty())
+        dump.emplace(options.bake.dump);
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
     const Prepared& prepared = setting.prepared;
@@ -181,13 +184,17 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
     GlossyIllumination solver(device, setting.world, lumels ? *lumels : prepared.lumels,
-                              setting.near, options.bake.solver, lamps.irradiance, particles);
+                              setting.near, std::get<GlossyOptions>(options.bake.solver.method),
+                              lamps.irradiance, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, lamps.irradiance);
+    if (dump)
+        write_dump(*dump, device, {prepared, setting.world, setting.near, irradiance},
+                   options.bake.solver);
     const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
     const Surfaces surfaces(prepared.scene);
     const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);
@@ -211,7 +218,6 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
 
 Made make(Scene scene, RenderOptions options, Stages& stages)
 {
-    options.bake.solver.method = kMethod;
     return options.paths > 0 ? path_trace(scene, options, stages)
                              : shoot(std::move(scene), options, stages);
 }

@@ -10,14 +10,15 @@
 namespace lumel {
 
 struct RenderOptions {
-    BakeOptions bake;         ///< the solution the picture is made from; its solver is `glossy`
+    /// The solution the picture is made from; its method is GlossyOptions.
+    BakeOptions bake{.solver = {.method = GlossyOptions{}}};
     int camera = -1;          ///< index into the file's cameras; -1: the first, or one chosen
     int width = 1280;         ///< [pixels]
-    int height = 0;           ///< [pixels]; 0: as the camera's aspect says
+    int height = 0;           ///< [pixels]; 0: by the camera's aspect
     std::uint32_t sets = 16;  ///< places looked at within a pixel
     std::uint64_t shots = 0;  ///< shooters for the eye, after those of the solution
     std::uint32_t rays = 4;   ///< along the lobe at each place
-    int paths = 0;            ///< > 0: path traced on the CPU instead, with so many per pixel
+    int paths = 0;            ///< > 0: path traced on the CPU instead, with this number per pixel
 };
 
 struct RenderSummary {

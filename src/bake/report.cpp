@@ -9,6 +9,7 @@
 #include "record/solver_settings.h"
 #include "record/words.h"
 #include "relight/matrix_file.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -114,7 +115,7 @@ void add_picture(Report& report, const RenderOptions& options)
 
 Json path_tracer_settings(std::uint32_t seed)
 {
-    return {{"method", "reference"}, {"seed", seed}};
+    return {{"method", "reference"}, {"options", {{"seed", seed}}}};
 }
 
 }  // namespace
@@ -238,9 +239,7 @@ Report play_report(const PlayOptions& options, const LiveScene& live, const gpu:
                        {"budget", options.budget_ms},
                        {"residual", options.residual}};
     report.settings.update(atlas_settings(options.atlas));
-    SolverOptions solver = options.solver;
-    solver.method = "progressive";
-    report.solver = solver_settings(solver);
+    report.solver = solver_settings({.method = options.solver});
     for (const FrameRow& frame : frames)
         report.shots += frame.hemicubes;
     report.frames = std::move(frames);
@@ -258,7 +257,7 @@ Report path_traced_report(const RenderOptions& options, const Scene& scene, cons
     add_usage(report, scene, stages);
     add_picture(report, options);
     report.settings["paths"] = options.paths;
-    report.solver = path_tracer_settings(options.bake.solver.seed);
+    report.solver = path_tracer_settings(seed_of(options.bake.solver.method));
     report.interrupted = stages.stopped();
     return report;
 }

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/log.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
 
-/// How far a solve is on the way to whichever limit is nearest, 0…1.
+/// The progress of a solve toward the limit that is nearest, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
 {
     double fraction = 0.0;
@@ -33,23 +36,44 @@ Scene in_stage(Scene scene, Stages& stages)
 NearField near_field_of(const Prepared& prepared, const SolverOptions& options, Stages& stages)
 {
     tell_user(prepared);
+    note_sizes(prepared, stages);
     stages.begin("near field");
-    return near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
+    NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
+    stages.note(fmt::format(
+        "{} close pairs take {}", near.column.size(),
+        mebibytes(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
+    return near;
 }
 
 const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 {
+    stages.watch(device);
     stages.begin("uploading");
     return device;
 }
+
+/// Estimates of the error as they come, each after twice the shooters of the one before.
+class ErrorNotes {
+public:
+    void add(const SolverState& state, Stages& stages)
+    {
+        if (state.error < 0.0 || state.shots < next_)
+            return;
+        stages.note(
+            fmt::format("{} shooters, estimated error {:.3f} %", state.shots, 100.0 * state.error));
+        next_ = 2 * state.shots;
+    }
+
+private:
+    std::uint64_t next_ = 0;
+};
 
 }  // namespace
 
 std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
-    if (method_of(options.method).materials == MaterialModel::glossy &&
-        options.scheme != Scheme::paper)
+    if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
         particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
     return particles;
 }
@@ -73,13 +97,19 @@ Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device
 SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages)
 {
     stages.begin("solving");
+    stages.note_arrays();
     SolveRun run;
+    ErrorNotes errors;
     run.finished = solve(solver, options, [&](const SolverState& state) {
+        errors.add(state, stages);
         const double seconds = stages.stage_seconds();
         if (state.error >= 0.0 && (run.curve.empty() || run.curve.back().error != state.error))
             run.curve.push_back({state.shots, seconds, state.error});
         return stages.tell(solved_fraction(options, state, seconds), state.shots, state.error);
     });
+    stages.note(fmt::format("{} shooters in {} iterations", solver.state().shots,
+                            solver.state().iterations));
+    stages.note_times(solver.times());
     return run;
 }
 
@@ -87,6 +117,18 @@ void tell_warnings(const Scene& scene)
 {
     for (const std::string& warning : scene.warnings)
         log_warning(warning);
+}
+
+void note_sizes(const Prepared& prepared, Stages& stages)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
+        return (lumel.flags & kLumelBuried) != 0;
+    });
+    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
+                            "buried",
+                            prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
+                            lumels.size(), prepared.lumels.pieces.size(), buried));
 }
 
 void tell_user(const Prepared& prepared)

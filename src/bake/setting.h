@@ -8,6 +8,7 @@
 #include "bake/prepare.h"
 #include "bake/stages.h"
 #include "lobes/lobe_particles.h"
+#include "solve/solver.h"
 
 namespace lumel {
 
@@ -16,6 +17,9 @@ void tell_warnings(const Scene& scene);
 
 /// Says what the scene's reader and the atlas had to say.
 void tell_user(const Prepared& prepared);
+
+/// Notes how large the world is, as lumels count.
+void note_sizes(const Prepared& world, Stages& stages);
 
 /// Who carries what lobes send on, for a solver that knows gloss; none for Scheme::paper, whose
 /// shooters send it. The world must outlive them.

@@ -1,11 +1,12 @@
 #include "bake/sources.h"
 
 #include "relight/relight_solver.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
 
-/// The sources, each with what its sky and lamps send straight to the lumels.
+/// The sources, each with the direct light of its sky and lamps at the lumels.
 std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting& setting,
                                        const BakeOptions& options, DirectLight& told,
                                        Stages& stages)
@@ -45,7 +46,7 @@ FormFactorRow row_of(const Transport& transport)
 
 bool keeps_sources_apart(const BakeOptions& options)
 {
-    return options.solver.method == "matrix" && options.parts == Parts::all;
+    return method_of(options.solver.method).can_keep_sources && options.parts == Parts::all;
 }
 
 std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,
@@ -60,6 +61,7 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
                                                   setting.near, options.solver, std::move(sources));
     while (!solver->done() && stages.tell(solver->fraction(), solver->state().shots))
         solver->step();
+    stages.note_times(solver->times());
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();
     if (solver->done() && solution->lamps.finished)

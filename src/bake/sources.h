@@ -5,7 +5,7 @@
 
 namespace lumel {
 
-/// True if these options ask for a solution that can be lit anew.
+/// True if these options give a solution that can be lit anew.
 bool keeps_sources_apart(const BakeOptions& options);
 
 /// Solves for all light, source by source. Solution::relightable is there if nothing stopped it.

@@ -1,8 +1,21 @@
 #include "bake/stages.h"
 
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "core/usage.h"
+#include "gpu/device.h"
+#include "gpu/memory.h"
 
 namespace lumel {
+
+std::string mebibytes(std::uint64_t bytes)
+{
+    constexpr double mebibyte = 1024.0 * 1024.0;
+    return fmt::format("{:.1f} MiB", double(bytes) / mebibyte);
+}
 
 Stages::Stages(const ProgressFunction& progress)
     : progress_(&progress),
@@ -19,14 +32,52 @@ void Stages::begin(const std::string& name)
     stage_start_ = wall_seconds();
     stage_cpu_start_ = cpu_seconds();
     running_ = true;
-    tell(0.0);
+    now_ = {.stage = name};
+    note("begins");
 }
 
 bool Stages::tell(double fraction, std::uint64_t shots, double error)
 {
-    if (*progress_ && !(*progress_)({times_.back().name, fraction, shots, error, stage_seconds()}))
-        stopped_ = true;
+    now_.fraction = fraction;
+    now_.shots = shots;
+    now_.error = error;
+    report();
     return !stopped_;
+}
+
+void Stages::note(const std::string& text)
+{
+    now_.note = text;
+    report();
+    now_.note.clear();
+}
+
+void Stages::note_times(const gpu::StageTimes& times)
+{
+    std::vector<std::pair<std::string, double>> kernels(times.begin(), times.end());
+    std::stable_sort(kernels.begin(), kernels.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    for (const auto& [kernel, ms] : kernels)
+        note(fmt::format("\"{}\" took {:.3f} s on the device", kernel, ms / 1000.0));
+}
+
+void Stages::note_arrays()
+{
+    constexpr std::size_t kMost = 8;
+    if (!device_)
+        return;
+    note("arrays and images on the device take " + mebibytes(device_->held_bytes()) +
+         ", the largest of them:");
+    const std::vector<gpu::Holding> holdings = device_->memory().holdings();
+    for (std::size_t i = 0; i < std::min(kMost, holdings.size()); ++i)
+        note(mebibytes(holdings[i].bytes) + " of " + holdings[i].name);
+}
+
+void Stages::report()
+{
+    now_.seconds = stage_seconds();
+    if (*progress_ && !(*progress_)(now_))
+        stopped_ = true;
 }
 
 void Stages::end()
@@ -36,6 +87,19 @@ void Stages::end()
     times_.back().wall_seconds = stage_seconds();
     times_.back().cpu_seconds = cpu_seconds() - stage_cpu_start_;
     running_ = false;
+    note(cost_of_stage());
+}
+
+std::string Stages::cost_of_stage() const
+{
+    const StageTime& time = times_.back();
+    std::string cost =
+        fmt::format("took {:.3f} s, of all processors {:.3f} s; memory {} at most",
+                    time.wall_seconds, time.cpu_seconds, mebibytes(peak_memory_bytes()));
+    if (device_)
+        cost += fmt::format(", on the device {} now and {} at most",
+                            mebibytes(device_->held_bytes()), mebibytes(device_->peak_bytes()));
+    return cost;
 }
 
 double Stages::seconds() const

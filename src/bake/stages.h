@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "bake/bake.h"
+#include "gpu/commands.h"
 #include "record/report.h"
 
 namespace lumel {
+
+/// "12.3 MiB"
+std::string mebibytes(std::uint64_t bytes);
 
 /// Follows a bake from stage to stage, and tells the progress function about it.
 class Stages {
@@ -18,6 +22,15 @@ public:
     void begin(const std::string& name);
     /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
     bool tell(double fraction, std::uint64_t shots = 0, double error = -1.0);
+    /// Passes on a fact about the current stage, in one line.
+    void note(const std::string& text);
+    /// Notes what kernels took on the device [ms], longest first.
+    void note_times(const gpu::StageTimes& times);
+    /// Notes the largest arrays and images on the device that is watched.
+    void note_arrays();
+    /// From now on the end of each stage says how much memory of this device is held. It must
+    /// outlive the last stage.
+    void watch(const gpu::Device& device) { device_ = &device; }
     /// True once the caller has wanted to stop.
     bool stopped() const { return stopped_; }
     void end();
@@ -27,7 +40,12 @@ public:
     double stage_seconds() const;  ///< since the current stage began
 
 private:
+    void report();
+    std::string cost_of_stage() const;
+
     const ProgressFunction* progress_;
+    const gpu::Device* device_ = nullptr;  ///< that is watched
+    BakeProgress now_;
     std::vector<StageTime> times_;
     double start_, stage_start_, stage_cpu_start_;
     bool running_ = false, stopped_ = false;

@@ -14,6 +14,7 @@
 #include "record/bake_record.h"
 #include "record/light_settings.h"
 #include "relight/matrix_file.h"
+#include "solve/methods.h"
 #include "json/json_file.h"
 
 namespace lumel {
@@ -40,8 +41,8 @@ std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedS
         const World world(device, scene, edit.now.lumels, &edit.now.atlas);
         return direct_light(device, world, scene, edit.now.lumels,
                             {.sky_directions = baked.sky_directions,
-                             .seed = baked.solver.seed,
-                             .centre = baked.solver.rule == SampleRule::centre},
+                             .seed = seed_of(baked.solver.method),
+                             .centre = rule_of(baked.solver.method) == SampleRule::centre},
                             [&](double fraction) {
                                 stages.tell(fraction);
                                 return true;
@@ -62,8 +63,6 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     BakeOptions options;
     options.sky_directions = baked.sky_directions;
     options.solver.method = baked.solver.method;
-    options.solver.seed = baked.solver.seed;
-    options.solver.rule = baked.solver.rule;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
         edit.now.scene, [&](const Scene&) { return edit.now.atlas; }, device, options, stages);

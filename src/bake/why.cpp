@@ -17,6 +17,7 @@
 #include "record/bake_record.h"
 #include "record/light_settings.h"
 #include "relight/senders.h"
+#include "solve/methods.h"
 #include "json/json_file.h"
 
 namespace lumel {
@@ -181,7 +182,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     stages.begin("rays");
     const Senders senders =
         find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
-                     lumel, {.seed = baked.solver.seed});
+                     lumel, {.seed = seed_of(baked.solver.method)});
     WhySummary summary = summary_of(prepared, lumel, senders);
     summary.texel = texel;
     summary.solved = irradiance[lumel];

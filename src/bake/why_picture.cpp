@@ -16,9 +16,9 @@ namespace {
 constexpr float kDim = 0.4f;
 /// Of the densest place's colours a hundredth is a quarter: what walls send beside a lamp shows.
 constexpr float kHeatPower = 0.3f;
-/// From so much heat on, none of the scene shows through.
+/// From this heat on, none of the scene shows through.
 constexpr float kOpaque = 0.3f;
-/// The mark reaches so many times the lumel's size.
+/// The mark reaches this many times the lumel's size.
 constexpr float kMarkSize = 2.5f;
 constexpr glm::vec3 kMark{0.0f, 0.9f, 1.0f};
 

@@ -1,5 +1,5 @@
 #pragma once
-// A hash that tells contents apart: FNV-1a over 64-bit words. It guards against mistakes, not
+// A hash that distinguishes contents: FNV-1a over 64-bit words. It guards against mistakes, not
 // against intent.
 
 #include <algorithm>

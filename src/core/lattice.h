@@ -1,5 +1,5 @@
 #pragma once
-// Points of the unit square, evenly spread, of which it is known how many there will be.
+// Points spread evenly over the unit square, where their number is known beforehand.
 //
 //   [HN04] J. Hannay, J. Nye. Fibonacci numerical integration on a sphere. 2004.
 //   [Rob18] M. Roberts. The Unreasonable Effectiveness of Quasirandom Sequences. 2018.

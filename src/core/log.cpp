@@ -19,16 +19,37 @@ spdlog::logger& logger()
     return *instance;
 }
 
+thread_local LogCapture* capture = nullptr;
+
+bool is_captured(std::string_view message)
+{
+    if (capture)
+        capture->keep(message);
+    return capture != nullptr;
+}
+
 }  // namespace
+
+LogCapture::LogCapture() : outer_(capture)
+{
+    capture = this;
+}
+
+LogCapture::~LogCapture()
+{
+    capture = outer_;
+}
 
 void log_info(std::string_view message)
 {
-    logger().info("{}", message);
+    if (!is_captured(message))
+        logger().info("{}", message);
 }
 
 void log_warning(std::string_view message)
 {
-    logger().warn("{}", message);
+    if (!is_captured(message))
+        logger().warn("{}", message);
 }
 
 void set_quiet(bool quiet)

@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// The finite number that a whole text is; nothing if it is anything else.
+/// The finite number that the whole text represents; nothing if it is not one.
 inline std::optional<double> number_of(std::string_view text)
 {
     if (text.starts_with('+'))

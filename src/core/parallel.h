@@ -13,7 +13,7 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t first, std::size_t last)>& body);
 
 /// The same for work that is watched, a step of at most `step` at a time: after each, go_on(done)
-/// is told how many are done, and returns false to stop. False: it did.
+/// receives the number that is done, and returns false to stop. Returns false if it stopped.
 bool parallel_steps(std::size_t count, std::size_t step, std::size_t grain,
                     const std::function<void(std::size_t first, std::size_t last)>& body,
                     const std::function<bool(std::size_t done)>& go_on);

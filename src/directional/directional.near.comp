@@ -30,7 +30,7 @@ layout(binding = 9, scalar) readonly buffer Pieces { Piece pieces[]; };
 #include "world/lumel.glsl"
 #include "directional/directional.glsl"
 
-// Pairs closer than this, in sizes of the larger, are looked at between so many points.
+// Pairs closer than this, in sizes of the larger, are sampled between this number of points.
 const float kClose = 4.0;
 const uint kPoints = 8u;
 // A sender that lies lower than this part of its size, on the whole, is cut by the receiver's

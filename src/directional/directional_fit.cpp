@@ -4,7 +4,7 @@
 //        SIGGRAPH 2001.
 //
 // The projection c_lm = ∫ L Y_lm of radiance over the sphere spends most of what one or two bands
-// can say on the horizon, below which nothing arrives. What is asked for is irradiance,
+// can represent on the horizon, below which nothing arrives. Wanted is irradiance,
 //
 //     H(n') = ∫ L(ω) max(ω·n', 0) dω   ≈   Σ A_l c_lm Y_lm(n'),            [RH01] Eq. (5), (8)
 //
@@ -14,8 +14,8 @@
 //     ∫ (n·n') (Σ A_l D_lm Y_lm(n') - max(ω·n', 0))² dn'  +  λ Σ (D_lm - Y_lm(ω))²
 //
 // over the upper hemisphere is least, and Σ A_l D_lm Y_lm(n) = max(ω·n, 0) at n itself. λ holds
-// them near the projection, so that they still say what radiance arrives. With n along z, D_lm is a
-// function of ω's elevation times cos |m|φ or sin |m|φ: tabulated here, put together in
+// them near the projection, so that they still describe the arriving radiance. With n along z, D_lm
+// is a function of ω's elevation times cos |m|φ or sin |m|φ: tabulated here, put together in
 // directional.glsl.
 //
 // Measured with rays on the Cornell box (cosine-weighted normals, matched at n): root mean square
@@ -37,7 +37,7 @@ using Vector = glm::dvec3;  // over the bands
 using Matrix = glm::dmat3;
 
 /// λ. From 0 to 0.1 the irradiance gets 1.7 times worse at two bands and reflections better; below
-/// 0.03 more than 1 % of lumels say that more comes from one side than in all.
+/// 0.03 more than 1 % of lumels receive more from one side than in all.
 constexpr double kPull = 0.03;
 /// Steps of the sums over normals, in height and round.
 constexpr int kHeights = 64, kAround = 128;
@@ -73,7 +73,7 @@ double lobe(int band)
 /// The bands m…order of azimuthal order m: the matrix of the least squares.
 Matrix normal_matrix(int m, int order)
 {
-    Matrix matrix(1.0);  // bands that are not asked for stay 0
+    Matrix matrix(1.0);  // bands that are not requested stay 0
     for (int a = m; a <= order; ++a)
         for (int b = m; b <= order; ++b) {
             double sum = a == b ? kPull : 0.0;
@@ -175,11 +175,11 @@ std::vector<glm::vec3> rings_about(const glm::vec3& axis)
     return normals;
 }
 
-/// The part of the coefficients that is alike all round the axis.
+/// The part of the coefficients that is symmetric about the axis.
 std::array<glm::vec3, kMostCoefficients> axial_part(std::span<const glm::vec3> coefficients,
                                                     const glm::vec3& axis)
 {
-    // Σ_m c_lm Y_lm(axis) is what the band says along the axis; Y_l0(1)² = Σ_m Y_lm(axis)².
+    // Σ_m c_lm Y_lm(axis) is the value of the band along the axis; Y_l0(1)² = Σ_m Y_lm(axis)².
     const auto y = harmonics(axis);
     std::array<glm::vec3, kMostBands> along{};
     for (std::size_t i = 0; i < coefficients.size(); ++i)
@@ -193,7 +193,7 @@ std::array<glm::vec3, kMostCoefficients> axial_part(std::span<const glm::vec3> c
     return part;
 }
 
-/// Lessens what differs from side to side until no normal of the rings sees less than nothing.
+/// Reduces the asymmetric part until no normal of the rings has irradiance below 0.
 void keep_positive(std::span<glm::vec3> coefficients, const glm::vec3& axis)
 {
     const auto axial = axial_part(coefficients, axis);

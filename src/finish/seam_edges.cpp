@@ -67,7 +67,7 @@ private:
     }
     static std::uint64_t key_of(const Cell& cell)
     {
-        // Colliding cells share a list; near() tells their points apart.
+        // Colliding cells share a list; near() distinguishes their points.
         return std::uint64_t(cell[0]) * 73856093u ^ std::uint64_t(cell[1]) * 19349663u ^
                std::uint64_t(cell[2]) * 83492791u;
     }

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "gpu/commands.h"
+#include "gpu/staging.h"
 
 namespace lumel::gpu {
 
-Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
+Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Name& name)
     : device_(&device),
       bytes_(bytes)
 {
@@ -25,13 +25,15 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place)
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
     try {
-        memory_ = device.allocate(requirements, place == Place::host, &mapped_);
+        memory_ = device.memory().take(
+            requirements, place == Place::host ? MemoryUse::host : MemoryUse::array, name.text());
     } catch (...) {
         vkDestroyBuffer(device.handle(), buffer_, nullptr);
         throw;
     }
-    allocated_ = requirements.size;
-    check(vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory");
+    check(vkBindBufferMemory(device.handle(), buffer_, memory_.memory, memory_.offset),
+          "vkBindBufferMemory");
+    set_name(device, buffer_, name.text());
 }
 
 Buffer::~Buffer()
@@ -39,16 +41,14 @@ Buffer::~Buffer()
     if (!buffer_)
         return;
     vkDestroyBuffer(device_->handle(), buffer_, nullptr);
-    device_->free(memory_, allocated_);
+    device_->memory().give_back(memory_);
 }
 
 Buffer::Buffer(Buffer&& other) noexcept
     : device_(other.device_),
       buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
       memory_(other.memory_),
-      bytes_(other.bytes_),
-      allocated_(other.allocated_),
-      mapped_(other.mapped_)
+      bytes_(other.bytes_)
 {
 }
 
@@ -58,8 +58,6 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
     std::swap(buffer_, other.buffer_);
     std::swap(memory_, other.memory_);
     std::swap(bytes_, other.bytes_);
-    std::swap(allocated_, other.allocated_);
-    std::swap(mapped_, other.mapped_);
     return *this;
 }
 
@@ -67,30 +65,20 @@ void Buffer::upload(const void* data, std::uint64_t bytes)
 {
     if (bytes == 0)
         return;
-    if (mapped_) {
-        std::memcpy(mapped_, data, bytes);
-        return;
-    }
-    const Buffer staging(*device_, bytes, Place::host);
-    std::memcpy(staging.mapped(), data, bytes);
-    Commands commands(*device_);
-    commands.copy(staging, *this, bytes);
-    commands.run();
+    if (mapped())
+        std::memcpy(mapped(), data, bytes);
+    else
+        device_->staging().upload(data, *this, bytes);
 }
 
 void Buffer::download(void* data, std::uint64_t bytes) const
 {
     if (bytes == 0)
         return;
-    if (mapped_) {
-        std::memcpy(data, mapped_, bytes);
-        return;
-    }
-    const Buffer staging(*device_, bytes, Place::host);
-    Commands commands(*device_);
-    commands.copy(*this, staging, bytes);
-    commands.run();
-    std::memcpy(data, staging.mapped(), bytes);
+    if (mapped())
+        std::memcpy(data, mapped(), bytes);
+    else
+        device_->staging().download(*this, data, bytes);
 }
 
 }  // namespace lumel::gpu

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "gpu/device.h"
+#include "gpu/memory.h"
+#include "gpu/names.h"
 
 namespace lumel::gpu {
 
@@ -15,14 +17,15 @@ class Buffer {
 public:
     enum class Place { device, host };  ///< host: mapped, for read-backs and uploads
 
-    Buffer(const Device& device, std::uint64_t bytes, Place place = Place::device);
+    Buffer(const Device& device, std::uint64_t bytes, Place place = Place::device,
+           const Name& name = Name::of_line());
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
     VkBuffer handle() const { return buffer_; }
     std::uint64_t bytes() const { return bytes_; }
-    std::byte* mapped() const { return static_cast<std::byte*>(mapped_); }  ///< host place only
+    std::byte* mapped() const { return memory_.mapped; }  ///< host place only
 
     /// Blocking copies between host and device.
     void upload(const void* data, std::uint64_t bytes);
@@ -31,21 +34,27 @@ public:
 private:
     const Device* device_;
     VkBuffer buffer_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    std::uint64_t bytes_ = 0, allocated_ = 0;
-    void* mapped_ = nullptr;
+    Memory::Part memory_;
+    std::uint64_t bytes_ = 0;
 };
 
-/// T[count] in GPU memory. An empty array still occupies one element, so it can be bound.
+/// T[count] in GPU memory. An empty array still occupies one element, so it can be bound. Debuggers
+/// call it by its name, which is the line of source that makes it unless a name is given.
 template <class T>
 class Array {
 public:
-    Array(const Device& device, std::size_t count, Buffer::Place place = Buffer::Place::device)
-        : count_(count),
-          buffer_(device, (count > 0 ? count : 1) * sizeof(T), place)
+    Array(const Device& device, std::size_t count, const Name& name = Name::of_line())
+        : Array(device, count, Buffer::Place::device, name)
     {
     }
-    Array(const Device& device, std::span<const T> values) : Array(device, values.size())
+    Array(const Device& device, std::size_t count, Buffer::Place place,
+          const Name& name = Name::of_line())
+        : count_(count),
+          buffer_(device, (count > 0 ? count : 1) * sizeof(T), place, name)
+    {
+    }
+    Array(const Device& device, std::span<const T> values, const Name& name = Name::of_line())
+        : Array(device, values.size(), name)
     {
         upload(values);
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gpu/names.h"
+
 namespace lumel::gpu {
 namespace {
 
@@ -25,15 +27,16 @@ VkImageMemoryBarrier2 to_general(const Target& target)
                                  .layerCount = 1}};
 }
 
-VkBufferImageCopy whole_level(const Target& target)
+VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32_t count)
 {
     return {.imageSubresource = {.aspectMask = aspect_of(target.pixel()), .layerCount = 1},
-            .imageExtent = {target.width(), target.height(), 1}};
+            .imageOffset = {0, int(first), 0},
+            .imageExtent = {target.width(), count, 1}};
 }
 
 }  // namespace
 
-Commands::Commands(const Device& device) : device_(&device)
+Commands::Commands(const Device& device, Timing timing) : device_(&device)
 {
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .queueFamilyIndex = device.queue_family()};
@@ -46,6 +49,8 @@ Commands::Commands(const Device& device) : device_(&device)
     check(vkAllocateCommandBuffers(device.handle(), &buffer, &buffer_), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     check(vkCreateFence(device.handle(), &fence, nullptr, &fence_), "vkCreateFence");
+    if (timing == Timing::off)
+        return;
     const VkQueryPoolCreateInfo queries{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                         .queryCount = kMaxTimestamps};
@@ -54,26 +59,30 @@ Commands::Commands(const Device& device) : device_(&device)
 
 Commands::~Commands()
 {
-    if (submitted_)  // an exception is on its way: let the device finish before memory goes
+    if (submitted_)  // an exception passes through: let the device finish before memory goes
         vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever);
     vkDestroyQueryPool(device_->handle(), queries_, nullptr);
     vkDestroyFence(device_->handle(), fence_, nullptr);
     vkDestroyCommandPool(device_->handle(), pool_, nullptr);
 }
 
-void Commands::begin()
+void Commands::start()
 {
-    if (recording_)
-        return;
     wait();
     check(vkResetCommandPool(device_->handle(), pool_, 0), "vkResetCommandPool");
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(vkBeginCommandBuffer(buffer_, &info), "vkBeginCommandBuffer");
-    vkCmdResetQueryPool(buffer_, queries_, 0, kMaxTimestamps);
+    if (queries_)
+        vkCmdResetQueryPool(buffer_, queries_, 0, kMaxTimestamps);
     recording_ = true;
     stages_.clear();
-    stage("other");
+}
+
+void Commands::begin()
+{
+    if (!recording_)
+        stage("other");
 }
 
 bool Commands::has_room_for_stages() const
@@ -83,15 +92,31 @@ bool Commands::has_room_for_stages() const
 
 void Commands::stage(const char* name)
 {
-    begin();
+    if (!recording_)
+        start();
     if (stages_.size() + 1 >= kMaxTimestamps || (!stages_.empty() && stages_.back() == name))
         return;
-    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
-                         std::uint32_t(stages_.size()));
+    end_stage();
+    begin_stage(name);
+}
+
+void Commands::begin_stage(const char* name)
+{
+    begin_region(*device_, buffer_, name);
+    if (queries_) {
+        vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                             std::uint32_t(stages_.size()));
+        // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may
+        // be after the work that follows.
+        barrier();
+    }
     stages_.emplace_back(name);
-    // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may be
-    // after the work that follows.
-    barrier();
+}
+
+void Commands::end_stage()
+{
+    if (!stages_.empty())
+        end_region(*device_, buffer_);
 }
 
 // Everything before happens before, and is visible to, everything after. One barrier for all
@@ -188,15 +213,22 @@ void Commands::copy_part(const Buffer& from, std::uint64_t from_byte, const Buff
 
 void Commands::copy(const Buffer& from, const Target& to)
 {
+    copy_rows(from, to, 0, to.height());
+    make_levels(to);
+}
+
+void Commands::copy_rows(const Buffer& from, const Target& to, std::uint32_t first,
+                         std::uint32_t count)
+{
     begin();
-    const VkBufferImageCopy region = whole_level(to);
+    const VkBufferImageCopy region = rows_of(to, first, count);
     vkCmdCopyBufferToImage(buffer_, from.handle(), to.image(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
     barrier();
-    make_levels(to);
 }
 
 void Commands::make_levels(const Target& target)
 {
+    begin();
     int width = int(target.width()), height = int(target.height());
     for (std::uint32_t level = 1; level < target.mip_levels(); ++level) {
         const int next_width = std::max(width / 2, 1), next_height = std::max(height / 2, 1);
@@ -212,10 +244,11 @@ void Commands::make_levels(const Target& target)
     }
 }
 
-void Commands::copy(const Target& from, const Buffer& to)
+void Commands::copy_rows(const Target& from, const Buffer& to, std::uint32_t first,
+                         std::uint32_t count)
 {
     begin();
-    const VkBufferImageCopy region = whole_level(from);
+    const VkBufferImageCopy region = rows_of(from, first, count);
     vkCmdCopyImageToBuffer(buffer_, from.image(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
     barrier();
 }
@@ -298,8 +331,10 @@ void Commands::end_pass()
 void Commands::submit()
 {
     begin();
-    vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
-                         std::uint32_t(stages_.size()));
+    if (queries_)
+        vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
+                             std::uint32_t(stages_.size()));
+    end_stage();
     check(vkEndCommandBuffer(buffer_), "vkEndCommandBuffer");
     recording_ = false;
     const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
@@ -318,6 +353,8 @@ void Commands::wait()
     check(vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever), "vkWaitForFences");
     check(vkResetFences(device_->handle(), 1, &fence_), "vkResetFences");
     submitted_ = false;
+    if (!queries_)
+        return;
     std::vector<std::uint64_t> stamps(stages_.size() + 1);
     check(vkGetQueryPoolResults(device_->handle(), queries_, 0, std::uint32_t(stamps.size()),
                                 stamps.size() * sizeof(std::uint64_t), stamps.data(),

@@ -49,16 +49,19 @@ struct Range {
 /// Time the device spent per stage [ms].
 using StageTimes = std::map<std::string, double>;
 
+enum class Timing { on, off };
+
 /// One command buffer with its fence and timestamps. Record, then run() or submit() and wait();
 /// after either it records anew.
 class Commands {
 public:
-    explicit Commands(const Device& device);
+    /// timing: off leaves out the timestamps, and the barriers that they need.
+    explicit Commands(const Device& device, Timing timing = Timing::on);
     ~Commands();
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
-    /// Gives the work recorded from here on a name in the timings.
+    /// Gives the work recorded from here on a name in the timings and to debuggers.
     void stage(const char* name);
     /// False if the next stage's time would be counted to the last one's.
     bool has_room_for_stages() const;
@@ -77,8 +80,11 @@ public:
     void copy_part(const Buffer& from, std::uint64_t from_byte, const Buffer& to,
                    std::uint64_t to_byte, std::uint64_t bytes);
     void copy(const Buffer& from, const Target& to);  ///< level 0, then makes the smaller levels
-    void copy(const Target& from, const Buffer& to);  ///< level 0
-    void prepare(const Target& target);               ///< a new image's first use
+    /// Rows [first, first + count) of level 0, which the buffer holds from its beginning on.
+    void copy_rows(const Buffer& from, const Target& to, std::uint32_t first, std::uint32_t count);
+    void copy_rows(const Target& from, const Buffer& to, std::uint32_t first, std::uint32_t count);
+    void make_levels(const Target& target);  ///< all smaller ones, of level 0
+    void prepare(const Target& target);      ///< a new image's first use
 
     /// Clears (depth to 0 = infinitely far, colour to `clear`) and begins drawing into the area.
     void begin_pass(const Target* color, const Target& depth, const Area& area,
@@ -109,7 +115,10 @@ public:
     double last_milliseconds() const { return last_milliseconds_; }  ///< of the last submission
 
 private:
+    void start();
     void begin();
+    void begin_stage(const char* name);
+    void end_stage();
     void barrier();
     void bind(const Layout& layout, VkPipelineBindPoint point, std::span<const Binding> bindings);
     void push_params(const Layout& layout, const void* params, std::uint32_t bytes);
@@ -123,13 +132,12 @@ private:
         dispatch_bytes(kernel, std::span(bindings.begin(), bindings.size()), params, bytes,
                        threads);
     }
-    void make_levels(const Target& target);
 
     const Device* device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer buffer_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;
+    VkQueryPool queries_ = VK_NULL_HANDLE;   ///< null: not timed
     const Layout* layout_in_use_ = nullptr;  ///< of the Raster in use
     bool recording_ = false, submitted_ = false;
     std::vector<std::string> stages_;  ///< name of the interval that begins at timestamp i

@@ -5,6 +5,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <type_traits>
+
+#include "gpu/memory.h"
+#include "gpu/staging.h"
 
 namespace lumel::gpu {
 
@@ -71,6 +75,18 @@ void load_vulkan()
                     "Vulkan, or Mesa's software Vulkan (package mesa-vulkan-drivers)");
 }
 
+/// Names and labels are of use without the layers too: to debuggers that look on.
+bool has_debug_utils()
+{
+    std::uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& e) {
+        return std::strcmp(e.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
+    });
+}
+
 VkInstance make_instance(bool validation)
 {
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
@@ -81,7 +97,8 @@ VkInstance make_instance(bool validation)
                                     .pApplicationInfo = &application,
                                     .enabledLayerCount = validation ? 1u : 0u,
                                     .ppEnabledLayerNames = &kValidationLayer,
-                                    .enabledExtensionCount = validation ? 1u : 0u,
+                                    .enabledExtensionCount =
+                                        validation || has_debug_utils() ? 1u : 0u,
                                     .ppEnabledExtensionNames = &extension};
     VkInstance instance = VK_NULL_HANDLE;
     const VkResult result = vkCreateInstance(&info, nullptr, &instance);
@@ -257,7 +274,10 @@ struct Device::Validation {
     {
         auto* self = static_cast<Validation*>(user);
         const std::lock_guard lock(self->mutex);
-        self->messages += std::string(data->pMessage) + "\n";
+        self->messages += data->pMessage;
+        for (std::uint32_t i = 0; i < data->cmdBufLabelCount; ++i)
+            self->messages += std::string(" (in \"") + data->pCmdBufLabels[i].pLabelName + "\")";
+        self->messages += "\n";
         return VK_FALSE;
     }
 };
@@ -319,6 +339,7 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+    load_debug_utils();
     learn_limits();
 }
 
@@ -342,14 +363,27 @@ Device::Device(const HostDevice& host)
     info_ = describe(physical_);
     if (!info_.usable)
         throw Error(ErrorKind::device, info_.name, info_.reason);
+    load_debug_utils();
     learn_limits();
+}
+
+void Device::load_debug_utils()
+{
+    // Of this instance: volk's globals may be those of another, and a host may lack the extension.
+    const auto load = [&](auto& function, const char* name) {
+        function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
+            vkGetInstanceProcAddr(instance_, name));
+    };
+    load(debug_utils_.set_name, "vkSetDebugUtilsObjectNameEXT");
+    load(debug_utils_.begin_region, "vkCmdBeginDebugUtilsLabelEXT");
+    load(debug_utils_.end_region, "vkCmdEndDebugUtilsLabelEXT");
 }
 
 void Device::learn_limits()
 {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(physical_, &properties);
-    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    memory_ = std::make_unique<Memory>(physical_, device_, info_.name);
     max_array_bytes_ = properties.limits.maxStorageBufferRange;
     max_image_side_ = properties.limits.maxImageDimension2D;
     max_groups_ = properties.limits.maxComputeWorkGroupCount[0];
@@ -360,6 +394,8 @@ void Device::learn_limits()
 
 Device::~Device()
 {
+    staging_.reset();
+    memory_.reset();
     if (!owned_)
         return;
     if (device_)
@@ -382,47 +418,21 @@ void Device::check_validation() const
         throw Error(ErrorKind::device, "Vulkan validation", messages);
 }
 
-VkDeviceMemory Device::allocate(const VkMemoryRequirements& requirements, bool host_visible,
-                                void** mapped) const
+std::uint64_t Device::held_bytes() const
 {
-    constexpr VkMemoryPropertyFlags host =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    // Cached host memory first, for read-backs; then any that serves.
-    const VkMemoryPropertyFlags wishes[2] = {
-        host_visible ? host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT
-                     : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT),
-        host_visible ? host : 0u};
-    bool full = false;
-    for (const VkMemoryPropertyFlags wish : wishes)
-        for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
-            if (!(requirements.memoryTypeBits >> type & 1u) ||
-                (memory_.memoryTypes[type].propertyFlags & wish) != wish)
-                continue;
-            const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                            .allocationSize = requirements.size,
-                                            .memoryTypeIndex = type};
-            VkDeviceMemory memory = VK_NULL_HANDLE;
-            const VkResult result = vkAllocateMemory(device_, &info, nullptr, &memory);
-            if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-                full = true;
-                continue;
-            }
-            check(result, "vkAllocateMemory");
-            if (host_visible)
-                check(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, mapped), "vkMapMemory");
-            allocated_bytes_ += requirements.size;
-            peak_bytes_ = std::max(peak_bytes_, allocated_bytes_);
-            return memory;
-        }
-    throw Error(ErrorKind::device, info_.name,
-                full ? "is out of memory; use a smaller --size"
-                     : "has no memory of the kind needed");
+    return memory_->held_bytes();
 }
 
-void Device::free(VkDeviceMemory memory, std::uint64_t bytes) const
+std::uint64_t Device::peak_bytes() const
 {
-    vkFreeMemory(device_, memory, nullptr);
-    allocated_bytes_ -= bytes;
+    return memory_->peak_bytes();
+}
+
+Staging& Device::staging() const
+{
+    if (!staging_)
+        staging_ = std::make_unique<Staging>(*this);
+    return *staging_;
 }
 
 }  // namespace lumel::gpu

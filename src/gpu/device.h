@@ -43,8 +43,19 @@ struct HostDevice {
     bool block_textures = false;   ///< the feature textureCompressionBC is on
 };
 
+/// Entry points of VK_EXT_debug_utils, null where the instance lacks it.
+struct DebugUtils {
+    PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_region = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT end_region = nullptr;
+};
+
+class Memory;
+class Staging;
+
 /// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
-/// made from it holds a reference and must not outlive it.
+/// made from it holds a reference and must not outlive it. One thread at a time may use it and what
+/// is made from it.
 class Device {
 public:
     /// `pick`: an index or a part of a name as list_devices() gives them; empty: the best, which
@@ -62,9 +73,9 @@ public:
 
     const DeviceInfo& info() const { return info_; }
 
-    /// What the validation layers said so far, one message a line; empty: silent.
+    /// Messages of the validation layers so far, one a line; empty: none.
     std::string validation_messages() const;
-    /// Throws Error{device} with what they said, if anything.
+    /// Throws Error{device} with these messages, if there are any.
     void check_validation() const;
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
@@ -76,7 +87,9 @@ public:
     bool can_read_blocks() const { return can_read_blocks_; }        ///< has textures of Pixel::bc1
     /// Are samples where Vulkan's standard has them?
     bool has_standard_samples() const { return standard_samples_; }
-    std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
+    /// Of arrays and images, as they asked for it: now, and the most at once.
+    std::uint64_t held_bytes() const;
+    std::uint64_t peak_bytes() const;
 
     /// By all Commands of this device so far; they count here themselves.
     Recorded& recorded() const { return recorded_; }
@@ -92,34 +105,35 @@ public:
     VkDevice handle() const { return device_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queue_family() const { return queue_family_; }
+    const DebugUtils& debug_utils() const { return debug_utils_; }  ///< see names.h
 
-    /// Device memory that fits `requirements`; host_visible memory is mapped to *mapped.
-    VkDeviceMemory allocate(const VkMemoryRequirements& requirements, bool host_visible,
-                            void** mapped) const;
-    void free(VkDeviceMemory memory, std::uint64_t bytes) const;
+    Memory& memory() const { return *memory_; }
+    Staging& staging() const;  ///< made when it is first asked for
 
 private:
+    void load_debug_utils();
     void learn_limits();
 
     struct Validation;
     std::unique_ptr<Validation> validation_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    DebugUtils debug_utils_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
     bool owned_ = true;  ///< false: instance and device are a host's
     DeviceInfo info_;
-    VkPhysicalDeviceMemoryProperties memory_{};
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
     bool can_tessellate_ = false, can_list_fragments_ = false, can_clip_ = false,
          can_read_blocks_ = false, standard_samples_ = false;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
-    mutable std::uint64_t allocated_bytes_ = 0, peak_bytes_ = 0;
     mutable Recorded recorded_;
+    std::unique_ptr<Memory> memory_;
+    mutable std::unique_ptr<Staging> staging_;
 };
 
 }  // namespace lumel::gpu

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/names.h"
+
 namespace lumel::gpu {
 namespace {
 
@@ -14,18 +16,6 @@ VkShaderModule make_module(const Device& device, Spirv spirv)
     VkShaderModule module = VK_NULL_HANDLE;
     check(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
     return module;
-}
-
-void set_name(const Device& device, VkPipeline pipeline, const char* name)
-{
-    if (vkSetDebugUtilsObjectNameEXT == nullptr)
-        return;
-    const VkDebugUtilsObjectNameInfoEXT info{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-        .objectType = VK_OBJECT_TYPE_PIPELINE,
-        .objectHandle = reinterpret_cast<std::uint64_t>(pipeline),
-        .pObjectName = name};
-    vkSetDebugUtilsObjectNameEXT(device.handle(), &info);
 }
 
 VkShaderStageFlags stages_of(const RasterState& state)

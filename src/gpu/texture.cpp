@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "gpu/array.h"
-#include "gpu/commands.h"
+#include "gpu/staging.h"
 
 namespace lumel::gpu {
 
@@ -56,7 +55,7 @@ VkImageUsageFlags usage_as_target(Pixel pixel)
 }  // namespace
 
 Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
-               std::uint32_t mip_levels, std::uint32_t samples)
+               std::uint32_t mip_levels, std::uint32_t samples, const Name& name)
     : device_(&device),
       pixel_(pixel),
       width_(width),
@@ -85,13 +84,13 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
     VkMemoryRequirements requirements;
     vkGetImageMemoryRequirements(device.handle(), image_, &requirements);
     try {
-        memory_ = device.allocate(requirements, false, nullptr);
+        memory_ = device.memory().take(requirements, MemoryUse::image, name.text());
     } catch (...) {
         vkDestroyImage(device.handle(), image_, nullptr);
         throw;
     }
-    allocated_ = requirements.size;
-    check(vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
+    check(vkBindImageMemory(device.handle(), image_, memory_.memory, memory_.offset),
+          "vkBindImageMemory");
     const VkImageViewCreateInfo view{.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO,
                                      .image = image_,
                                      .viewType = VK_IMAGE_VIEW_TYPE_2D,
@@ -100,9 +99,9 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
                                                           .levelCount = mip_levels,
                                                           .layerCount = 1}};
     check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "vkCreateImageView");
-    Commands commands(device);
-    commands.prepare(*this);
-    commands.run();
+    set_name(device, image_, name.text());
+    set_name(device, view_, name.text());
+    device.staging().prepare(*this);
 }
 
 Target::~Target()
@@ -111,7 +110,7 @@ Target::~Target()
         return;
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImage(device_->handle(), image_, nullptr);
-    device_->free(memory_, allocated_);
+    device_->memory().give_back(memory_);
 }
 
 Target::Target(Target&& other) noexcept
@@ -122,29 +121,18 @@ Target::Target(Target&& other) noexcept
       mip_levels_(other.mip_levels_),
       image_(std::exchange(other.image_, VK_NULL_HANDLE)),
       view_(other.view_),
-      memory_(other.memory_),
-      allocated_(other.allocated_)
+      memory_(other.memory_)
 {
 }
 
 void Target::upload(const void* pixels)
 {
-    const std::uint64_t bytes = image_bytes(pixel_, width_, height_);
-    const Buffer staging(*device_, bytes, Buffer::Place::host);
-    std::memcpy(staging.mapped(), pixels, bytes);
-    Commands commands(*device_);
-    commands.copy(staging, *this);
-    commands.run();
+    device_->staging().upload(pixels, *this);
 }
 
 void Target::download(void* pixels) const
 {
-    const std::uint64_t bytes = image_bytes(pixel_, width_, height_);
-    const Buffer staging(*device_, bytes, Buffer::Place::host);
-    Commands commands(*device_);
-    commands.copy(*this, staging);
-    commands.run();
-    std::memcpy(pixels, staging.mapped(), bytes);
+    device_->staging().download(*this, pixels);
 }
 
 Sampler::Sampler(const Device& device, Filter filter, Address u, Address v) : device_(&device)

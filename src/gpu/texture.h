@@ -2,6 +2,8 @@
 // Images on the GPU: targets that are drawn into and textures that are read.
 
 #include "gpu/device.h"
+#include "gpu/memory.h"
+#include "gpu/names.h"
 
 namespace lumel::gpu {
 
@@ -26,7 +28,8 @@ class Target {
 public:
     /// samples: 1 or kManySamples. A multisampled image is only drawn into and read by shaders.
     Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
-           std::uint32_t mip_levels = 1, std::uint32_t samples = 1);
+           std::uint32_t mip_levels = 1, std::uint32_t samples = 1,
+           const Name& name = Name::of_line());
     ~Target();
     Target(Target&& other) noexcept;
     Target& operator=(Target&&) = delete;
@@ -50,8 +53,7 @@ private:
     std::uint32_t width_, height_, mip_levels_;
     VkImage image_ = VK_NULL_HANDLE;
     VkImageView view_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    std::uint64_t allocated_ = 0;
+    Memory::Part memory_;
 };
 
 enum class Filter { nearest, linear };

@@ -2,6 +2,7 @@
 // The Vulkan C API through volk: nothing is linked, the loader is found at run time.
 
 #include <volk.h>
+#include <vulkan/vulkan.h>
 
 #include "core/error.h"
 

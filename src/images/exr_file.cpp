@@ -151,7 +151,7 @@ Image read_exr(const std::string& path, const std::string& layer)
         const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
         const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
         if (width <= 0 || height <= 0 || width > kMaxTexels || width * height > kMaxTexels)
-            throw Error(ErrorKind::input, path, "claims an impossible size");
+            throw Error(ErrorKind::input, path, "has a header with an impossible size");
         for (int c = 0; c < 3; ++c)
             if (!file.header().channels().findChannel(channel_name(layer, c)))
                 throw Error(ErrorKind::input, path,

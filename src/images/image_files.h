@@ -29,7 +29,7 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
 /// whatever layers there are. Throws Error{input}.
 Image read_exr(const std::string& path, const std::string& layer = "");
 
-/// What the numbers of a PNG mean, as said in its header.
+/// What the numbers of a PNG mean, as its header states.
 enum class PngEncoding { srgb, linear };
 
 /// 8-bit PNG of an image whose values are display-referred 0…1 (already tone-mapped and

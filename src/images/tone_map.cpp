@@ -56,7 +56,7 @@ float display_from_linear(float exposed)
 
 float bright_end(const Image& linear)
 {
-    // Black texels say nothing about how bright the light is.
+    // Black texels carry no information about the brightness of the light.
     std::vector<float> lit;
     const std::size_t stride = std::size_t(linear.channels);
     for (std::size_t i = 0; i + stride <= linear.values.size(); i += stride) {

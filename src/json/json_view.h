@@ -1,6 +1,6 @@
 #pragma once
-// A JSON value that knows where it stands, so that every wrong type or range becomes a sentence
-// with its place.
+// A JSON value that keeps its place in the file, so that every wrong type or range becomes a
+// sentence with its place.
 
 #include <cstdint>
 #include <functional>
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 /// One value of a document. Cheap to copy; the document must outlive it.
 /// Every reading function throws Error{input} with file and JSON pointer if the value is not
-/// of the kind asked for.
+/// of the requested kind.
 class JsonView {
 public:
     JsonView(const std::string& file, const Json& value, std::string pointer = {})

@@ -59,20 +59,22 @@ DirectLight direct_light(const gpu::Device& device, const World& world, const Sc
     const std::vector<std::vector<ParallelSource>> sources = parallel_sources(scene, options);
     const double parts = double(sources.size()) + 1.0;  // the lamps are one
     double part = 0.0;
-    const auto told = [&](double fraction) { return !go_on || go_on((part + fraction) / parts); };
+    const auto go_on_part = [&](double fraction) {
+        return !go_on || go_on((part + fraction) / parts);
+    };
     const ParallelLightOptions parallel{
         .side = parallel_side(lumels, world.diagonal(), kPixelsPerLumel, device.max_image_side()),
         .seed = options.seed,
         .centre = options.centre};
     DirectLight light;
     for (const std::vector<ParallelSource>& directions : sources) {
-        light.finished =
-            light.finished && add_parallel_light(device, world, directions, parallel, summed, told);
+        light.finished = light.finished && add_parallel_light(device, world, directions, parallel,
+                                                              summed, go_on_part);
         part += 1.0;
     }
-    light.finished =
-        light.finished && add_lamps(device, world, scene,
-                                    {.seed = options.seed, .centre = options.centre}, summed, told);
+    light.finished = light.finished && add_lamps(device, world, scene,
+                                                 {.seed = options.seed, .centre = options.centre},
+                                                 summed, go_on_part);
     light.irradiance = summed.irradiance();
     light.times = summed.times();
     return light;

@@ -1,5 +1,5 @@
 #pragma once
-// What everything that is no lumel sends straight to the lumels: sky, sun and lamps.
+// Direct light of everything that is no lumel: sky, sun and lamps.
 
 #include <cstdint>
 #include <functional>
@@ -12,7 +12,7 @@
 namespace lumel {
 
 struct DirectLightOptions {
-    std::uint32_t sky_directions = 1024;  ///< looked along for the sky, 0: without it
+    std::uint32_t sky_directions = 1024;  ///< sampled of the sky, 0: without it
     std::uint32_t sun_directions = 256;   ///< for each directional light
     std::uint32_t disc_directions = 256;  ///< for each that has a disc
     std::uint32_t seed = 1;
@@ -28,11 +28,11 @@ struct DirectLight {
 /// True if the scene has a source that is no surface.
 bool has_lights(const Scene& scene);
 
-/// Bytes on the device that direct_light() holds beside the world, on one whose images may be as
-/// large as is wanted. diagonal: of the scene's bounding box [m].
+/// Bytes on the device that direct_light() holds beside the world, on one without a limit to
+/// the size of images. diagonal: of the scene's bounding box [m].
 std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float diagonal);
 
-/// Direct light of the scene's sky and lights. `go_on` is given the fraction done and returns false
+/// Direct light of the scene's sky and lights. `go_on` receives the fraction done and returns false
 /// to stop; what has been found by then is returned.
 DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
                          const Lumels& lumels, const DirectLightOptions& options,

@@ -27,7 +27,7 @@ constexpr float kPi = std::numbers::pi_v<float>;
 /// Between the keys of one lamp's random numbers and the next's.
 constexpr std::uint32_t kLampKeys = 977;
 
-/// Does it take two hemicubes to see all that the light shines on?
+/// Are two hemicubes needed to see all surfaces that the light reaches?
 bool has_halves(const PunctualLight& light)
 {
     return light.kind == PunctualLight::Kind::point && light.radius == 0.0f;
@@ -55,7 +55,7 @@ Lamp lamp_of(const PunctualLight& light)
     return lamp;
 }
 
-/// Looks along `normal`, turned about it by `turn` [rad].
+/// An eye that looks along `normal`, turned about it by `turn` [rad].
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::uint32_t random)
 {
     const glm::mat3 frame = frame_about(normal);
@@ -63,8 +63,8 @@ Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::
     return {position, tangent, glm::cross(normal, tangent), normal, random, kAllChannels};
 }
 
-/// Where a lamp is looked from: points of its ball, or the lamp itself, turned differently each
-/// time; all around in two halves, or only where a spot shines.
+/// Eyes of a lamp: points of its ball, or the lamp itself, turned differently each time; all
+/// around in two halves, or only where a spot lights.
 std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options, std::uint32_t key)
 {
     std::vector<Eye> eyes;
@@ -72,14 +72,14 @@ std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options,
     const bool ball = light.radius > 0.0f;
     const std::uint32_t count = ball ? options.ball_points : options.points;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 way = on_sphere(lattice_point(i, count, key));
+        const glm::vec3 direction = on_sphere(lattice_point(i, count, key));
         const float turn = 2.0f * kPi * lattice_point(i, count, ~key).y;
         const std::uint32_t random = key * count + i;
         if (ball) {
-            eyes.push_back(eye_at(position + light.radius * way, way, turn, random));
+            eyes.push_back(eye_at(position + light.radius * direction, direction, turn, random));
         } else if (has_halves(light)) {
-            eyes.push_back(eye_at(position, way, turn, random));
-            eyes.push_back(eye_at(position, -way, turn, random));
+            eyes.push_back(eye_at(position, direction, turn, random));
+            eyes.push_back(eye_at(position, -direction, turn, random));
         } else {
             const glm::vec3 axis = -glm::normalize(glm::vec3(light.transform[2]));
             eyes.push_back(eye_at(position, axis, turn, random));
@@ -108,14 +108,14 @@ std::vector<float> profiles_of(const Scene& scene)
     return candela;
 }
 
-/// Eyes that look at a time.
+/// Eyes of one batch.
 std::uint32_t batch_of(const LampOptions& options)
 {
     return std::uint32_t(std::max<std::uint64_t>(
         kMostLightPixels / view_pixels(Projection::hemicube, options.hemicube), 1));
 }
 
-/// What lamps take turns with.
+/// Buffers that lamps use in turn.
 struct LampStage {
     LampStage(const gpu::Device& on, const World& in, const Scene& scene,
               const std::vector<Lamp>& all, const LampOptions& given)
@@ -134,7 +134,7 @@ struct LampStage {
     void take(gpu::Pacer& pacer, std::span<const Eye> batch, std::uint32_t lamp,
               std::uint32_t first, const SummedLight& light)
     {
-        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch);
+        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch, "lamps.eyes");
         views.look_from(pacer, eyes, std::uint32_t(batch.size()));
         pacer.work("lamps", light.lumels(), kProbeLumels,
                    [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {

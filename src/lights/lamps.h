@@ -18,14 +18,14 @@ struct LampOptions {
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds to `light` what the scene's point and spot lights send straight to the lumels, each lamp
+/// Adds the direct light of the scene's point and spot lights at the lumels to `light`, each lamp
 /// as one source. Hemicubes, whose edges are exact, are used whatever projection solvers use.
-/// `go_on` is given the fraction done and returns false to stop. Returns false if it was stopped.
+/// `go_on` receives the fraction done and returns false to stop. Returns false if it was stopped.
 bool add_lamps(const gpu::Device& device, const World& world, const Scene& scene,
                const LampOptions& options, SummedLight& light,
                const std::function<bool(double)>& go_on);
 
-/// Pixels of the views that it looks through at a time.
+/// Pixels of the views of one batch.
 std::uint64_t lamp_pixels(const LampOptions& options);
 
 }  // namespace lumel

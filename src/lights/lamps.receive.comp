@@ -11,9 +11,9 @@
 // I the lamp's intensity towards the lumel. A ball of even luminance L and radius R has I = π R² L;
 // a point y drawn evenly from its surface stands for  4 I max(n_y·ω, 0).
 //
-// What is known of V is summed up as light_sums.shared.h says. Light with nothing in its way is
-// taken at more points of the lumel than views are asked about: it may change much over a lumel.
-// Among coloured glass V differs from channel to channel, and each eye tells of one.
+// V is summed as light_sums.shared.h describes. Unoccluded light is taken at more points of the
+// lumel than V: it may change much over a lumel. With coloured glass V differs between channels,
+// and each eye carries one.
 
 layout(local_size_x = kLampGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
@@ -42,12 +42,12 @@ float profile_value(uint profile, uint azimuth, uint polar)
                    polar];
 }
 
-// Bilinear, as Photometry says.
-float profile_towards(Lamp lamp, vec3 way)
+// Bilinear, as in Photometry.
+float profile_towards(Lamp lamp, vec3 direction)
 {
     const float polar =
-        acos(clamp(-dot(way, lamp.z), -1.0, 1.0)) * (float(kPolarSteps) / kPi);
-    const float turn = atan(dot(way, lamp.y), dot(way, lamp.x)) / (2.0 * kPi);
+        acos(clamp(-dot(direction, lamp.z), -1.0, 1.0)) * (float(kPolarSteps) / kPi);
+    const float turn = atan(dot(direction, lamp.y), dot(direction, lamp.x)) / (2.0 * kPi);
     const float azimuth = fract(turn) * float(kAzimuthSteps);
     const uint row = min(uint(polar), kPolarSteps - 1u), column = uint(azimuth);
     const vec2 part = vec2(polar - float(row), azimuth - float(column));
@@ -58,10 +58,11 @@ float profile_towards(Lamp lamp, vec3 way)
     return mix(low, high, part.y);
 }
 
-vec3 intensity_towards(Lamp lamp, vec3 way)
+vec3 intensity_towards(Lamp lamp, vec3 direction)
 {
-    const float cone = clamp(-dot(way, lamp.z) * lamp.cone_scale + lamp.cone_offset, 0.0, 1.0);
-    const float profile = lamp.profile == kNoProfile ? 1.0 : profile_towards(lamp, way);
+    const float cone =
+        clamp(-dot(direction, lamp.z) * lamp.cone_scale + lamp.cone_offset, 0.0, 1.0);
+    const float profile = lamp.profile == kNoProfile ? 1.0 : profile_towards(lamp, direction);
     return lamp.intensity * (cone * cone * profile);
 }
 
@@ -88,7 +89,7 @@ vec3 light_of_centre(Lamp lamp, LumelPoint point)
     return lamp.intensity * (lamp.share * dot(d, point.normal) / (squared * sqrt(squared)));
 }
 
-// Light of an eye at a point with nothing in its way; 0 where either looks away.
+// Unoccluded light of an eye at a point; 0 where either faces away.
 vec3 open_light(Lamp lamp, Eye eye, LumelPoint point)
 {
     const vec3 d = point.position - eye.position;
@@ -126,7 +127,7 @@ void main()
     LightSums sum = sums[i];
     for (uint k = 0u; k < p.eyes; ++k) {
         const Eye eye = eyes[k];
-        // Halves and channels ask for the same points: each point is in view of one of them.
+        // Halves and channels use the same points: each point is in view of one of them.
         const uint index = (p.first_eye + k) / lamp.eyes_per_look * kOpenPoints;
         const vec3 channels = carried(eye.channel);
         vec3 here = vec3(0.0);

@@ -22,7 +22,7 @@ struct Lamp {
     float share;         ///< of the lamp's light that a look stands for
 };
 
-LUMEL_CONST uint kOpenPoints = 4u;  ///< of a lumel that are asked for light with nothing in its way
+LUMEL_CONST uint kOpenPoints = 4u;  ///< of a lumel at which unoccluded light is taken
 
 /// Push constants of lamps.receive.comp.
 struct LampReceiveParams {

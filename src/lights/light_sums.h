@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// Pixels of all views that a source is looked at through at a time: bounds them to 32 MiB.
+/// Pixels of all views of a source in one batch: bounds them to 32 MiB.
 inline constexpr std::uint64_t kMostLightPixels = 8u << 20;
 
 /// Sums of the source at work, and of all before it. A kernel adds to sums().
@@ -27,7 +27,7 @@ public:
 
     /// Ends a source.
     void finish_source(gpu::Pacer& pacer);
-    /// Finishes, and keeps what the work took.
+    /// Finishes, and keeps the times.
     void finish(gpu::Pacer& pacer);
     /// Device time per kind of work [ms], of all pacers that have finished.
     const gpu::StageTimes& times() const { return times_; }

@@ -5,12 +5,12 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLightSumsGroup = 64u;  ///< threads per workgroup of light_sums.finish.comp
 
-/// What a lumel has taken of one source so far [lx]. A view tells whether light is hidden only of
-/// lumels that one of its rays meets, which has a chance P. So three sums are kept, and H = U N / D
-/// is exact wherever nothing or everything is hidden.
+/// Light of one source that a lumel has received so far [lx]. A view shows whether light is hidden
+/// only for lumels that one of its rays meets, which has a probability P. So three sums are kept,
+/// and H = U N / D is exact wherever nothing or everything is hidden.
 struct LightSums {
-    vec3 open;     ///< U: with nothing in the way
-    vec3 known;    ///< D: the same where it is known what is in the way, over P: U in the mean
+    vec3 open;     ///< U: unoccluded
+    vec3 known;    ///< D: the same where V is known, over P: U in the mean
     vec3 arrived;  ///< N: of D, what arrives
 };
 

@@ -2,8 +2,8 @@
 //
 //   [VG95] E. Veach, L. Guibas. Optimally Combining Sampling Techniques. 1995.
 //
-// A direction is asked for by all lumels at once: one depth image of the scene tells which of them
-// it reaches. The sky is an integral over directions,
+// All lumels use a direction at once: one depth image of the scene shows which of them it
+// reaches. The sky is an integral over directions,
 //
 //     H = ∫ L(ω) V(ω) cosθ dω  ≈  Σ_k  L(ω_k) / (p(ω_k) n) · V cosθ,
 //
@@ -49,7 +49,7 @@ ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uin
                      const World& world, const ParallelLightOptions& options)
 {
     const std::uint32_t keys = options.seed * kKeys;
-    // Pictures that are all turned alike divide one another's pixels evenly.
+    // Pictures of equal orientation divide one another's pixels evenly.
     const ParallelPose pose{.toward = source.toward,
                             .turn = 2.0f * kPi * sequence_point(0, keys + kTurnKey).x,
                             .offset = sequence_point(index, keys + kOffsetKey),
@@ -85,7 +85,7 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
     constexpr float kEven = 0.25f / kPi;  // density of even directions [1/sr]
     const std::uint32_t half = std::max(count / 2, 1u);
     const auto add = [&](const glm::vec3& toward, const glm::vec3& radiance, float density) {
-        // Balance heuristic: both ways together draw with this density.
+        // Balance heuristic: both techniques together draw with this density.
         sources.push_back({toward, radiance / ((density + kEven) * float(half))});
     };
     for (std::uint32_t i = 0; i < half; ++i) {

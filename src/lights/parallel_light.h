@@ -13,7 +13,7 @@
 namespace lumel {
 
 /// `count` directions that stand for the whole sky: half of them drawn by its brightness, half
-/// evenly, weighed by the balance heuristic [VG95]. None for a dark sky or a count of 0.
+/// evenly, weighted by the balance heuristic [VG95]. None for a dark sky or a count of 0.
 std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed);
 
 /// `count` directions, evenly spread over the light's disc; all the same where it has none. Only
@@ -27,14 +27,14 @@ struct ParallelLightOptions {
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds to `light` what these directions send straight to the lumels, as one source. `go_on` is
-/// given the fraction done and returns false to stop. Returns false if it was stopped.
+/// Adds the direct light of these directions at the lumels to `light`, as one source. `go_on`
+/// receives the fraction done and returns false to stop. Returns false if it was stopped.
 bool add_parallel_light(const gpu::Device& device, const World& world,
                         const std::vector<ParallelSource>& sources,
                         const ParallelLightOptions& options, SummedLight& light,
                         const std::function<bool(double)>& go_on);
 
-/// Pixels of the views that it looks through at a time.
+/// Pixels of the views of one batch.
 std::uint64_t parallel_light_pixels(const ParallelLightOptions& options);
 
 }  // namespace lumel

@@ -7,9 +7,9 @@
 //
 //     H = Σ_k  illuminance_k · V_k · max(cosθ_k, 0).
 //
-// Among coloured glass V differs from channel to channel, and each view tells of one. What is known
-// of V is summed up as light_sums.shared.h says, P being the number of rays that meet a lumel in
-// the mean: all of them are asked.
+// With coloured glass V differs between channels, and each view carries one. V is summed as
+// light_sums.shared.h describes, P being the mean number of rays that meet a lumel: all of them
+// count.
 
 layout(local_size_x = kParallelGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
@@ -28,9 +28,9 @@ layout(binding = 5, scalar) buffer Sums { LightSums sums[]; };
 #include "visibility/piece_along.glsl"
 #include "visibility/rays_along.glsl"
 
-// Pieces of a lumel that are asked about: all, or so many chosen by chance.
+// Pieces of a lumel that are tested: all, or this number chosen at random.
 const uint kMostPieces = 4u;
-// Rays that are asked about a piece, about: where more meet it, some are left out.
+// Rays that are tested for a piece, about: where more meet it, some are left out.
 const float kMostRays = 64.0;
 
 bool is_lit(PieceInView piece, uint tile, vec2 pixel)
@@ -74,7 +74,7 @@ uint pieces_asked(Lumel lumel)
     return p.centre != 0u ? 1u : min(lumel.piece_count, kMostPieces);
 }
 
-// The n-th of them, and the share of the lumel that it stands for. `draw` tells apart all that are
+// The n-th of them, and the share of the lumel that it stands for. `draw` differs for each piece
 // chosen of a lumel.
 Piece piece_asked(Lumel lumel, uint i, uint n, uint draw, out float share)
 {

@@ -44,11 +44,11 @@ const float kTouching = 0.01;
 // Distances at which angles are taken are no less [m].
 const float kLeastDistance = 1e-6;
 
-// The pixel of a back hemicube's level in direction `way` (t, b, n of the back eye; n ≥ 0).
-BackPixel behind(uint k, uint level, vec3 way)
+// The pixel of a back hemicube's level in direction `direction` (t, b, n of the back eye; n ≥ 0).
+BackPixel behind(uint k, uint level, vec3 direction)
 {
     const uint side = back_side(p.back, level);
-    const ViewPoint f = project_to_hemicube(EyeViewLayout(side, 1u, 1.0), way);
+    const ViewPoint f = project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
     return back[back_pixel(p.back, k, level, uvec2(face_corner(side, f) + f.pixel))];
 }
 
@@ -59,21 +59,21 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
 {
     const vec3 ray = y - x;
     const float r = length(ray);
-    const vec3 way = ray * frame / r;
-    if (way.z <= 0.0)
+    const vec3 direction = ray * frame / r;
+    if (direction.z <= 0.0)
         return vec3(0.0);
-    const float inverse = behind(k, 0u, way).inverse;
+    const float inverse = behind(k, 0u, direction).inverse;
     if (inverse <= 0.0)
         return vec3(0.0);
-    const vec3 toward = (y - eyes[k].position) * frame + way / inverse;
+    const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;
     // As wide is its end as seen from the back eye [rad], and in pixels.
     const float pixels = width * (inverse + 1.0 / r) * 0.5 * float(p.back.side);
     const uint level = uint(clamp(log2(max(pixels, 1.0)) + 0.5, 0.0, float(kBackLevels - 1u)));
     return toward.z > 0.0 ? behind(k, level, toward).shot : vec3(0.0);
 }
 
-// P(C, j, i) for the lumel m of the patch: more rays where it is close, each counted by how much
-// light would go that way. 0 where no one asks.
+// P(C, j, i) for the lumel m of the patch: more rays where it is close, each weighted by the light
+// that would pass along it. 0 where it is not needed.
 vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
 {
     const Eye eye = eyes[k];

@@ -16,8 +16,8 @@
 //     R(C, C)   taken back with the views of before, sent with those of after: the four cases of
 //               section 4.4.1 with the visibility of each
 //
-// Two hemicubes for each patch that has shot and sees what moved. T is the same whenever it is
-// asked for, so errors do not pile up over many moves.
+// Two hemicubes for each patch that has shot and sees what moved. T never changes, so errors
+// do not accumulate over many moves.
 //
 // Differs from the thesis:
 // - Light not shot yet is not sent along: the progressive solver goes on with it afterwards.
@@ -43,8 +43,8 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu
                                        gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
                                        gpu::Slot::array, gpu::Slot::array,   gpu::Slot::array};
 
-/// Pixels by which an edge may seem to stand out: what tells whether a point is seen asks pixels
-/// around it.
+/// Pixels by which an edge may seem to stand out: the test of visibility reads pixels around a
+/// point.
 constexpr float kEdgePixels = 3.0f;
 
 /// The angle [rad] of that many pixels, on a hemicube's face where they are widest.

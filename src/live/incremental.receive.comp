@@ -30,17 +30,17 @@ layout(binding = 8, scalar) readonly buffer Boxes { MovedBox boxes[]; };  // [p.
 #include "transport/patch_light.glsl"
 
 const uint kWordBits = 32u;
-// No point of a lumel is farther from its position than so many times its size (lumel.shared.h).
+// No point of a lumel is farther from its position than this many times its size (lumel.shared.h).
 const float kReach = 1.4143;
 
 // Does the segment, so wide where it ends, meet the box, made larger by what a view's pixels may
 // add to it?
-bool meets(MovedBox box, vec3 from, vec3 way, float width)
+bool meets(MovedBox box, vec3 from, vec3 direction, float width)
 {
     const vec3 reach = max(abs(box.low - from), abs(box.high - from));
     const float margin = p.slack * length(reach) + width;
-    const vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(way, vec3(0.0)));
-    const vec3 inverse = side / max(abs(way), vec3(1e-30));
+    const vec3 side = mix(vec3(-1.0), vec3(1.0), greaterThanEqual(direction, vec3(0.0)));
+    const vec3 inverse = side / max(abs(direction), vec3(1e-30));
     const vec3 a = (box.low - margin - from) * inverse, b = (box.high + margin - from) * inverse;
     const vec3 enter = min(a, b), leave = max(a, b);
     return max(max(enter.x, enter.y), max(enter.z, 0.0)) <=

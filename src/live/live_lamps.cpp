@@ -32,7 +32,7 @@ void LiveLamps::set(std::uint32_t light, const glm::vec3& factor, const std::str
     if (source == sources_.end())
         throw Error(ErrorKind::input, name, "is not in the scene");
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot shine a negative amount");
+        throw Error(ErrorKind::input, name, "cannot emit a negative amount of light");
     source->factor = factor;
 }
 

@@ -15,8 +15,8 @@ public:
 
     /// True if there are none.
     bool empty() const { return sources_.empty(); }
-    /// What a light, or the sky, sends is `factor` times what the scene says. Throws Error{input}
-    /// if there is no such light, no sky, or a factor is negative.
+    /// What a light, or the sky, sends is `factor` times its value in the scene. Throws
+    /// Error{input} if there is no such light, no sky, or a factor is negative.
     void set_light(std::uint32_t light, const glm::vec3& factor);
     void set_sky(const glm::vec3& factor);
 

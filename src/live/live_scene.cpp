@@ -7,6 +7,7 @@
 #include "live/live.shared.h"
 #include "live/still_part.h"
 #include "shooting/lumel_arrays.h"
+#include "solve/methods.h"
 
 namespace lumel {
 namespace {
@@ -51,10 +52,10 @@ Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<c
     return lumels;
 }
 
-SolverOptions progressive(SolverOptions options)
+NearFieldOptions near_field_options(const LiveOptions& options)
 {
-    options.method = "progressive";
-    return options;
+    return near_field_options(
+        SolverOptions{.method = options.solver, .target_error = options.target_error});
 }
 
 std::vector<char> open_meshes(const Scene& scene)
@@ -70,15 +71,14 @@ std::vector<char> open_meshes(const Scene& scene)
 NearField first_near_field(const Scene& scene, const Lumels& lumels,
                            const std::vector<char>& movers, const LiveOptions& options)
 {
-    const SolverOptions solver = progressive(options.solver);
+    const NearFieldOptions near = near_field_options(options);
     if (options.redistribution == Redistribution::incremental)
-        return near_field_for(scene, RayScene(scene), lumels, solver);
+        return build_near_field(scene, RayScene(scene), lumels, near);
     const Scene still = without(scene, movers);
     std::vector<char> stays;
     for (const Lumel& lumel : lumels.lumels)
         stays.push_back(!movers[lumel.instance]);
-    return build_near_field_among(stays, still, RayScene(still), lumels,
-                                  near_field_options(solver));
+    return build_near_field_among(stays, still, RayScene(still), lumels, near);
 }
 
 /// Rows of lumels that stay from the one, rows of those that move from the other.
@@ -110,8 +110,8 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       near_(first_near_field(scene_, lumels_, movers_, options)),
       world_(device, scene_, lumels_, &atlas_, movers_),
       lamps_(scene_, options.lights),
-      solver_(device, world_, lumels_, near_, progressive(options.solver)),
-      asked_(scene_.instances.size()),
+      solver_(device, world_, lumels_, near_, options.solver),
+      requested_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       direct_(device, lumels_.lumels.size()),
@@ -127,7 +127,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     if (options.redistribution == Redistribution::cross)
         cross_.emplace(device, world_, lumels_, solver_, open_meshes(scene_));
     else
-        incremental_.emplace(device, world_, lumels_, solver_, options.solver.projection);
+        incremental_.emplace(device, world_, lumels_, solver_, options.solver.views.projection);
     find_lamps();
     world_.show_movers(!cross_);
     show();
@@ -137,10 +137,10 @@ void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not among those that may move");
+        throw Error(ErrorKind::input, name, "is not one of those that may move");
     if (!is_rigid(scene_.instances[instance].transform, transform))
         throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
-    asked_[instance] = transform;
+    requested_[instance] = transform;
 }
 
 void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
@@ -150,7 +150,7 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
     if (instance >= factors.size())
         throw Error(ErrorKind::input, name, "is not in the scene");
     if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot shine or reflect a negative amount");
+        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
     factors[instance] = factor;
     light_changes();
 }
@@ -192,7 +192,7 @@ void LiveScene::upload_surfaces()
             glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
     }
     solver_.pacer().finish();
-    // What surfaces reflect of direct light joins their emission: the solver knows of no lamps.
+    // Reflected direct light joins the emission of surfaces: the solver handles no lamps.
     if (const std::vector<glm::vec3> direct = lamps_.irradiance(); !direct.empty()) {
         for (std::size_t i = 0; i < direct.size(); ++i)
             lumels.lumels[i].emission += lumels.lumels[i].albedo * direct[i];
@@ -213,9 +213,9 @@ void LiveScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
     set_factor(reflectance_factor_, instance, factor);
 }
 
-bool LiveScene::is_move_asked() const
+bool LiveScene::is_move_requested() const
 {
-    return std::any_of(asked_.begin(), asked_.end(), [](auto& asked) { return bool(asked); });
+    return std::any_of(requested_.begin(), requested_.end(), [](auto& move) { return bool(move); });
 }
 
 bool LiveScene::is_under_way() const
@@ -225,24 +225,24 @@ bool LiveScene::is_under_way() const
 
 bool LiveScene::is_at_rest() const
 {
-    return !is_under_way() && !is_move_asked() && state_.residual <= options_.residual &&
+    return !is_under_way() && !is_move_requested() && state_.residual <= options_.residual &&
            (!cross_ || crossed_);
 }
 
 void LiveScene::begin_move()
 {
     move_ = {};
-    for (std::uint32_t i = 0; i < asked_.size(); ++i) {
+    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
         Instance& instance = scene_.instances[i];
-        const bool moves = asked_[i] && *asked_[i] != instance.transform;
+        const bool moves = requested_[i] && *requested_[i] != instance.transform;
         move_.moved.push_back(moves ? 1 : 0);
         if (moves) {
             move_.boxes.push_back(box_of(scene_, i, instance.transform));
-            instance.transform = *asked_[i];
+            instance.transform = *requested_[i];
             move_.boxes.push_back(box_of(scene_, i, instance.transform));
         }
         move_.transforms.push_back(instance.transform);
-        asked_[i].reset();
+        requested_[i].reset();
     }
     if (!cross_) {
         if (!move_.boxes.empty())
@@ -264,7 +264,7 @@ void LiveScene::find_crossing_pairs()
     for (std::uint32_t i = 0; i < movers_.size(); ++i)
         if (movers_[i])
             boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
-    NearFieldOptions options = near_field_options(progressive(options_.solver));
+    NearFieldOptions options = near_field_options(options_);
     options.radius = near_.radius;
     const NearField around =
         build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
@@ -282,7 +282,7 @@ void LiveScene::end_move()
         const std::vector<char> affected =
             affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
         near_ = update_near_field(near_, scene_, RayScene(scene_), lumels_,
-                                  near_field_options(progressive(options_.solver)), affected);
+                                  near_field_options(options_), affected);
         solver_.set_near_field(near_);
     }
     if (!move_.boxes.empty())
@@ -295,7 +295,8 @@ void LiveScene::work()
     if (is_under_way()) {
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
-    } else if (is_move_asked() || (cross_ && !crossed_ && state_.residual <= options_.residual)) {
+    } else if (is_move_requested() ||
+               (cross_ && !crossed_ && state_.residual <= options_.residual)) {
         begin_move();
     } else {
         shoot();

@@ -23,11 +23,10 @@ enum class Redistribution {
 struct LiveOptions {
     AtlasOptions atlas;
     Redistribution redistribution = Redistribution::incremental;
-    /// The method is progressive whatever is said here, and no limit stops it; target_error, or
-    /// else max_shots, still sets how fine the near field is (near_field_options).
-    SolverOptions solver;
-    std::vector<std::uint32_t> movers;  ///< instances that may move; empty: all
-    bool still = false;                 ///< none may, whatever `movers` says
+    ProgressiveOptions solver;
+    double target_error = SolverOptions{}.target_error;  ///< of the near field alone
+    std::vector<std::uint32_t> movers;                   ///< instances that may move; empty: all
+    bool still = false;                                  ///< none may, whatever `movers` holds
     /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at
@@ -54,18 +53,18 @@ public:
     /// Throws Error{input} if it may not move, or would be stretched: lumels keep their areas.
     void move(std::uint32_t instance, const glm::mat4& transform);
 
-    /// All lumels of an instance emit [lm/m²], or reflect, `factor` times what the scene says
+    /// All lumels of an instance emit [lm/m²], or reflect, `factor` times their value in the scene
     /// ([Hoef13] Eqs. (2.2.9), (2.2.10)). Reflectances are kept from 0 to 1.
     /// Throws Error{input} if there is no such instance or a factor is negative.
     void set_emission(std::uint32_t instance, const glm::vec3& factor);
     void set_reflectance(std::uint32_t instance, const glm::vec3& factor);
 
-    /// What a light of Scene::lights, or the sky, sends is `factor` times what the scene says.
+    /// What a light of Scene::lights, or the sky, sends is `factor` times its value in the scene.
     /// Throws Error{input} if there is no such light, no sky, or a factor is negative.
     void set_light(std::uint32_t light, const glm::vec3& factor);
     void set_sky(const glm::vec3& factor);
 
-    /// Goes on for about so many milliseconds: with moves first, then with light that is not shot
+    /// Works for about this number of milliseconds: on moves first, then on light that is not shot
     /// yet; one batch at least, and overruns by one batch at most. Returns early when at rest.
     LiveState update(double budget_ms);
     /// Until at rest.
@@ -98,7 +97,7 @@ private:
     void find_lamps();
     void light_changes();
     bool is_under_way() const;
-    bool is_move_asked() const;
+    bool is_move_requested() const;
     bool is_at_rest() const;
     void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
                     const glm::vec3& factor);
@@ -115,7 +114,7 @@ private:
     ProgressiveRadiosity solver_;
     std::optional<IncrementalRedistribution> incremental_;
     std::optional<CrossRedistribution> cross_;
-    std::vector<std::optional<glm::mat4>> asked_;  ///< [instances] transforms asked for
+    std::vector<std::optional<glm::mat4>> requested_;  ///< [instances] transforms requested
     std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
     Move move_;                                                    ///< under way
     LiveState state_;

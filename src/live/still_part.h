@@ -24,7 +24,7 @@ MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& tra
 /// edge that does not join two triangles?
 bool is_open(const Scene& scene, std::uint32_t instance);
 
-/// Is the way from one transform to the other free of stretching and shearing?
+/// Does one transform become the other without stretching and shearing?
 bool is_rigid(const glm::mat4& from, const glm::mat4& to);
 
 /// Lumels [N] that a move affects: those that move, and those no farther from where something moved

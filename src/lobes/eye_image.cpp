@@ -26,8 +26,9 @@ EyeImage::EyeImage(const gpu::Device& device, Projection projection,
 {
     for (std::size_t set = 0; set < sampling_.sets(); ++set) {
         const std::size_t begin = sampling_.first[set], count = sampling_.first[set + 1] - begin;
-        points_.emplace_back(device, points.subspan(begin, count));
-        sums_.emplace_back(device, std::span<const glm::vec3>(std::vector<glm::vec3>(count)));
+        points_.emplace_back(device, points.subspan(begin, count), "eye_image.points");
+        sums_.emplace_back(device, std::span<const glm::vec3>(std::vector<glm::vec3>(count)),
+                           "eye_image.sums");
     }
 }
 

@@ -16,7 +16,7 @@ namespace lumel {
 /// one.
 struct EyeSampling {
     std::vector<std::uint32_t> first;  ///< [S + 1] where each set begins; the last one: P
-    std::uint64_t shots = 0;           ///< shooters that are to come: decides how they are weighed
+    std::uint64_t shots = 0;           ///< total number of shooters: decides their weights
     std::uint32_t rays = 0;            ///< along the lobe of each point, by others; 0: none
 
     std::size_t sets() const { return first.size() - 1; }

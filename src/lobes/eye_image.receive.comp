@@ -8,7 +8,7 @@
 //     C ← C + Σ_k w L_j(ω) ρ_s f_r(ω, ω_eye) V cosθ cosθ_j / r² · A_j / (p_j K)
 //
 // Where rays along the lobe find the same light (picture/lobe_rays.cpp), w is the balance heuristic
-// [VG95] of both ways to choose y, as densities per solid angle:
+// [VG95] of both techniques to choose y, as densities per solid angle:
 //
 //     w = n_A q_A / (n_A q_A + n_B q_B),     q_A = 𝓛(B_j) / Φ · r² / cosθ_j,  q_B = the lobe's.
 //
@@ -38,8 +38,8 @@ vec3 reflect_to_eye(EyePoint x, uint k)
     if (toward_j <= 0.0 || toward_i <= 0.0 || dot(d, x.facing) >= 0.0)
         return vec3(0.0);
     const float r2 = dot(d, d);
-    const vec3 way = d * inversesqrt(r2);
-    const float lobe = phong_lobe(-way, x.toward_eye, x.normal, x.shininess);
+    const vec3 direction = d * inversesqrt(r2);
+    const float lobe = phong_lobe(-direction, x.toward_eye, x.normal, x.shininess);
     if (lobe <= 0.0)
         return vec3(0.0);
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
@@ -48,7 +48,7 @@ vec3 reflect_to_eye(EyePoint x, uint k)
 
     const GlossyShot shot = shots[k];
     if (p.rays == 0.0)
-        return (shot.diffuse + lobes_toward(k, shot, eye, way, shot.shininess)) *
+        return (shot.diffuse + lobes_toward(k, shot, eye, direction, shot.shininess)) *
                (lobe * toward_i * toward_j / (r2 * (r2 + shot.disc)));
     const float shooters = p.shooters * density[shot.lumel] * r2 * sqrt(r2) / toward_j;
     const float cos_out = dot(x.normal, x.toward_eye);

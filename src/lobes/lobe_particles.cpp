@@ -1,7 +1,7 @@
 // A lobe of exponent n sends all its power into about 2π / n sr: what one shooter's lobes bring to
 // a receiver, Eq. (4) of [BSS05], has a variance in proportion to n / r², without bound where both
-// are close, for p_j knows the power that a shooter sends and not where to. A particle instead
-// draws ω from the lobe: with the density q of phong_density,
+// are close, for p_j includes the power that a shooter sends but not its direction. A particle
+// instead draws ω from the lobe: with the density q of phong_density,
 //
 //     f_r cosθ' / q = ρ_s cosθ' / max(cosθ, cosθ') ≤ 1,
 //
@@ -33,7 +33,7 @@ constexpr std::uint32_t kMostLobes = 256;
 constexpr std::uint32_t kStratifiedLobes = 1;
 
 /// Dimension pairs of a particle's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kOffsetPair = 2, kFirstLobePair = 3,
+constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kOffsetPair = 2, kFirstLobePair = 3,
                         kPairsPerLobe = 2;
 
 bool has_lobes(const Lumels& lumels)
@@ -82,12 +82,12 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
     const double whole = luminance(start.power);
     glm::vec3 position = y.position + lift * y.normal;
     // A lobe of exponent 1 about the normal is what a diffuse surface sends.
-    glm::vec3 way = phong_direction(y.normal, 1.0f, samples.stratified(kWayPair));
+    glm::vec3 direction = phong_direction(y.normal, 1.0f, samples.stratified(kDirectionPair));
     glm::vec3 power = start.power;
     for (std::uint32_t lobe = 0; lobe < kMostLobes; ++lobe) {
         const std::uint32_t pair = kFirstLobePair + kPairsPerLobe * lobe;
         RayHit hit;
-        if (!rays_->closest(position, way, 0.0f, std::numeric_limits<float>::max(),
+        if (!rays_->closest(position, direction, 0.0f, std::numeric_limits<float>::max(),
                             samples.bits(pair), hit))
             break;
         const std::uint32_t i = hits_.lumel(hit);
@@ -96,8 +96,8 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
         power *= hit.tint;
         const Gloss& gloss = lumels_->gloss[i];
         const Shading there = surfaces_.shade(hit);
-        const float cos_in = -glm::dot(there.normal, way);
-        const glm::vec3 mirror = way + 2.0f * cos_in * there.normal;
+        const float cos_in = -glm::dot(there.normal, direction);
+        const glm::vec3 mirror = direction + 2.0f * cos_in * there.normal;
         const glm::vec3 onward = phong_direction(mirror, gloss.shininess,
                                                  lobe < kStratifiedLobes ? samples.stratified(pair)
                                                                          : samples.random(pair));
@@ -114,8 +114,8 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
         if (!(double(samples.random(pair + 1).x) < chance))
             break;
         power = reflected * float(1.0 / std::min(chance, 1.0));
-        position += way * hit.distance + lift * there.geometric;
-        way = onward;
+        position += direction * hit.distance + lift * there.geometric;
+        direction = onward;
     }
 }
 

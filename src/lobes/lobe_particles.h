@@ -27,7 +27,7 @@ public:
         std::vector<glm::vec3> irradiance;  ///< [N] [lx] that arrives from lobes
         std::vector<glm::vec3> reflected;   ///< [N] [lm/m²] that lobes reflect of it
     };
-    /// exitance: [N] [lm/m²] that lumels send diffusely. About as many particles as asked for. The
+    /// exitance: [N] [lm/m²] that lumels send diffusely. About as many particles as requested. The
     /// same seed and exitance give the same bytes.
     Carried carry(std::span<const glm::vec3> exitance, std::size_t particles,
                   std::uint32_t seed) const;

@@ -6,7 +6,7 @@ LUMEL_SHARED_BEGIN
 LUMEL_CONST uint kMostGlossyBatch = 128u;  ///< K; eyes and shots fit 16 KiB uniform blocks
 
 LUMEL_CONST uint kMostLobes = 64u;  ///< that a shooter sends
-/// Lobes of less shininess are wide: one of them says enough.
+/// Lobes of less shininess are wide: one of them is enough.
 LUMEL_CONST float kNarrowLobe = 32.0f;
 
 /// What a shooter sends: radiance × A_j / (p_j K), in a diffuse part and lobes.

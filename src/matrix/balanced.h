@@ -10,7 +10,7 @@ namespace lumel {
 
 /// K = D M C^-1 D^-1 with colours C and D = √area, M made of form factors: then K is symmetric, its
 /// channels are alike (the first bounce is the same in all) and its rows count as their patches'
-/// areas do. Where C is 0, M says nothing of K: then K's other half does, or its other channels.
+/// areas do. Where C is 0, M does not determine K: then K's other half does, or its other channels.
 /// Throws Error{input} unless elements has all of every patch.
 ColorMatrix balanced(const ColorMatrix& matrix, const Elements& elements);
 

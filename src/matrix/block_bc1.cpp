@@ -148,7 +148,7 @@ std::pair<Coded, Coded> single_color(const glm::vec3& color)
     return best;
 }
 
-/// The first colour must be the larger number: that says that there are two between them.
+/// The first colour must be the larger number: that selects the mode with two between them.
 BlockWords words_of(const Choice& choice)
 {
     std::uint32_t first = pack(choice.first), second = pack(choice.second), indices = 0;

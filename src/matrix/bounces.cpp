@@ -42,7 +42,7 @@ void check_numbers(const SquareMatrix& once)
     for (const float value : once.values)
         if (!(value >= 0.0f) || !std::isfinite(value))
             throw Error(ErrorKind::input, "form-factor matrix",
-                        "holds a negative or infinite number, or none; make it anew");
+                        "has an entry that is negative or not finite; make it again");
 }
 
 SquareMatrix some_bounces(const SquareMatrix& once, std::uint32_t k)

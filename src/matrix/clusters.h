@@ -1,5 +1,5 @@
 #pragma once
-// Groups of patches that lie together and face the same way.
+// Groups of neighbouring patches that face the same direction.
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,8 @@
 // [SF17] section 3.5. The largest share of each row is kept; the rest is divided by the largest of
 // its channel, ln(v) + offset is brought to 0…255 and stored in 8 bits or in texture blocks. Beyond
-// the paper: half floats, BC4, exact parts that mend what their blocks lose (CodingOptions::mend),
-// and rows ordered apart from columns, which a gather of x and a scatter of y make free.
+// the paper: half floats, BC4, exact parts that restore what their blocks lose
+// (CodingOptions::mend), and rows ordered apart from columns, which a gather of x and a scatter of
+// y make free.
 
 #include "matrix/coded_matrix.h"
 

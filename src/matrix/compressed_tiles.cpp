@@ -1,12 +1,12 @@
 // A uniform hierarchical matrix of one level [Hac15], coded like a picture:
 //
-// 1. Patches are put into clusters of 64 that lie together and face the same way.
+// 1. Neighbouring patches that face the same direction make clusters of 64.
 // 2. Each cluster gets the basis in which its rows have most of their energy in few coefficients
 //    (principal components), rounded to 8 bits. All of the matrix becomes T, K = Q^T T Q, K the
 //    balanced matrix; the dual of Q makes up for its rounding.
 // 3. The three channels, which differ only in later bounces, become three axes, two of them small.
 // 4. Tiles of 4 × 4 coefficients are dropped or stored with 4, 8 or 16 bits: whatever is least of
-//    distortion + λ bytes. λ is found for the error that is asked for.
+//    distortion + λ bytes. λ is found for the requested error.
 //
 // Distortion counts by the light that a coefficient is likely to meet: direct light falls on
 // patches much as light from other patches does, but has more detail than light of all bounces. The
@@ -32,7 +32,7 @@ namespace {
 constexpr std::size_t kTileRowsPerTask = 16;
 constexpr int kSearchSteps = 40;  // halvings of λ's logarithm
 
-/// The estimate of an error by `expected_light` is so much of what real direct light shows, by
+/// The estimate of an error by `expected_light` is this part of what real direct light shows, by
 /// `lumel-papers matrix`.
 constexpr double kEstimateOfError = 0.6;
 constexpr int kDropped = kPrecisions;  // the precision of tiles that are not stored

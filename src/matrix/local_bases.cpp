@@ -116,7 +116,7 @@ std::vector<float> duals(const CodedBasis& bases)
         }
         if (!blas::solve_from_right(transposed, dual, kCluster))
             throw Error(ErrorKind::input, "form-factor matrix",
-                        "has patches of which nothing can be told apart; use fewer patches");
+                        "has patches that cannot be distinguished; use fewer patches");
     }
     return result;
 }

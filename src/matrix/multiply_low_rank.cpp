@@ -23,9 +23,10 @@ Words to_words(std::uint32_t rows, std::uint32_t columns, const At& at)
 }
 
 /// What lies beyond the rank in a plane stays 0.
-gpu::Array<float> zeros(const gpu::Device& device, std::size_t count)
+gpu::Array<float> zeros(const gpu::Device& device, std::size_t count,
+                        const gpu::Name& name = gpu::Name::of_line())
 {
-    return gpu::Array<float>(device, std::span<const float>(std::vector<float>(count)));
+    return gpu::Array<float>(device, std::span<const float>(std::vector<float>(count)), name);
 }
 
 RowsProduct see(const gpu::Device& device, const LowRankMatrix& matrix)

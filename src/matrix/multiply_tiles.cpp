@@ -18,9 +18,10 @@ constexpr std::uint32_t kExpandSpirv[] = {
 
 using Words = std::vector<std::uint32_t>;
 
-gpu::Array<std::uint32_t> on_device(const gpu::Device& device, const Words& words)
+gpu::Array<std::uint32_t> on_device(const gpu::Device& device, const Words& words,
+                                    const gpu::Name& name = gpu::Name::of_line())
 {
-    return gpu::Array<std::uint32_t>(device, std::span<const std::uint32_t>(words));
+    return gpu::Array<std::uint32_t>(device, std::span<const std::uint32_t>(words), name);
 }
 
 Words first_basis(const TiledMatrix& matrix)

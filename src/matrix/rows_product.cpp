@@ -128,7 +128,8 @@ void RowsProduct::upload_texture(const std::vector<std::uint32_t>& words)
     std::vector<std::uint32_t> image = words;
     image.resize(block_row_words(code_, quads_) * (plane_rows_ / kBlockRows));
     bytes_ = image.size() * sizeof(std::uint32_t);
-    texture_.emplace(*device_, gpu::Pixel::bc1, quads_ * 4, plane_rows_);
+    texture_.emplace(*device_, gpu::Pixel::bc1, quads_ * 4, plane_rows_, 1u, 1u,
+                     "rows_product.codes");
     texture_->upload(image.data());
 }
 

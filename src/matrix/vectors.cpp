@@ -63,9 +63,10 @@ std::vector<float> all_values(const SparsePart& exact)
 }
 
 template <class T>
-gpu::Array<T> on_device(const gpu::Device& device, const std::vector<T>& values)
+gpu::Array<T> on_device(const gpu::Device& device, const std::vector<T>& values,
+                        const gpu::Name& name = gpu::Name::of_line())
 {
-    return gpu::Array<T>(device, std::span<const T>(values));
+    return gpu::Array<T>(device, std::span<const T>(values), name);
 }
 
 }  // namespace

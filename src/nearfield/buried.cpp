@@ -11,7 +11,7 @@ namespace lumel {
 
 namespace {
 
-constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to see whether it is open
+constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to test whether it is open
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
 constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
 constexpr int kStrips = 8;       ///< that a partly hidden lumel is cut into
@@ -39,7 +39,7 @@ bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lume
     return hit.distance * glm::dot(direction, point.normal) < kContact * lumel.size;
 }
 
-/// What everything below looks at.
+/// The scene, as everything below uses it.
 struct Look {
     const Scene& scene;
     const RayScene& rays;

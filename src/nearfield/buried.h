@@ -8,8 +8,8 @@
 namespace lumel {
 
 /// Reduces lumels to the part that light can reach, and marks those of which less than a tenth is
-/// left (kLumelBuried). What lies under or inside other geometry neither receives nor shines, so
-/// that it darkens nothing and lets nothing through; area and pieces are then those of the open
+/// left (kLumelBuried). Area under or inside other geometry neither receives nor emits, so
+/// that it darkens nothing and leaks nothing; area and pieces are then those of the open
 /// part.
 ///
 /// Points of a lumel cast rays all over their hemisphere. A ray is shut in if it first meets the
@@ -18,7 +18,7 @@ namespace lumel {
 /// of it is shut in; one ray that gets away, or meets a front or a double-sided surface farther
 /// off, clears it. So the dark inside of a sealed but roomy box is not buried.
 ///
-/// Returns the open share of each lumel's area [N], 0 of buried ones. chosen [N]: looks at these
+/// Returns the open share of each lumel's area [N], 0 of buried ones. chosen [N]: changes these
 /// alone and leaves the others as they are, with a share of 1; empty: all.
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
                                const std::vector<char>& chosen = {});

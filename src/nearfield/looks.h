@@ -1,5 +1,5 @@
 #pragma once
-// Looks around from a lumel.
+// Rays from a lumel over its hemisphere.
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 //     w = cosθ_i cosθ_j / (|y - x|² + s_j² / 4π),   s_j the size of j
 //
 // F(x → polygon) is Lambert's edge sum, averaged over Gauss points x: no noise. Only visibility V
-// is sampled, by one ray for each x to a stratified y, and its mean is weighted by how much light
-// would go that way; o_j is the opacity of a cut-out.
+// is sampled, by one ray for each x to a stratified y, and its mean is weighted by the light that
+// would pass; o_j is the opacity of a cut-out.
 
 #include "nearfield/near_field.h"
 
@@ -27,13 +27,13 @@ namespace {
 
 /// Factors below this are not worth an entry.
 constexpr float kLeastFactor = 1e-7f;
-/// Pairs farther apart than this, in sizes of the larger, take half as many points each way.
+/// Pairs farther apart than this, in sizes of the larger, take half as many points along each side.
 constexpr float kDistant = 2.0f;
 
 /// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
 /// varies little, and as many as there are of them, their noise averages out.
 constexpr float kPointwise = 4.0f;
-/// Then one pair of points serves for so many of NearFieldOptions::samples, and for more beyond
+/// Then one pair of points replaces this number of NearFieldOptions::samples, and more beyond
 /// kOnePoint.
 constexpr int kPointPart = 8, kDistantPart = 16;
 constexpr float kOnePoint = 6.0f;
@@ -92,12 +92,13 @@ public:
             const LumelPoint x = options_.centre ? LumelPoint{world_[i].centre, world_[i].normal}
                                                  : world_.point_on(i, opposite ? one - s : s);
             const LumelPoint y = world_.point_on(j, opposite ? one - t : t);
-            const glm::vec3 way = y.position - x.position;
-            const float toward_j = glm::dot(x.normal, way), toward_i = -glm::dot(y.normal, way);
+            const glm::vec3 offset = y.position - x.position;
+            const float toward_j = glm::dot(x.normal, offset),
+                        toward_i = -glm::dot(y.normal, offset);
             if (toward_j <= 0.0f || toward_i <= 0.0f ||
                 !visible(x, world_[i], y, world_[j], key + std::uint32_t(k)))
                 continue;
-            const float distance2 = glm::dot(way, way);
+            const float distance2 = glm::dot(offset, offset);
             sum += toward_j * toward_i / (distance2 * distance2);
         }
         return sum / (float(samples) * std::numbers::pi_v<float>);
@@ -137,7 +138,7 @@ private:
         float fraction() const { return looked_at > 0.0f ? lit / looked_at : 0.0f; }
     };
 
-    /// Visible fraction, looked at from more points.
+    /// Visible fraction, from more points.
     float torn_fraction(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver,
                         bool is_close) const
     {
@@ -150,7 +151,7 @@ private:
         return seen.fraction();
     }
 
-    /// Looks from a point of i, the k-th, at one of j. Returns true if it is seen.
+    /// Tests the k-th point of i against one of j. Returns true if it is seen.
     bool look(std::uint32_t i, std::uint32_t j, const WeightedPoint& from, std::uint32_t k,
               Seen& seen) const
     {
@@ -211,10 +212,10 @@ private:
 
     static float kernel(const LumelPoint& x, const LumelPoint& y, const WorldLumel& j)
     {
-        const glm::vec3 way = y.position - x.position;
-        const float distance2 = glm::dot(way, way);
-        const float cosines =
-            std::max(0.0f, glm::dot(x.normal, way)) * std::max(0.0f, -glm::dot(y.normal, way));
+        const glm::vec3 offset = y.position - x.position;
+        const float distance2 = glm::dot(offset, offset);
+        const float cosines = std::max(0.0f, glm::dot(x.normal, offset)) *
+                              std::max(0.0f, -glm::dot(y.normal, offset));
         const float softening = j.size * j.size * float(0.25 / std::numbers::pi);
         return cosines / (std::max(distance2, 1e-30f) * (distance2 + softening));
     }
@@ -247,7 +248,7 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
         }
         if (!world[i].flat || !world[j].flat)
             return;
-        // If only one found a way through, the other looks again.
+        // If only one estimate found the other lumel visible, the other is repeated.
         if (ij <= 0.0f && ji > 0.0f)
             ij = builder.torn_factor(i, j);
         else if (ji <= 0.0f && ij > 0.0f)

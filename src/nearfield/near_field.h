@@ -15,7 +15,7 @@ namespace lumel {
 
 struct NearFieldOptions {
     float radius = 12.0f;  ///< pairs closer than this × the larger of the two lumel sizes
-    std::size_t most_pairs = 12'000'000;  ///< the radius shrinks until about so many are left
+    std::size_t most_pairs = 12'000'000;  ///< the radius shrinks until about this number is left
     int samples = 16;     ///< points per close pair; four times as many where it is half hidden
     bool centre = false;  ///< receivers at their centroid (centre rule), not spread (area)
     std::uint32_t seed = 1;
@@ -29,7 +29,7 @@ struct NearField {
     std::vector<std::uint32_t> first;   ///< [N + 1]
     std::vector<std::uint32_t> column;  ///< [nnz] shooter j
     std::vector<float> factor;          ///< [nnz] F_ij × visible fraction
-    Surroundings around;                ///< of the lumels, if asked for
+    Surroundings around;                ///< of the lumels, if NearFieldOptions requests them
 };
 
 /// Builds the table. Columns ascend in each row. Buried lumels have empty rows and appear in no

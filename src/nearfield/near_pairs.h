@@ -14,9 +14,9 @@ namespace lumel {
 inline bool is_near(const glm::vec3& centre_i, float size_i, const glm::vec3& centre_j,
                     float size_j, float radius)
 {
-    const glm::vec3 way = centre_j - centre_i;
+    const glm::vec3 offset = centre_j - centre_i;
     const float reach = radius * std::max(size_i, size_j);
-    return glm::dot(way, way) < reach * reach;
+    return glm::dot(offset, offset) < reach * reach;
 }
 
 /// For each lumel i the partners j, ascending: partner[k], k in [first[i], first[i + 1]).

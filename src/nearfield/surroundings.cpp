@@ -11,12 +11,12 @@
 namespace lumel {
 namespace {
 
-/// Rays of all lumels together, and of one: a thousandth part of the scene so has a thousand of
-/// them or more. Openings that so many miss matter as little.
+/// Rays of all lumels together, and of one: a thousandth part of the scene thus has a thousand of
+/// them or more. Openings that all of these miss matter as little.
 constexpr std::size_t kAllRays = 2'000'000, kFewestRays = 16, kMostRays = 256;
 constexpr std::size_t kLumelsPerTask = 256;
-/// Neighbours are joined if one of the ways between points so high above them is free, in the
-/// larger one's sizes: a low one could meet the surface itself where it is bent.
+/// Neighbours are joined if one of the segments between points at these heights above them is
+/// free, in the larger one's sizes: a low one could meet the surface itself where it is bent.
 constexpr float kHeights[] = {0.05f, 0.5f};
 /// Blended surfaces are judged by one draw; which one does not matter.
 constexpr std::uint32_t kBlendSeed = 0;
@@ -31,9 +31,9 @@ struct Look {
 bool meets_front(const Look& look, std::uint32_t i, std::uint32_t ray)
 {
     const LumelPoint x = look.world.point_on(i, sobol_pair(ray, hash_two(i, 0)));
-    const glm::vec3 way = direction_about(x.normal, sobol_pair(ray, hash_two(i, 1)));
+    const glm::vec3 direction = direction_about(x.normal, sobol_pair(ray, hash_two(i, 1)));
     RayHit hit;
-    if (!look.rays.closest(x.position + look.world[i].lift * x.normal, way, 0.0f,
+    if (!look.rays.closest(x.position + look.world[i].lift * x.normal, direction, 0.0f,
                            std::numeric_limits<float>::max(), ray, hit))
         return false;
     return (hit.front || is_double_sided(look.scene, hit)) && hit.tint == glm::vec3(1.0f);

@@ -71,7 +71,7 @@ std::set<std::size_t> lightmap_textures(const Json& json)
     return textures;
 }
 
-// Moves what is used to the front, and says where each went.
+// Moves what is used to the front, and returns the new place of each.
 class Compactor {
 public:
     explicit Compactor(Json& array) : array_(array) {}

@@ -29,8 +29,8 @@ void for_variants(Value& primitive, const Visit& visit)
 std::set<int> texcoords_read_by(const Json& material);
 
 /// Gives every baked primitive materials that nothing unbaked uses, copied only where needed,
-/// with their texture coordinates renumbered as the primitive asks. Fills `copies` and `material`
-/// of `baked` and returns all of them. Call after cut_baked_primitives.
+/// with their texture coordinates renumbered as the primitive requires. Fills `copies` and
+/// `material` of `baked` and returns all of them. Call after cut_baked_primitives.
 std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimitive>& baked);
 
 /// A texture that only lightmaps of an earlier bake needed, and whose image no other texture

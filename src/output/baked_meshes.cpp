@@ -33,7 +33,7 @@ const Json* source_primitive(const Json& json, const BakedPrimitive& baked)
     return baked.primitive < primitives.size() ? &primitives[baked.primitive] : nullptr;
 }
 
-// Where the old TEXCOORD_1 goes: to number 0 if no texture reads that, as many viewers know only
+// Where the old TEXCOORD_1 goes: to number 0 if no texture reads that, as many viewers support only
 // two; else to the next free number, as glTF allows no gap.
 int new_texcoord(const Json& attributes, const Json& json,
                  const std::vector<std::size_t>& materials)
@@ -59,7 +59,7 @@ NodesOfMesh nodes_of_meshes(const Json& json)
     return nodes;
 }
 
-// The file's primitive as a triangle list with its vertices split as the surface says.
+// The file's primitive as a triangle list with its vertices split as in the surface.
 Json split_primitive(const Json& original, const BakedPrimitive& baked, const Atlas& atlas,
                      VertexGather& gather)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// A glTF document under change, on its way into one .glb file.
+// A glTF document that is changed and written into one .glb file.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,9 +15,9 @@ namespace lumel {
 /// glTF's numbers for what a bufferView is for.
 enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
-/// Starts as a copy of a document, whose JSON may then be changed at will; release() lets go of
+/// Starts as a copy of a document, whose JSON may then be changed at will; release() drops
 /// what the changed JSON no longer refers to; after it, new data is added. Indices never move:
-/// what is released gives its number to what is added. The document must outlive the builder.
+/// new data takes the numbers of released data. The document must outlive the builder.
 class GlbBuilder {
 public:
     explicit GlbBuilder(const GltfDocument& document);

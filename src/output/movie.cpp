@@ -20,7 +20,7 @@ constexpr const char* kEvenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
 constexpr const char* kPixels = "yuv420p";
 constexpr int kNotStarted = 127;  // as shells have it
 
-/// Runs a program in a folder, with nothing to read and nowhere to talk to. Its exit code.
+/// Runs a program in a folder, without input or output. Its exit code.
 int run_silently(const std::string& folder, std::vector<std::string> words)
 {
     std::vector<char*> values;

@@ -5,7 +5,7 @@
 
 namespace lumel {
 
-/// Where ffmpeg is, as the PATH says; empty if it is not there.
+/// Where ffmpeg is, by the PATH; empty if it is not there.
 std::string find_ffmpeg();
 
 /// Makes `film` of the files that `pictures`, such as "frame-%04d.png", counts from 1, both inside

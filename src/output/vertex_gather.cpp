@@ -99,7 +99,7 @@ std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::
                     data.element_size);
     }
 
-    // Keep what else the accessor says: its format, name and extras.
+    // Keep the other properties of the accessor: its format, name and extras.
     Json gathered = builder_.document().json.at("accessors")[source];
     for (const char* key : {"byteOffset", "sparse", "min", "max"})
         gathered.erase(key);

@@ -80,14 +80,15 @@ LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position,
                             const glm::vec2& disc) const
 {
     const PunctualLight& light = *lamp.light;
-    const glm::vec3 way = lamp.position - position;
-    const float squared = glm::dot(way, way);
+    const glm::vec3 offset = lamp.position - position;
+    const float squared = glm::dot(offset, offset);
     const float squared_radius = light.radius * light.radius;
     if (squared <= squared_radius)
         return {};
     const float squared_sine = squared_radius / squared;
     const float far = std::sqrt(squared);
-    const Ray ray = draw_from_cone(way / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
+    const Ray ray =
+        draw_from_cone(offset / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
     // Where the ray enters the ball.
     const float within = std::sqrt(std::max(0.0f, squared_radius - squared * ray.squared_sine));
     LampSample sample{.direction = ray.direction, .distance = far * ray.cosine - within};

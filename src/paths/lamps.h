@@ -31,7 +31,7 @@ private:
     struct Lamp {
         const PunctualLight* light = nullptr;
         glm::vec3 position{0.0f};  ///< world [m]
-        glm::vec3 toward{0.0f};    ///< unit, against the way it shines
+        glm::vec3 toward{0.0f};    ///< unit, opposite to its light
     };
 
     LampSample from_disc(const Lamp& lamp, const glm::vec2& disc) const;

@@ -1,6 +1,6 @@
 #pragma once
 // Low-discrepancy points for the path tracer: the first two Sobol dimensions, shuffled and
-// Owen-scrambled by a hash for every pair of dimensions a path asks for.
+// Owen-scrambled by a hash for every pair of dimensions that a path uses.
 //
 // [Bur20] B. Burley, Practical Hash-based Owen Scrambling, JCGT 9(4), 2020.
 //

@@ -1,5 +1,5 @@
 #pragma once
-// A solved scene as rays meet it.
+// A solved scene, looked up where rays hit.
 
 #include <cstdint>
 
@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// Looks up a scene's lightmap and lumels where a ray hit. What it is made of must outlive it.
+/// Looks up a scene's lightmap and lumels where a ray hit. Everything passed in must outlive it.
 class LitScene {
 public:
     /// The maps hold the finished irradiance [lx] of each side; `back` empty: as `front`.

@@ -29,7 +29,7 @@ constexpr std::uint32_t kMostLobes = 16;
 /// Throughput below which a ray takes part in Russian roulette: what glazed surfaces reflect. With
 /// more, the few narrow lobes behind one that lead to a lamp would show.
 constexpr float kRouletteBelow = 0.04f;
-/// Dimension pairs of a ray's random numbers: its direction, roulette, and whom it seeks.
+/// Dimension pairs of a ray's random numbers: its direction, roulette, and the point it aims at.
 constexpr std::uint32_t kPairsPerLobe = 4;
 /// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
@@ -55,32 +55,34 @@ public:
         glm::vec3 sum(0.0f), throughput(1.0f);
         for (std::uint32_t lobe = 0; lobe < kMostLobes; ++lobe) {
             const std::uint32_t pair = kPairsPerLobe * lobe;
-            const Ways ways = ways_at(lobe);
+            const Techniques techniques = techniques_at(lobe);
             const float cos_eye = glm::dot(x.normal, x.toward_eye);
             if (cos_eye <= 0.0f)
                 break;
             const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
-            if (ways.seeks)
+            if (techniques.seeks)
                 sum += throughput * sought(x, mirror, samples, pair);
 
-            const glm::vec3 way = phong_direction(
+            const glm::vec3 direction = phong_direction(
                 mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
-            const float cos_in = glm::dot(x.normal, way);
+            const float cos_in = glm::dot(x.normal, direction);
             RayHit hit;
             const glm::vec3 origin = x.position + lift_ * x.facing;
-            if (cos_in <= 0.0f || glm::dot(x.facing, way) <= 0.0f)
+            if (cos_in <= 0.0f || glm::dot(x.facing, direction) <= 0.0f)
                 break;
             throughput *= x.specular * (cos_in / std::max(cos_in, cos_eye));
-            const bool met = rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
-                                           samples.bits(pair), hit);
+            const bool met =
+                rays_.closest(origin, direction, 0.0f, std::numeric_limits<float>::max(),
+                              samples.bits(pair), hit);
             throughput *= hit.tint;
             if (!met) {
-                sum += throughput * lit_.sky(way);  // nobody else sends it
+                sum += throughput * lit_.sky(direction);  // no other technique finds it
                 break;
             }
             const Shading there = surfaces_.shade(hit);
-            const float rays = ways.rays * phong_density(glm::dot(mirror, way), x.shininess);
-            const float others = ways.others * density(hit, way);
+            const float rays =
+                techniques.rays * phong_density(glm::dot(mirror, direction), x.shininess);
+            const float others = techniques.others * density(hit, direction);
             sum += throughput * sent(there, hit) * (rays > 0.0f ? rays / (rays + others) : 0.0f);
 
             if (there.reflectance.specular == glm::vec3(0.0f))
@@ -89,10 +91,10 @@ public:
                 survival(throughput, there.reflectance.specular, samples.random(pair + 1));
             if (throughput == glm::vec3(0.0f))
                 break;
-            x = {origin + way * hit.distance,
+            x = {origin + direction * hit.distance,
                  there.normal,
                  there.geometric,
-                 -way,
+                 -direction,
                  there.reflectance.specular,
                  there.reflectance.shininess};
         }
@@ -100,14 +102,14 @@ public:
     }
 
 private:
-    /// The ways to choose y from a point.
-    struct Ways {
+    /// The techniques that choose y from a point.
+    struct Techniques {
         float rays;    ///< how many along its lobe
         float others;  ///< how many drawn by what they send
         bool seeks;    ///< the latter by a ray, one for each along the lobe; else by the shooters
     };
 
-    Ways ways_at(std::uint32_t lobe) const
+    Techniques techniques_at(std::uint32_t lobe) const
     {
         if (lobe == 0 && options_.shooters > 0.0f)
             return {float(options_.rays), options_.shooters, false};
@@ -122,16 +124,16 @@ private:
     }
 
     /// q_A of what a ray hit: with which y is drawn by what it sends [1/sr].
-    float density(const RayHit& hit, const glm::vec3& way) const
+    float density(const RayHit& hit, const glm::vec3& direction) const
     {
         const std::uint32_t j = lit_.lumel(hit);
-        const float cos_there = std::abs(glm::dot(hit.normal, way));
+        const float cos_there = std::abs(glm::dot(hit.normal, direction));
         if (!(senders_.power() > 0.0) || j == HitLumels::kNone || cos_there <= 0.0f)
             return 0.0f;
         return senders_.density(j) * hit.distance * hit.distance / cos_there;
     }
 
-    /// What x reflects to the eye of a y drawn by what it sends, weighed against one along the
+    /// What x reflects to the eye of a y drawn by what it sends, weighted against one along the
     /// lobe.
     glm::vec3 sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
                      std::uint32_t pair) const
@@ -139,18 +141,19 @@ private:
         const double place = double(samples.random(pair + 2).x) * senders_.power();
         const std::uint32_t j = senders_.lumel(place);
         const glm::vec3 origin = x.position + lift_ * x.facing;
-        const glm::vec3 way =
+        const glm::vec3 direction =
             glm::normalize(senders_.point(j, samples.random(pair + 3)).position - origin);
-        const float cos_in = glm::dot(x.normal, way), cos_eye = glm::dot(x.normal, x.toward_eye);
-        const float along = phong_density(glm::dot(mirror, way), x.shininess);
-        if (!(along > 0.0f) || cos_in <= 0.0f || !(glm::dot(x.facing, way) > 0.0f))
+        const float cos_in = glm::dot(x.normal, direction),
+                    cos_eye = glm::dot(x.normal, x.toward_eye);
+        const float along = phong_density(glm::dot(mirror, direction), x.shininess);
+        if (!(along > 0.0f) || cos_in <= 0.0f || !(glm::dot(x.facing, direction) > 0.0f))
             return glm::vec3(0.0f);
         RayHit hit;
-        if (!rays_.closest(origin, way, 0.0f, std::numeric_limits<float>::max(),
+        if (!rays_.closest(origin, direction, 0.0f, std::numeric_limits<float>::max(),
                            samples.bits(pair + 2), hit) ||
             lit_.lumel(hit) != j)
             return glm::vec3(0.0f);
-        const float drawn = density(hit, way);
+        const float drawn = density(hit, direction);
         if (!(drawn > 0.0f))
             return glm::vec3(0.0f);
         const float reflects = along * cos_in / std::max(cos_in, cos_eye);
@@ -184,7 +187,7 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
 {
     const LobeRays lobes(rays, surfaces, lit, senders, options);
     std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
-    // One ray of every point at a time: weighed for as many as were asked for, fewer are as right.
+    // One ray of every point at a time: weighted for the requested number, fewer are as correct.
     std::uint32_t taken = 0;
     for (bool stopped = false; taken < options.rays && !stopped; ++taken) {
         const auto follow = [&](std::size_t first, std::size_t last) {
@@ -193,12 +196,12 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
                 radiance[e] += lobes.estimate(points[e], PathSamples(stream, taken));
             }
         };
-        const auto tell = [&](std::size_t done) {
+        const auto report = [&](std::size_t done) {
             const double share = double(done) / double(points.size());
             stopped |= progress && !progress((taken + share) / options.rays);
             return true;
         };
-        parallel_steps(points.size(), kPointsPerStep, kPointsPerTask, follow, tell);
+        parallel_steps(points.size(), kPointsPerStep, kPointsPerTask, follow, report);
     }
     for (glm::vec3& sum : radiance)
         sum /= float(std::max(taken, 1u));

@@ -1,6 +1,6 @@
 #pragma once
-// Light that rays along the lobes of glossy points find: the other way to choose y, by what x
-// reflects instead of by what y sends. Shooters (solve/eye_image.h) are good at wide lobes and
+// Light that rays along the lobes of glossy points find: y is chosen by what x reflects instead
+// of by what y sends. Shooters (lobes/eye_image.h) are good at wide lobes and
 // lamps, rays at narrow lobes.
 
 #include <functional>
@@ -20,8 +20,8 @@ struct LobeRayOptions {
     std::uint32_t seed = 1;
 };
 
-/// [P] cd/m² toward the eye, weighed against the shooters by the balance heuristic [VG95].
-/// senders: with the brightness that the shooters were weighed with. `progress` is given the
+/// [P] cd/m² toward the eye, weighted against the shooters by the balance heuristic [VG95].
+/// senders: with the brightness that the shooters were weighted with. `progress` receives the
 /// fraction done and returns false to stop, which leaves each point as many rays as the others, one
 /// at least.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,

@@ -33,7 +33,7 @@ struct Seen {
     std::vector<std::uint32_t> first;  ///< [S + 1] where each set begins among the glossy
 };
 
-/// Follows a ray through S = `sets` places of every pixel, 1 or more. `progress` is given the
+/// Follows a ray through S = `sets` places of every pixel, 1 or more. `progress` receives the
 /// fraction done and returns false to stop, which leaves the sets that are whole, one at least.
 Seen look(const View& view, int width, int height, std::uint32_t sets, const RayScene& rays,
           const Surfaces& surfaces, const Sky& sky,

@@ -118,10 +118,11 @@ public:
         for (const Texture& texture : scene.textures) {
             targets_.emplace_back(device, gpu::Pixel::srgba8, std::uint32_t(texture.width),
                                   std::uint32_t(texture.height),
-                                  level_count(texture.width, texture.height));
+                                  level_count(texture.width, texture.height), 1u,
+                                  "texture " + std::to_string(targets_.size()));
             targets_.back().upload(texture.rgba.data());
         }
-        targets_.emplace_back(device, gpu::Pixel::srgba8, 1, 1);
+        targets_.emplace_back(device, gpu::Pixel::srgba8, 1u, 1u, 1u, 1u, "white texel");
         const std::uint32_t white = 0xffffffffu;
         targets_.back().upload(&white);
     }

@@ -38,7 +38,7 @@ struct QueryContext {
     std::uint32_t seed;
     std::vector<PassedGlass> passed;  ///< in any order, and beyond the hit as well
 
-    /// Embree may ask about a triangle more than once.
+    /// Embree may test a triangle more than once.
     void pass(const PassedGlass& glass)
     {
         const auto same = [&](const PassedGlass& other) {
@@ -84,7 +84,7 @@ MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float 
     return sample_material(*part.scene, source.material, texcoord, color);
 }
 
-/// Embree's question at each candidate hit: does it count?
+/// Embree's filter: does this candidate hit count?
 void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 {
     if (candidate->valid[0] != -1)
@@ -235,11 +235,12 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
                             std::uint32_t seed) const
 {
-    const glm::vec3 way = to - from;
-    const float distance = glm::length(way);
+    const glm::vec3 path = to - from;
+    const float distance = glm::length(path);
     if (distance <= 2.0f * offset)
         return glm::vec3(1.0f);
-    return tint_along(data_->tree, make_ray(from, way / distance, offset, distance - offset), seed);
+    return tint_along(data_->tree, make_ray(from, path / distance, offset, distance - offset),
+                      seed);
 }
 
 glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,

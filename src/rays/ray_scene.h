@@ -43,8 +43,8 @@ public:
     /// True if nothing lies along a unit direction, however far.
     bool sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const;
 
-    /// What of light gets from one point to the other, or out along a unit direction: 0 if
-    /// something is hit on the way, else the product of the tints.
+    /// The part of light that passes from one point to the other, or out along a unit direction:
+    /// 0 if something is hit, else the product of the tints.
     glm::vec3 passing(const glm::vec3& from, const glm::vec3& to, float offset,
                       std::uint32_t seed) const;
     glm::vec3 passing_out(const glm::vec3& from, const glm::vec3& direction,

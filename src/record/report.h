@@ -23,7 +23,7 @@ struct StageTime {
     double cpu_seconds = 0.0;  ///< of all threads
 };
 
-/// The estimate of the solver after so many shooters.
+/// The estimate of the solver after a number of shooters.
 struct ConvergencePoint {
     std::uint64_t shots = 0;
     double seconds = 0.0;  ///< of solving
@@ -53,9 +53,9 @@ struct FormFactorRow {
 /// What became of a bake whose scene was edited.
 struct UpdateRow {
     std::uint64_t moved = 0, appeared = 0, vanished = 0;  ///< instances
-    std::uint64_t recoloured = 0;  ///< instances that reflect or emit otherwise
+    std::uint64_t recoloured = 0;  ///< instances that reflect or emit differently
     bool relit = false;            ///< sky or lamps that are no surfaces are others
-    std::uint64_t rays = 0;        ///< followed to find what arrives otherwise
+    std::uint64_t rays = 0;        ///< followed to find the change of arriving light
     std::uint64_t particles = 0;   ///< that carried it on
     bool solved_anew = false;      ///< too much changed for these; Report::shots is their solver's
     double residual = 0.0;         ///< error of the correction, as a part of all light
@@ -64,7 +64,7 @@ struct UpdateRow {
     bool any() const { return moved + appeared + vanished + recoloured > 0 || relit; }
 };
 
-/// Everything report.json says. Empty strings, empty lists and negative numbers: not known; left
+/// All contents of report.json. Empty strings, empty lists and negative numbers: not known; left
 /// out of the file.
 struct Report {
     std::string lumel_version;

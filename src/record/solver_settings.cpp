@@ -1,17 +1,14 @@
 #include "record/solver_settings.h"
 
-#include <limits>
+#include <map>
 
+#include "core/number.h"
 #include "record/fields.h"
 
 namespace lumel {
 namespace {
 
-constexpr Limits kSeeds{0.0, double(std::numeric_limits<std::uint32_t>::max())};
 constexpr Limits kShots{0.0, 1e15};
-constexpr Limits kBatches{1.0, 65536.0};
-constexpr Limits kHemicubes{1.0, 65536.0};  // sides [pixels]
-constexpr Limits kShares{0.0, 1.0};
 
 template <class Options, class Visit>
 void each_limit(Options& options, const Visit& visit)
@@ -21,49 +18,50 @@ void each_limit(Options& options, const Visit& visit)
     visit("error", options.target_error);
 }
 
-template <class Options, class Visit>
-void each_option(Options& options, const Visit& visit)
+/// Numbers as numbers, words as strings.
+Json json_of(const OptionInfo& option, const MethodOptions& method)
 {
-    visit("scheme", options.scheme);
-    visit("sampling", options.rule);
-    visit("batch", options.batch, kBatches);
-    visit("projection", options.projection);
-    visit("hemicube", options.hemicube, kHemicubes);
-    visit("disc", options.disc);
-    visit("merge", options.merge);
-    visit("leak", options.leak, kShares);
-    visit("sky", options.sky);
-    visit("layers", options.layers);
-    visit("lookups", options.lookups);
-    visit("slabs", options.slabs, Limits{0.0, double(kMostSlabs)});
-    visit("map-side", options.map_side);
-    visit("patches", options.patches, Limits{0.0, double(kMostPatches)});
-    visit("bounces", options.bounces, Limits{0.0, double(kMostBounces)});
+    const std::string text = option.get(method);
+    const auto number = number_of(text);
+    return option.is_number && number ? Json(std::int64_t(*number)) : Json(text);
+}
+
+std::string text_of(const JsonView& value)
+{
+    return value.json().is_number_integer() ? std::to_string(value.json().get<std::int64_t>())
+                                            : value.string();
 }
 
 }  // namespace
 
 Json solver_settings(const SolverOptions& options)
 {
-    Json settings = {{"method", options.method}, {"seed", options.seed}};
+    const MethodInfo& method = method_of(options.method);
+    Json settings = {{"method", method.id}};
     each_limit(options, FieldWriter(settings["limits"]));
-    each_option(options, FieldWriter(settings["options"]));
+    Json& own = settings["options"] = Json::object();
+    for (const OptionInfo& option : method.options)
+        own[option.name] = json_of(option, options.method);
     return settings;
 }
 
 SolverOptions solver_options_of(const JsonView& settings)
 {
     SolverOptions options;
-    const FieldReader field(settings);
-    field("method", options.method);
+    std::string id;
+    FieldReader(settings)("method", id);
     try {
-        method_of(options.method);
+        options.method = method_of(id).defaults();
     } catch (const Error& error) {
         settings.get("method").fail(error.what());
     }
-    field("seed", options.seed, kSeeds);
+    const JsonView own = settings.get("options");
+    for (const OptionInfo& option : method_of(id).options) {
+        const JsonView value = own.get(option.name);
+        if (!option.set(options.method, text_of(value)))
+            value.fail("must be " + option.range());
+    }
     each_limit(options, FieldReader(settings.get("limits")));
-    each_option(options, FieldReader(settings.get("options")));
     return options;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 // The options of a solver as a report has them.
 
-#include "solve/solver.h"
+#include "solve/methods.h"
 #include "json/json_view.h"
 
 namespace lumel {
 
-/// {"method": id, "seed": …, "limits": {"shots": …, "seconds": …, "error": …}, "options": {…}}.
+/// {"method": id, "limits": {"shots": …, "seconds": …, "error": …}, "options": {…}}.
 /// Options are named as on the command line.
 Json solver_settings(const SolverOptions& options);
 

@@ -34,11 +34,11 @@ std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& e
                 taken[i] = until;
             }
         };
-        const auto tell = [&](std::size_t values) {
+        const auto report = [&](std::size_t values) {
             const double share = double(values) / double(count);
             return !progress || progress((share * (until - done) + done) / samples);
         };
-        stopped = !parallel_steps(count, kValuesPerPass, kValuesPerTask, take, tell);
+        stopped = !parallel_steps(count, kValuesPerPass, kValuesPerTask, take, report);
     }
 
     std::vector<glm::vec4> means(count, glm::vec4(0.0f));

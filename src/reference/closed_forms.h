@@ -1,5 +1,5 @@
 #pragma once
-// What geometry alone says: form factors and radiosity that are known exactly.
+// Form factors and radiosity that are known exactly, from geometry alone.
 //
 // [How] J. Howell, A Catalog of Radiation Heat Transfer Configuration Factors; C-11, C-14, C-41,
 //       B-3 and B-4 are its numbers.

@@ -1,5 +1,5 @@
 // Next-event estimation: rays towards points drawn on the light sources. What a reflected direction
-// may hit as well, emitters and the sky, is estimated twice and weighed by the power heuristic;
+// may hit as well, emitters and the sky, is estimated twice and weighted by the power heuristic;
 // lamps are never hit.
 //
 // [VG95] E. Veach, L. Guibas, Optimally Combining Sampling Techniques, 1995.
@@ -66,13 +66,13 @@ Lights::Lights(const Scene& scene, const RayScene& rays, const Surfaces& surface
         sky_sampler_.emplace(sky_);
 }
 
-glm::vec3 Lights::from_emitter(const Stand& stand, const BounceSamples& samples) const
+glm::vec3 Lights::from_emitter(const PathVertex& vertex, const BounceSamples& samples) const
 {
     const EmitterPoint emitter = emitters_.sample(samples.point(Draw::emitter));
-    const glm::vec3 way = emitter.position - stand.position;
-    const float squared = glm::dot(way, way);
-    const glm::vec3 direction = way / std::sqrt(squared);
-    const float cos_here = cosine_above(stand, direction);
+    const glm::vec3 offset = emitter.position - vertex.position;
+    const float squared = glm::dot(offset, offset);
+    const glm::vec3 direction = offset / std::sqrt(squared);
+    const float cos_here = cosine_above(vertex, direction);
     const float cos_front = -glm::dot(emitter.normal, direction);
     const float cos_there = emitter.double_sided ? std::abs(cos_front) : cos_front;
     if (!(cos_here > 0.0f) || !(cos_there > 0.0f))
@@ -81,33 +81,33 @@ glm::vec3 Lights::from_emitter(const Stand& stand, const BounceSamples& samples)
     const glm::vec3 lifted =
         emitter.position + (cos_front > 0.0f ? lift_ : -lift_) * emitter.normal;
     const glm::vec3 passing =
-        rays_.passing(stand.position, lifted, 0.0f, samples.bits(Draw::emitter));
+        rays_.passing(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
     if (passing == glm::vec3(0.0f))
         return passing;
     const float density = emitter.density * squared / cos_there;  // per solid angle
-    const Brdf::Response response = stand.brdf.respond(direction);
+    const Brdf::Response response = vertex.brdf.respond(direction);
     const float weight = power_heuristic(density, response.density);
     return passing * emitter.luminance * (response.shape * (cos_here / density * weight));
 }
 
-glm::vec3 Lights::from_sky(const Stand& stand, const BounceSamples& samples) const
+glm::vec3 Lights::from_sky(const PathVertex& vertex, const BounceSamples& samples) const
 {
     const SkySample sky = sky_sampler_->sample(samples.point(Draw::sky));
-    const float cosine = cosine_above(stand, sky.direction);
+    const float cosine = cosine_above(vertex, sky.direction);
     if (!(cosine > 0.0f) || !(sky.density > 0.0f))
         return glm::vec3(0.0f);
     const glm::vec3 passing =
-        rays_.passing_out(stand.position, sky.direction, samples.bits(Draw::sky));
+        rays_.passing_out(vertex.position, sky.direction, samples.bits(Draw::sky));
     if (passing == glm::vec3(0.0f))
         return passing;
-    const Brdf::Response response = stand.brdf.respond(sky.direction);
+    const Brdf::Response response = vertex.brdf.respond(sky.direction);
     const float weight = power_heuristic(sky.density, response.density);
     return passing * sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
-/// Works out what every lamp would bring, and asks what is in the way of a few of them, chosen by
-/// that.
-glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) const
+/// Computes the unoccluded light of every lamp, and tests the visibility of a few of them, chosen
+/// by that.
+glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samples) const
 {
     struct Offer {
         LampSample lamp;
@@ -119,21 +119,21 @@ glm::vec3 Lights::from_lamps(const Stand& stand, const BounceSamples& samples) c
     const glm::vec2 disc = square_to_disc(samples.point(Draw::lamp));
     float total = 0.0f;
     for (std::size_t i = 0; i < lamps_.count(); ++i) {
-        const LampSample lamp = lamps_.sample(i, stand.position, disc);
-        const float cosine = cosine_above(stand, lamp.direction);
+        const LampSample lamp = lamps_.sample(i, vertex.position, disc);
+        const float cosine = cosine_above(vertex, lamp.direction);
         if (!(cosine > 0.0f) || lamp.illuminance == glm::vec3(0.0f))
             continue;
         const glm::vec3 light =
-            lamp.illuminance * (stand.brdf.respond(lamp.direction).shape * cosine);
+            lamp.illuminance * (vertex.brdf.respond(lamp.direction).shape * cosine);
         total += sum(light);
         offers.push_back({lamp, light, total});
     }
     const auto passing = [&](const LampSample& lamp) {
         const std::uint32_t seed = samples.bits(Draw::lamp);
         return std::isinf(lamp.distance)
-                   ? rays_.passing_out(stand.position, lamp.direction, seed)
-                   : rays_.passing(stand.position, stand.position + lamp.distance * lamp.direction,
-                                   0.0f, seed);
+                   ? rays_.passing_out(vertex.position, lamp.direction, seed)
+                   : rays_.passing(vertex.position,
+                                   vertex.position + lamp.distance * lamp.direction, 0.0f, seed);
     };
 
     glm::vec3 arriving(0.0f);

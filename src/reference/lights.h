@@ -10,7 +10,7 @@
 #include "rays/ray_scene.h"
 #include "reference/bounce_samples.h"
 #include "reference/emitters.h"
-#include "reference/stand.h"
+#include "reference/path_vertex.h"
 #include "scene/sky.h"
 
 namespace lumel {
@@ -23,15 +23,15 @@ public:
 
     /// One estimate of ∫ s L cosθ dω [lm/m²] over what rays towards light sources bring to a point:
     /// lamps in full, emitters and the sky by their share. s is π f_r / ρ, 1 for a matte surface.
-    glm::vec3 sought(const Stand& stand, const BounceSamples& samples) const
+    glm::vec3 sought(const PathVertex& vertex, const BounceSamples& samples) const
     {
         glm::vec3 sought(0.0f);
         if (!emitters_.empty())
-            sought += from_emitter(stand, samples);
+            sought += from_emitter(vertex, samples);
         if (sky_sampler_)
-            sought += from_sky(stand, samples);
+            sought += from_sky(vertex, samples);
         if (lamps_.count() > 0)
-            sought += from_lamps(stand, samples);
+            sought += from_lamps(vertex, samples);
         return sought;
     }
 
@@ -45,9 +45,9 @@ public:
     std::optional<glm::vec3> background(const glm::vec3& direction) const;
 
 private:
-    glm::vec3 from_emitter(const Stand& stand, const BounceSamples& samples) const;
-    glm::vec3 from_sky(const Stand& stand, const BounceSamples& samples) const;
-    glm::vec3 from_lamps(const Stand& stand, const BounceSamples& samples) const;
+    glm::vec3 from_emitter(const PathVertex& vertex, const BounceSamples& samples) const;
+    glm::vec3 from_sky(const PathVertex& vertex, const BounceSamples& samples) const;
+    glm::vec3 from_lamps(const PathVertex& vertex, const BounceSamples& samples) const;
 
     const RayScene& rays_;
     const Surfaces& surfaces_;

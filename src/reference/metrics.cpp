@@ -80,7 +80,7 @@ double relative(double value, double mean)
     return value == 0.0 ? 0.0 : value / mean;
 }
 
-/// Black, blue, red, yellow, white: lightness rises all the way.
+/// Black, blue, red, yellow, white: lightness always rises.
 std::array<float, 3> heat(double level)
 {
     constexpr std::array<std::array<float, 3>, 5> kStops{{{0.0f, 0.0f, 0.0f},

@@ -58,34 +58,34 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, int max_bounces
 }
 
 /// Steps onto what a ray hit.
-Stand PathTracer::land(const glm::vec3& origin, const glm::vec3& direction, float distance,
-                       const Shading& shading) const
+PathVertex PathTracer::land(const glm::vec3& origin, const glm::vec3& direction, float distance,
+                            const Shading& shading) const
 {
     return {origin + direction * std::max(0.0f, distance - lift_) + lift_ * shading.geometric,
             shading.geometric, Brdf(shading.reflectance, shading.normal, -direction)};
 }
 
 /// Follows one path. [Kaj86]
-glm::vec3 PathTracer::reflected(Stand stand, const PathSamples& path) const
+glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) const
 {
     glm::vec3 gathered(0.0f);
-    glm::vec3 throughput = stand.brdf.reflectance();
+    glm::vec3 throughput = vertex.brdf.reflectance();
     for (int bounce = 0; bounce <= last_bounce_; ++bounce) {
         const BounceSamples samples(path, bounce);
         const bool counts = bounce >= first_bounce_;
         // See light sources.
         if (counts)
-            gathered += throughput * lights_.sought(stand, samples);
+            gathered += throughput * lights_.sought(vertex, samples);
 
         // See whatever is there.
-        const glm::vec3 direction = stand.brdf.sample(samples.point(Draw::direction));
-        const float cosine = cosine_above(stand, direction);
+        const glm::vec3 direction = vertex.brdf.sample(samples.point(Draw::direction));
+        const float cosine = cosine_above(vertex, direction);
         if (!(cosine > 0.0f))
             break;
         RayHit hit;
-        const bool met = rays_.closest(stand.position, direction, 0.0f, kFar,
+        const bool met = rays_.closest(vertex.position, direction, 0.0f, kFar,
                                        samples.bits(Draw::direction), hit);
-        const Brdf::Response response = stand.brdf.respond(direction);
+        const Brdf::Response response = vertex.brdf.respond(direction);
         if (!(response.density > 0.0f))
             break;
         throughput *= hit.tint * (response.shape * (cosine / kPi / response.density));
@@ -99,8 +99,8 @@ glm::vec3 PathTracer::reflected(Stand stand, const PathSamples& path) const
             gathered += kPi * throughput * lights_.met(hit, shading, direction, response.density);
 
         // Go on from there.
-        stand = land(stand.position, direction, hit.distance, shading);
-        throughput *= stand.brdf.reflectance();
+        vertex = land(vertex.position, direction, hit.distance, shading);
+        throughput *= vertex.brdf.reflectance();
         if (!goes_on(throughput, samples.number(Draw::roulette)))
             break;
     }
@@ -116,10 +116,10 @@ std::optional<glm::vec3> PathTracer::radiance(const glm::vec3& origin, const glm
         return sky ? hit.tint * *sky : sky;
     }
     const Shading shading = surfaces_.shade(hit);
-    const Stand stand = land(origin, direction, hit.distance, shading);
-    if (stand.brdf.reflectance() == glm::vec3(0.0f))
+    const PathVertex vertex = land(origin, direction, hit.distance, shading);
+    if (vertex.brdf.reflectance() == glm::vec3(0.0f))
         return hit.tint * shading.luminance;
-    return hit.tint * (shading.luminance + reflected(stand, samples) / kPi);
+    return hit.tint * (shading.luminance + reflected(vertex, samples) / kPi);
 }
 
 }  // namespace lumel

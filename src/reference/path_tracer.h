@@ -10,7 +10,7 @@
 #include "paths/surfaces.h"
 #include "rays/ray_scene.h"
 #include "reference/lights.h"
-#include "reference/stand.h"
+#include "reference/path_vertex.h"
 #include "scene/parts.h"
 
 namespace lumel {
@@ -19,11 +19,11 @@ namespace lumel {
 class PathTracer {
 public:
     /// `scene` and `rays` must outlive this, unmoved. Gloss counts if the scene was read with it.
-    /// `parts`: which light arrives at the points that `reflected` is asked about.
+    /// `parts`: which light arrives at the points of `reflected`.
     PathTracer(const Scene& scene, const RayScene& rays, int max_bounces, Parts parts = Parts::all);
 
     /// One estimate of π × the radiance [lm/m²] that a point reflects towards where its BRDF looks.
-    glm::vec3 reflected(Stand stand, const PathSamples& samples) const;
+    glm::vec3 reflected(PathVertex vertex, const PathSamples& samples) const;
 
     /// One estimate of the radiance [cd/m²] along a unit direction; that of the sky where nothing
     /// is, empty without one. Lamps are not seen.
@@ -34,8 +34,8 @@ public:
     float lift() const { return lift_; }
 
 private:
-    Stand land(const glm::vec3& origin, const glm::vec3& direction, float distance,
-               const Shading& shading) const;
+    PathVertex land(const glm::vec3& origin, const glm::vec3& direction, float distance,
+                    const Shading& shading) const;
 
     const RayScene& rays_;
     Surfaces surfaces_;

@@ -31,7 +31,7 @@ public:
     }
 
     /// Steps onto a lumel. `at` in the unit square chooses where.
-    Stand start(const Lumel& lumel, const glm::vec2& at) const;
+    PathVertex start(const Lumel& lumel, const glm::vec2& at) const;
 
 private:
     const Lumels& lumels_;
@@ -41,7 +41,7 @@ private:
     std::vector<glm::mat3> normal_transforms_;
 };
 
-Stand LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
+PathVertex LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
 {
     glm::vec3 position = lumel.position;
     glm::vec3 normal = lumel.normal;
@@ -62,10 +62,10 @@ Stand LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
     const glm::mat4& transform = transforms_[lumel.instance];
     const glm::vec3 world(transform * glm::vec4(position, 1.0f));
     const glm::vec3 inward = glm::vec3(transform * glm::vec4(lumel.position, 1.0f)) - world;
-    const float way = glm::length(inward);
+    const float distance = glm::length(inward);
     glm::vec3 lifted = world + lift_ * geometric;
-    if (way > 0.0f)
-        lifted += inward * (std::min(lift_, 0.5f * way) / way);
+    if (distance > 0.0f)
+        lifted += inward * (std::min(lift_, 0.5f * distance) / distance);
     return {lifted, geometric, Brdf(glm::normalize(normal_transform * normal))};
 }
 
@@ -83,8 +83,8 @@ std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& 
         if (lumel.flags & kLumelBuried)
             return glm::vec4(0.0f);
         const PathSamples samples(PathSamples::hash(key, std::uint32_t(i)), sample);
-        const Stand stand = starts.start(lumel, samples.stratified(kStartPair));
-        return glm::vec4(tracer.reflected(stand, samples), 0.0f);
+        const PathVertex vertex = starts.start(lumel, samples.stratified(kStartPair));
+        return glm::vec4(tracer.reflected(vertex, samples), 0.0f);
     };
     const std::vector<glm::vec4> means =
         average(lumels.lumels.size(), options.samples_per_lumel, estimate, progress);

@@ -22,12 +22,12 @@ struct ReferenceOptions {
     Parts parts = Parts::all;
 };
 
-/// H [N] [lx] of every lumel. Unbiased: emission and reflectance are what the surfaces' materials
-/// say at each point, not the lumel's mean. Of a scene read with MaterialModel::glossy light is
-/// passed on by diffuse and by glossy reflection (brdf.h). Runs that differ in seed are
+/// H [N] [lx] of every lumel. Unbiased: emission and reflectance are those of the surfaces'
+/// materials at each point, not the lumel's mean. Of a scene read with MaterialModel::glossy light
+/// is passed on by diffuse and by glossy reflection (brdf.h). Runs that differ in seed are
 /// independent, so two of them give the noise. Light comes from emissive surfaces, punctual lights
 /// and the sky; buried lumels get 0. With one seed, direct and indirect light add up to all but for
-/// rounding. `progress` is given the fraction done and returns false to stop, which leaves the
+/// rounding. `progress` receives the fraction done and returns false to stop, which leaves the
 /// samples taken so far; lumels without any get 0.
 std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
                                             const Lumels& lumels, const ReferenceOptions& options,

@@ -149,7 +149,7 @@ public:
     bool ended() const { return bytes_.empty(); }
 
 private:
-    /// The length of a list whose elements take so many bytes or more.
+    /// The length of a list whose elements take at least this number of bytes.
     std::size_t count(std::size_t least)
     {
         std::uint64_t count = 0;
@@ -238,14 +238,15 @@ bool is_sound(const Relightable& light)
            all_finite(light.transfer.weight) && size_of(light.matrix) == patches;
 }
 
-/// Throws unless the head says that the contents are ours and whole.
+/// Throws unless the head shows that the contents are ours and complete.
 void check_head(const std::string& path, const Bytes& bytes)
 {
     Head head;
     if (bytes.size() >= sizeof head)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
-        throw Error(ErrorKind::input, path, "is no matrix that lumel bake --solver matrix wrote");
+        throw Error(ErrorKind::input, path,
+                    "is not a matrix that lumel bake --solver matrix wrote");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

@@ -54,8 +54,8 @@ RelightSession::RelightSession(const gpu::Device& device, Relightable light)
     for (const SourceLight& source : light_.sources)
         means_.push_back(light_.patches.means(light_.area, source.direct));
     multiply_.emplace(device, light_.matrix, kStatesAtOnce);
-    direct_.emplace(device, kStatesAtOnce * patches);
-    reflected_.emplace(device, kStatesAtOnce * patches);
+    direct_.emplace(device, kStatesAtOnce * patches, "relight.direct");
+    reflected_.emplace(device, kStatesAtOnce * patches, "relight.reflected");
 }
 
 RelightSession::RelightSession(const gpu::Device& device, const std::string& path)

@@ -36,22 +36,23 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
       lumels_(&lumels),
       near_(&near),
       options_(options),
+      matrix_(std::get<MatrixOptions>(options.method)),
       start_(wall_seconds()),
       sources_(std::move(sources))
 {
     for (KnownSource& source : sources_)
         source.direct.resize(lumels.lumels.size(), glm::vec3(0.0f));
     if (reflecting_area(lumels) > 0.0f)
-        builder_.emplace(device, world, lumels, near, transport_options(options));
+        builder_.emplace(device, world, lumels, near, matrix_.transport);
     else
         begin_source();
 }
 
-std::uint64_t RelightSolver::device_bytes(const SolveSize& size, const SolverOptions& options)
+std::uint64_t RelightSolver::device_bytes(const SolveSize& size, const MatrixOptions& options)
 {
     // One after the other.
-    return std::max(FormFactors::device_bytes(size, view_options(options)),
-                    StochasticRadiosity::device_bytes(size, options));
+    return std::max(FormFactors::device_bytes(size, options.transport.views),
+                    StochasticRadiosity::device_bytes(size, direct_options(options)));
 }
 
 void RelightSolver::step()
@@ -88,7 +89,7 @@ void RelightSolver::begin_source()
         return;
     emitter_.emplace();
     emitter_->lumels = only_shining(black(*lumels_), sources_[next_].source);
-    emitter_->solver.emplace(*device_, *world_, emitter_->lumels, *near_, options_);
+    emitter_->solver.emplace(*device_, *world_, emitter_->lumels, *near_, direct_options(matrix_));
     emitter_->start = wall_seconds();
     const double left = options_.max_seconds - (emitter_->start - start_);
     emitter_->seconds = std::max(left, 0.0) / double(emitters_from(next_));

@@ -20,13 +20,13 @@ struct KnownSource {
 /// itself: the options' error holds for each of these sources, their shots and time are shared.
 class RelightSolver final : public Solver {
 public:
-    /// All but the sources must outlive this.
+    /// All but the sources must outlive this. options.method: MatrixOptions.
     RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
                   const NearField& near, const SolverOptions& options,
                   std::vector<KnownSource> sources);
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
 
     void step() override;
     bool done() const { return !builder_ && next_ == sources_.size(); }
@@ -65,6 +65,7 @@ private:
     const Lumels* lumels_;
     const NearField* near_;
     SolverOptions options_;
+    MatrixOptions matrix_;
     double start_;
     std::optional<TransportBuilder> builder_;
     std::optional<Transport> transport_;

@@ -27,10 +27,10 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
-/// Points of the lumel, and of a lamp's disc, by which a lamp is asked.
+/// Points of the lumel, and of a lamp's disc, that sample a lamp.
 constexpr std::uint32_t kLampPoints = 256;
 /// Dimension pairs of a ray's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kSeedPair = 2;
+constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kSeedPair = 2;
 
 /// Instance, cell, side of a cube.
 using Place = std::array<std::int64_t, 5>;
@@ -58,10 +58,11 @@ struct Sum {
     }
 };
 
-class Asker {
+class SenderSearch {
 public:
-    Asker(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
-          std::span<const glm::vec3> irradiance, std::uint32_t lumel, const SenderOptions& options)
+    SenderSearch(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
+                 std::span<const glm::vec3> irradiance, std::uint32_t lumel,
+                 const SenderOptions& options)
         : scene_(scene),
           rays_(rays),
           lumels_(lumels),
@@ -74,7 +75,7 @@ public:
     {
     }
 
-    Senders ask()
+    Senders find()
     {
         for (std::uint32_t k = 0; k < options_.rays; ++k)
             follow(PathSamples(options_.seed, k));
@@ -119,13 +120,13 @@ private:
     void follow(const PathSamples& samples)
     {
         const LumelPoint point = start(samples);
-        const glm::vec2 disc = square_to_disc(samples.stratified(kWayPair));
+        const glm::vec2 disc = square_to_disc(samples.stratified(kDirectionPair));
         const float up = std::sqrt(std::max(1.0f - glm::dot(disc, disc), 0.0f));
-        const glm::vec3 way = turn_to(point.normal, disc.x, disc.y, up);
+        const glm::vec3 direction = turn_to(point.normal, disc.x, disc.y, up);
         const float share = 1.0f / float(options_.rays);
         RayHit hit;
-        if (!rays_.closest(point.position, way, 0.0f, kFar, samples.bits(kSeedPair), hit)) {
-            sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, way);
+        if (!rays_.closest(point.position, direction, 0.0f, kFar, samples.bits(kSeedPair), hit)) {
+            sky_ += share * kPi * hit.tint * sky_radiance(scene_.sky, direction);
             return;
         }
         const std::uint32_t met = hits_.lumel(hit);
@@ -136,7 +137,7 @@ private:
         const WorldLumel& there = world_[met];
         const Mesh& mesh = scene_.meshes[std::size_t(scene_.instances[hit.instance].mesh)];
         surfaces_[place_of(hit.instance, there.centre, there.normal)].add(
-            light, point.position + hit.distance * way, hit.distance,
+            light, point.position + hit.distance * direction, hit.distance,
             mesh.primitives[hit.primitive].material);
     }
 
@@ -174,8 +175,8 @@ private:
         for (std::uint32_t k = 0; k < kLampPoints; ++k) {
             const PathSamples samples(options_.seed, k);
             const LumelPoint point = start(samples);
-            const LampSample toward =
-                lamps.sample(lamp, point.position, square_to_disc(samples.stratified(kWayPair)));
+            const LampSample toward = lamps.sample(
+                lamp, point.position, square_to_disc(samples.stratified(kDirectionPair)));
             const float cosine = glm::dot(point.normal, toward.direction);
             if (!(cosine > 0.0f))
                 continue;
@@ -230,7 +231,7 @@ Senders find_senders(const Scene& scene, const RayScene& rays, const Atlas& atla
                      const Lumels& lumels, std::span<const glm::vec3> irradiance,
                      std::uint32_t lumel, const SenderOptions& options)
 {
-    return Asker(scene, rays, atlas, lumels, irradiance, lumel, options).ask();
+    return SenderSearch(scene, rays, atlas, lumels, irradiance, lumel, options).find();
 }
 
 }  // namespace lumel

@@ -14,7 +14,8 @@ namespace lumel {
 struct SenderOptions {
     std::uint32_t rays = 16384;  ///< from the lumel, by the cosine
     std::uint32_t seed = 1;
-    float cells = 8.0f;  ///< places of surfaces are told apart so finely along the diagonal
+    float cells =
+        8.0f;  ///< cells along the diagonal in which senders of a surface are distinguished
 };
 
 /// A part of a surface, the sky, or a lamp that is no surface.
@@ -33,8 +34,8 @@ struct Senders {
     glm::vec3 light{0.0f};       ///< of all [lx]
 };
 
-/// Follows rays from a lumel: what they meet sends E + ρH, with H [N] [lx]; lamps are asked apart.
-/// What was solved by other means than diffuse reflection is taken as if it were diffuse.
+/// Follows rays from a lumel: what they meet sends E + ρH, with H [N] [lx]; lamps are sampled
+/// apart. Light solved with gloss counts as if it were diffuse.
 Senders find_senders(const Scene& scene, const RayScene& rays, const Atlas& atlas,
                      const Lumels& lumels, std::span<const glm::vec3> irradiance,
                      std::uint32_t lumel, const SenderOptions& options);

@@ -9,7 +9,7 @@ namespace {
 /// Where a time lies among the keys.
 struct Span {
     std::size_t key = 0;   ///< the one before, or at, the time
-    double part = 0.0;     ///< of the way to the next key, 0…1
+    double part = 0.0;     ///< of the time to the next key, 0…1
     double seconds = 0.0;  ///< from this key to the next, 0: there is none to go to
 };
 

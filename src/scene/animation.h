@@ -1,5 +1,5 @@
 #pragma once
-// How a scene changes with time: what its file says, decoded and checked.
+// How a scene changes with time: the contents of its file, decoded and checked.
 
 #include <optional>
 #include <string>

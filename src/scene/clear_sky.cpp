@@ -1,5 +1,5 @@
 // The sky of a cloudless day. Luminance is spread as the CIE standard clear sky of low turbidity
-// says ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
+// gives it ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
 //
 //     L ∝ (1 + a exp(b / cos Z)) (1 + c (exp(d χ) − exp(d π/2)) + e cos²χ)
 //     a = −1,  b = −0.32,  c = 10,  d = −3,  e = 0.45

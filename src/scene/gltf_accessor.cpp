@@ -42,7 +42,7 @@ struct SparseLayout {
     Run values;
 };
 
-/// What an accessor says, resolved to memory.
+/// An accessor, resolved to memory.
 struct Layout {
     AccessorData head;  ///< all but the bytes
     Run run;            ///< first is null: zeros

@@ -113,7 +113,7 @@ private:
     void read_node(const JsonView& channel, const JsonView& target, const std::string& path)
     {
         const auto reference = target.find("node");
-        if (!reference)  // for extensions, the format says
+        if (!reference)  // for extensions, by the format
             return;
         AnimatedNode& node = animation_.nodes[reference->index(animation_.nodes.size(), "nodes")];
         if (node.rest.matrix)
@@ -174,14 +174,14 @@ private:
     Track read_track(const JsonView& sampler, Quantity quantity) const
     {
         Track track;
-        const std::string way = sampler.string_or("interpolation", "LINEAR");
-        if (way == "STEP")
+        const std::string mode = sampler.string_or("interpolation", "LINEAR");
+        if (mode == "STEP")
             track.interpolation = Interpolation::step;
-        else if (way == "CUBICSPLINE")
+        else if (mode == "CUBICSPLINE")
             track.interpolation = Interpolation::cubic_spline;
-        else if (way != "LINEAR")
+        else if (mode != "LINEAR")
             sampler.get("interpolation")
-                .fail("is " + quoted(way) + ", but must be STEP, LINEAR or CUBICSPLINE");
+                .fail("is " + quoted(mode) + ", but must be STEP, LINEAR or CUBICSPLINE");
         track.times = read_times(sampler.get("input"));
         const bool spline = track.interpolation == Interpolation::cubic_spline;
         track.values =
@@ -205,7 +205,7 @@ private:
     {
         const AccessorData data = accessor_of(index, "SCALAR");
         if (data.component_type != ComponentType::f32)
-            index.fail("refers to times that are no floats");
+            index.fail("refers to times that are not floats");
         std::vector<double> times;
         for (const float time : to_floats(data)) {
             if (!(time >= 0.0f && std::isfinite(time)))
@@ -245,7 +245,7 @@ private:
                 index.fail("is not a unit quaternion at " + name);
             if ((quantity == Quantity::colour || quantity == Quantity::strength) &&
                 glm::any(glm::lessThan(value, glm::dvec4(0.0))))
-                index.fail("shines with a negative amount at " + name);
+                index.fail("emits a negative amount of light at " + name);
         }
     }
 

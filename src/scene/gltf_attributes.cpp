@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/geometry_checks.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_extensions.h"
 
@@ -11,7 +12,7 @@ namespace lumel {
 
 namespace {
 
-/// One way to store an attribute.
+/// A format in which an attribute can be stored.
 struct Encoding {
     ComponentType type;
     bool normalized;

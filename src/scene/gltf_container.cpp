@@ -38,7 +38,7 @@ std::size_t container_size(const std::string& path, const Bytes& bytes)
         fail(path, "is GLB version " + std::to_string(version) + ", but only version 2 is read");
     const std::size_t length = read_u32(bytes, 8);
     if (length > bytes.size())
-        fail(path, "is cut short: its GLB header promises " + std::to_string(length) +
+        fail(path, "is cut short: its GLB header states " + std::to_string(length) +
                        " bytes, but the file has " + std::to_string(bytes.size()));
     if (length < kHeaderSize + kChunkHeaderSize)
         fail(path, "has a GLB header with the impossible length " + std::to_string(length));
@@ -65,8 +65,8 @@ GlbChunks split_glb(const std::string& path, const Bytes& bytes)
         const std::uint32_t type = read_u32(bytes, offset + 4);
         offset += kChunkHeaderSize;
         if (size > end - offset)
-            fail(path, name + " promises " + std::to_string(size) + " bytes, but only " +
-                           std::to_string(end - offset) + " are there");
+            fail(path, name + " has a stated length of " + std::to_string(size) +
+                           " bytes, but only " + std::to_string(end - offset) + " are there");
         if (size % 4 != 0)
             fail(path, name + " has a length that is not a multiple of 4");
 

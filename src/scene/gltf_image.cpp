@@ -81,7 +81,7 @@ Claim jpeg_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
-/// Where the texels of a Radiance picture begin, behind the line that says its size.
+/// Where the texels of a Radiance picture begin, behind the line that gives its size.
 std::size_t hdr_data_begin(const Bytes& bytes)
 {
     constexpr std::uint8_t kBlankLine[] = {'\n', '\n'};

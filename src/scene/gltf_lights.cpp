@@ -43,7 +43,7 @@ PunctualLight read_light(const JsonView& view)
     light.intensity = view.number_or("intensity", light.intensity);
     if (light.color.x < 0.0f || light.color.y < 0.0f || light.color.z < 0.0f ||
         light.intensity < 0.0f)
-        view.fail("shines with a negative colour or intensity");
+        view.fail("has a negative colour or intensity");
     if (const auto range = view.find("range")) {
         light.range = range->number();
         if (light.range <= 0.0f)
@@ -123,7 +123,7 @@ std::optional<float> extra(const JsonView& view, const char* key)
     return number;
 }
 
-/// How large it is, as no extension says: {"radius": m} or {"angle": rad} of node or light.
+/// How large it is, which no extension defines: {"radius": m} or {"angle": rad} of node or light.
 void read_size(const JsonView& view, PunctualLight& light)
 {
     constexpr float kLargestAngle = glm::quarter_pi<float>();
@@ -142,9 +142,9 @@ void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLigh
     light.color *= glm::clamp(color, 0.0f, 1.0f);
     light.intensity = extension.number_or("multiplier", 1.0f);
     if (light.intensity < 0.0f)
-        extension.fail("shines with a negative multiplier");
+        extension.fail("has a negative multiplier");
     if (light.kind == PunctualLight::Kind::directional)
-        extension.fail("stands on the node of a directional light, which has no place");
+        extension.fail("is on the node of a directional light, which has no position");
     light.profile = profiles.find(extension.get("light"));
 }
 

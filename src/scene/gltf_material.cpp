@@ -85,7 +85,7 @@ private:
         }
         if (const auto extension = view.extension("KHR_materials_ior")) {
             const float ior = extension->number_or("ior", 1.5f);
-            // 0 asks for a mirror at all angles.
+            // 0 means a mirror at all angles.
             const float root = ior >= 1.0f ? (ior - 1.0f) / (ior + 1.0f) : 1.0f;
             material.dielectric_specular = glm::vec3(root * root);
         }
@@ -144,7 +144,7 @@ private:
     {
         const std::int64_t set = view.integer(0, INT32_MAX);
         if (set > kLargestTexcoord && in_use_)
-            view.fail("asks for TEXCOORD_" + std::to_string(set) +
+            view.fail("refers to TEXCOORD_" + std::to_string(set) +
                       ", but only TEXCOORD_0 and TEXCOORD_1 are read");
         return int(std::min<std::int64_t>(set, kLargestTexcoord));
     }

@@ -17,7 +17,7 @@ struct MaterialList {
     bool clamped = false;                   ///< a base colour left 0…1
 };
 
-/// `used[i]`: whether material i is on a surface; only then its images are asked for.
+/// `used[i]`: whether material i is on a surface; only then its images are read.
 /// Throws Error{input}.
 MaterialList read_materials(const GltfDocument& document, const std::vector<bool>& used,
                             MaterialModel model);

@@ -1,11 +1,8 @@
 #include "scene/gltf_mesh.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
-#include <glm/glm.hpp>
-
+#include "scene/geometry_checks.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_attributes.h"
 #include "scene/gltf_extensions.h"
@@ -18,10 +15,6 @@ enum Mode { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, 
 
 /// A small file can name the same data many times; beyond this no scene can be baked anyway.
 constexpr std::size_t kLargestVertexTotal = std::size_t(1) << 28;
-/// Relative to its longest edge squared, twice the area that float coordinates cannot resolve.
-constexpr double kSmallestRelativeArea = 1e-7;
-/// Twice an area [mesh units²] whose square still is a normal float.
-constexpr double kSmallestArea = 1e-18;
 
 /// The primitive's vertices in drawing order.
 std::vector<std::uint32_t> read_corners(const GltfDocument& document, const JsonView& view,
@@ -86,66 +79,6 @@ std::vector<std::uint32_t> triangle_list(std::vector<std::uint32_t> corners, Mod
     return list;
 }
 
-bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
-{
-    const double area = glm::length(glm::cross(b - a, c - a));
-    const double longest =
-        std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-    return area > std::max(kSmallestArea, kSmallestRelativeArea * longest);
-}
-
-void drop_zero_area(Primitive& primitive, MeshNotes& notes)
-{
-    auto& indices = primitive.indices;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        const auto corner = [&](std::size_t k) {
-            return glm::dvec3(primitive.positions[indices[i + k]]);
-        };
-        if (!has_area(corner(0), corner(1), corner(2)))
-            continue;
-        std::copy_n(indices.begin() + std::ptrdiff_t(i), 3, indices.begin() + std::ptrdiff_t(kept));
-        kept += 3;
-    }
-    notes.zero_area_triangles += (indices.size() - kept) / 3;
-    indices.resize(kept);
-}
-
-/// Makes every normal a unit vector. Those that have no direction get that of their faces.
-void repair_normals(Primitive& primitive, MeshNotes& notes)
-{
-    auto& normals = primitive.normals;
-    std::vector<std::size_t> broken;
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-        const double length = glm::length(glm::dvec3(normals[i]));
-        if (std::isfinite(length) && length > 0.0)
-            normals[i] = glm::vec3(glm::dvec3(normals[i]) / length);
-        else
-            broken.push_back(i);
-    }
-    if (broken.empty())
-        return;
-    notes.repaired_normals += broken.size();
-    if (broken.size() == normals.size()) {
-        normals.clear();
-        return;
-    }
-
-    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0.0));
-    for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
-        const std::uint32_t* corners = &primitive.indices[i];
-        const glm::dvec3 a = primitive.positions[corners[0]];
-        const glm::dvec3 cross = glm::cross(glm::dvec3(primitive.positions[corners[1]]) - a,
-                                            glm::dvec3(primitive.positions[corners[2]]) - a);
-        for (int k = 0; k < 3; ++k)
-            sums[corners[k]] += cross;
-    }
-    for (std::size_t i : broken) {
-        const double length = glm::length(sums[i]);
-        normals[i] = length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0.0f, 0.0f, 1.0f);
-    }
-}
-
 /// Draco keeps geometry in its own stream, unless the file also brings plain accessors.
 void check_compression(const GltfDocument& document, const JsonView& view)
 {
@@ -176,8 +109,8 @@ Primitive read_primitive(const GltfDocument& document, const JsonView& view, Mod
         view.fail("the scene has more than " + std::to_string(kLargestVertexTotal) + " vertices");
     auto corners = read_corners(document, view, primitive.positions.size());
     primitive.indices = triangle_list(std::move(corners), mode, notes);
-    drop_zero_area(primitive, notes);
-    repair_normals(primitive, notes);
+    notes.zero_area_triangles += drop_zero_area(primitive);
+    notes.repaired_normals += repair_normals(primitive);
     return primitive;
 }
 

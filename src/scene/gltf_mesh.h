@@ -16,9 +16,6 @@ struct MeshNotes {
     std::size_t morphed_meshes = 0;       ///< with morph targets, read at their default weights
 };
 
-/// Coordinates beyond this [m or mesh units] would overflow the float arithmetic of areas.
-inline constexpr float kLargestCoordinate = 1e9f;
-
 /// Reads json["meshes"][mesh]. Primitives without a triangle are left out; those without a
 /// material get the index `default_material`. Throws Error{input}.
 Mesh read_mesh(const GltfDocument& document, std::size_t mesh, int default_material,

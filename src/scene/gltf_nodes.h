@@ -21,8 +21,8 @@ struct PlacedNode {
 /// The scene to show: the one the file chooses, else its first; nothing if it has none.
 std::optional<JsonView> default_scene(const JsonView& root);
 
-/// The turn that "rotation" of an object says, none if absent. Throws Error{input} unless it is a
-/// unit quaternion.
+/// The rotation given by "rotation" of an object, none if absent. Throws Error{input} unless it is
+/// a unit quaternion.
 glm::dquat rotation_of(const JsonView& object);
 
 /// Where a node stands relative to its parent. Throws Error{input} for what is no transform.

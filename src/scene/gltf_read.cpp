@@ -4,6 +4,7 @@
 #include <new>
 
 #include "core/error.h"
+#include "scene/geometry_checks.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
@@ -32,46 +33,6 @@ std::string counted(std::size_t count, const std::string& one, const std::string
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// A matrix whose columns (nearly) lie in a plane leaves no volume, nor normals.
-bool is_flat(const glm::dmat4& matrix)
-{
-    constexpr double kSmallestRelativeVolume = 1e-9;
-    const glm::dvec3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
-    const double box = glm::length(x) * glm::length(y) * glm::length(z);
-    return !(std::abs(glm::dot(x, glm::cross(y, z))) > kSmallestRelativeVolume * box);
-}
-
-struct Box {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
-};
-
-Box bounds_of(const Mesh& mesh)
-{
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
-    for (const Primitive& primitive : mesh.primitives)
-        for (const glm::vec3& position : primitive.positions) {
-            box.low = glm::min(box.low, glm::dvec3(position));
-            box.high = glm::max(box.high, glm::dvec3(position));
-        }
-    return mesh.primitives.empty() ? Box{} : box;
-}
-
-/// Throws if an instance reaches so far out that float arithmetic breaks down.
-void check_extent(const JsonView& node, const Box& box, const glm::dmat4& world)
-{
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 point((corner & 1 ? box.high : box.low).x,
-                               (corner & 2 ? box.high : box.low).y,
-                               (corner & 4 ? box.high : box.low).z, 1.0);
-        const glm::dvec3 reach = glm::abs(glm::dvec3(world * point));
-        if (!(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate)))
-            node.fail(
-                "places its mesh more than 1e9 m from the origin, too far out to be computed");
-    }
-}
-
 /// Meshes and instances: only meshes that the default scene shows are read.
 void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene,
                    Notes& notes)
@@ -96,7 +57,9 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
             ++notes.flattened_instances;
             continue;
         }
-        check_extent(node, *bounds[index], placed.world);
+        if (reaches_too_far(*bounds[index], placed.world))
+            node.fail(
+                "places its mesh more than 1e9 m from the origin, too far out to be computed");
         notes.skinned_instances += node.find("skin").has_value();
         notes.weighted_instances += node.find("weights").has_value();
         if (!mesh.primitives.empty())
@@ -161,7 +124,7 @@ void write_warnings(const Notes& notes, const MaterialList& looks, Scene& scene)
     warn(scene, looks.transmission_textures, "transmission texture", "transmission textures",
          "taken as white");
     if (looks.clamped)
-        scene.warnings.push_back("base colours outside 0 to 1 were clamped");
+        scene.warnings.emplace_back("base colours outside 0 to 1 were clamped");
 }
 
 Scene read_scene(const std::string& path, MaterialModel model)

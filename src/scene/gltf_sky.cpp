@@ -131,7 +131,7 @@ Sky read_image_based_light(const GltfDocument& document)
     }();
     const float intensity = light.number_or("intensity", 1.0f);
     if (intensity < 0.0f)
-        light.fail("shines with a negative intensity");
+        light.fail("has a negative intensity");
     return sky_of(read_cube(document, light), glm::mat3_cast(glm::quat(rotation_of(light))),
                   intensity);
 }

@@ -67,7 +67,7 @@ public:
             fail(std::string("the file ends before its ") + what);
         const std::optional<double> value = number_of(word);
         if (!value)
-            fail(quoted(std::string(word)) + " is no number, where the " + what + " should stand");
+            fail(quoted(std::string(word)) + " is not a number, but the " + what + " must be");
         return *value;
     }
 
@@ -114,7 +114,7 @@ struct Table {
 };
 
 /// Passes over the lines before the numbers. True for the editions whose second factor, after that
-/// of the ballast, changes the candela: later it is reserved, or says how the file was made.
+/// of the ballast, changes the candela: later it is reserved, or describes how the file was made.
 bool skip_head(Words& words)
 {
     bool both_factors = true;
@@ -126,14 +126,14 @@ bool skip_head(Words& words)
         if (!line.starts_with(kTilt))
             continue;
         if (trimmed(line.substr(kTilt.size())) == "INCLUDE") {
-            words.number("lamp's way to stand");
+            words.number("lamp's position");
             const int count = words.count("number of tilts");
             for (int i = 0; i < 2 * count; ++i)
                 words.number("factors for tilted lamps");
         }
         return both_factors;
     }
-    words.fail("the file ends without a line TILT=, it is no IES LM-63 photometry");
+    words.fail("the file ends without a line TILT=, so it is not an IES LM-63 photometric file");
 }
 
 std::vector<double> read_angles(Words& words, int count, const char* what)
@@ -202,7 +202,7 @@ Table read_table(Words& words)
 struct Place {
     std::size_t before = 0;
     std::size_t after = 0;
-    double rest = 0.0;  ///< of the way from one to the other
+    double rest = 0.0;  ///< of the distance from one to the other
 };
 
 /// `value` lies within the angles.

@@ -8,11 +8,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/number.h"
-#include "json/json_view.h"
 #include "scene/clear_sky.h"
 #include "scene/ies.h"
 #include "scene/scene_hash.h"
 #include "scene/sky_file.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {
@@ -72,8 +72,7 @@ void add_sun(Scene& scene, const LightOptions& options)
         scene.lights.push_back(sun_light(placed_sun(options)));
         scene.lights.back().angle = options.sun_angle.value_or(scene.lights.back().angle);
     } else {
-        scene.warnings.emplace_back(
-            "the sun given by --sun is below the horizon: it gives no light");
+        scene.warnings.emplace_back("the sun is below the horizon: it gives no light");
     }
 }
 

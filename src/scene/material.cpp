@@ -68,7 +68,7 @@ glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::v
     return glm::mix(top, bottom, y.fraction);
 }
 
-/// Of the surface, as its alpha says.
+/// Opacity of the surface, by its alpha.
 float share_there(const Material& look, float alpha)
 {
     switch (look.alpha_mode) {

@@ -3,11 +3,11 @@
 
 namespace lumel {
 
-/// Which of the light that arrives at a lumel is asked for.
+/// Which part of the light that arrives at a lumel counts.
 enum class Parts {
     all,
     direct,    ///< straight from emissive surfaces, lamps and the sky
-    indirect,  ///< what has been reflected on its way
+    indirect,  ///< light that was reflected before
 };
 
 }  // namespace lumel

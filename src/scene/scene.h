@@ -1,5 +1,5 @@
 #pragma once
-// What a scene file says, decoded and checked: plain values, nothing of glTF's encoding.
+// The contents of a scene file, decoded and checked: plain values, nothing of glTF's encoding.
 
 #include <cstdint>
 #include <optional>
@@ -38,7 +38,7 @@ struct Material {
     std::string name;
     glm::vec4 base_color{1.0f};     ///< linear; rgb is taken as diffuse albedo ρ
     TextureUse base_color_texture;  ///< sRGB, multiplies base_color
-    float metallic = 1.0f;          ///< for solvers that know gloss
+    float metallic = 1.0f;          ///< for solvers that use gloss
     float roughness = 1.0f;
     TextureUse metallic_roughness_texture;  ///< linear; blue × metallic, green × roughness
     glm::vec3 dielectric_specular{0.04f};   ///< F0 of what is not metal, 0…1
@@ -164,7 +164,7 @@ struct MaterialSample {
 MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
                                const glm::vec4& vertex_color);
 
-/// Exponent n of a Phong lobe about the mirror direction that is as wide as glTF's roughness says,
+/// Exponent n of a Phong lobe about the mirror direction that is as wide as glTF's roughness,
 /// 1…kMostShininess: mirrors are blurred.
 float shininess_of(double roughness);
 

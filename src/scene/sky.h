@@ -8,7 +8,7 @@
 namespace lumel {
 
 /// Radiance over all directions, constant within each texel, as a latitude-longitude image:
-/// row 0 is the zenith (+y), column 0 begins at -x and columns turn by way of -z, so that the
+/// row 0 is the zenith (+y), column 0 begins at -x and columns turn through -z, so that the
 /// image's centre lies towards +x and three quarters of its width towards +z.
 struct Sky {
     int width = 0;

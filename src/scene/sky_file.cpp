@@ -32,7 +32,8 @@ Image read_image(const std::string& path)
         return read_exr(path);
     if (extension == ".hdr")
         return decode_hdr(read_file(path, path), path);
-    throw Error(ErrorKind::input, path, "is no image of a sky; it must be an .exr or .hdr file");
+    throw Error(ErrorKind::input, path,
+                "is not an image of a sky; it must be an .exr or .hdr file");
 }
 
 float light_of(float value)

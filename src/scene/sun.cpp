@@ -32,8 +32,7 @@ constexpr double kSecondsPerDay = 86400.0;
 [[noreturn]] void refuse(const std::string& date_time)
 {
     throw Error(ErrorKind::input, "",
-                "'" + date_time +
-                    "' is no date and time in UTC; it must look like 2024-06-21T12:00:00Z");
+                "'" + date_time + "' is not a date and time in UTC such as 2024-06-21T12:00:00Z");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
 //   in every batch, to read back one word: whether the last layer showed any lumel something new.
 // - Regions are slabs along d, whose surfaces compete only among themselves (illumination_maps.h).
-//   As many as the measured overdraw asks for (slabs.cpp).
+//   As many as the measured overdraw requires (slabs.cpp).
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 
@@ -60,14 +60,15 @@ constexpr std::uint64_t kMostPixels = 4u << 20;
 constexpr float kPixelsPerLumel = 3.5f;
 
 std::uint32_t map_side(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const SolverOptions& options)
+                       const DirectionsOptions& options)
 {
     return options.map_side > 0
                ? std::uint32_t(options.map_side)
                : parallel_side(lumels, world.diagonal(), kPixelsPerLumel, device.max_image_side());
 }
 
-std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side, std::uint32_t slabs)
+std::uint32_t wanted_batch(const DirectionsOptions& options, std::uint32_t side,
+                           std::uint32_t slabs)
 {
     const std::uint64_t fit = kMostPixels / (std::uint64_t(side) * side * maps_of_slabs(slabs));
     return std::uint32_t(
@@ -75,7 +76,7 @@ std::uint32_t wanted_batch(const SolverOptions& options, std::uint32_t side, std
 }
 
 IlluminationMaps maps_for(const gpu::Device& device, const World& world, const Lumels& lumels,
-                          const SolverOptions& options)
+                          const DirectionsOptions& options)
 {
     const std::uint32_t side = map_side(device, world, lumels, options);
     const std::uint32_t slabs = suitable_slabs(device, world, side, options);
@@ -92,7 +93,7 @@ IlluminationMaps maps_for(const gpu::Device& device, const World& world, const L
 }  // namespace
 
 GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world,
-                                   const Lumels& lumels, const SolverOptions& options,
+                                   const Lumels& lumels, const DirectionsOptions& options,
                                    std::span<const glm::vec3> known)
     : options_(options),
       device_(&device),
@@ -106,7 +107,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
       news_(device, 1),
       heard_(device, lumels.lumels.size()),
-      iteration_(device, lumels, NearField{}, known, iteration_options(options), batch_),
+      iteration_(device, lumels, NearField{}, known, options.iteration, batch_),
       pacer_(device)
 {
     gpu::Commands commands(device);
@@ -117,7 +118,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
 
 GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::uint32_t first) const
 {
-    const bool with_sky = gathers_sky(options_);
+    const bool with_sky = options_.iteration.scheme == Scheme::paper && options_.sky;
     // Channels take turns with one direction, so that each has a whole sequence of them.
     const bool in_turn = world_->has_coloured_glass();
     std::vector<ParallelView> views;
@@ -155,7 +156,8 @@ const GlobalDirections::Chunk& GlobalDirections::chunk_of(std::uint32_t half, st
     return chunks.back();
 }
 
-std::uint64_t GlobalDirections::device_bytes(const SolveSize& size, const SolverOptions& options)
+std::uint64_t GlobalDirections::device_bytes(const SolveSize& size,
+                                             const DirectionsOptions& options)
 {
     const std::uint32_t side = options.map_side > 0
                                    ? std::uint32_t(options.map_side)
@@ -221,7 +223,7 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                         .seed = options_.seed,
                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                         .neighbours = std::uint32_t(options_.lookups / 2),
-                        .with_emission = options_.scheme == Scheme::paper ? 0u : 1u,
+                        .with_emission = options_.iteration.scheme == Scheme::paper ? 0u : 1u,
                         .with_source = iteration_.sends_reflected() ? 1u : 0u,
                         .layer = layer,
                         .keep = keep ? 1u : 0u,

@@ -79,7 +79,7 @@ InView in_view(ParallelView view, LumelPoint point)
                       (nearness_per_metre * nearness_per_metre));
 }
 
-// The nearest that a map shows so many pixels around the point, or `before`.
+// The nearest that a map shows within `reach` pixels of the point, or `before`.
 uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
 {
     const ivec2 corner = ivec2(tile_corner(p.layout_, tile));

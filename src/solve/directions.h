@@ -5,8 +5,10 @@
 #include <deque>
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
 #include "solve/directions.shared.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "visibility/illumination_maps.h"
 
@@ -15,17 +17,17 @@ namespace lumel {
 /// All lumels look along one direction at a time.
 class GlobalDirections final : public Solver {
 public:
-    /// `world` must know the atlas. Throws Error{device} if the device cannot keep the layers.
+    /// `world` must hold the atlas. Throws Error{device} if the device cannot keep the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
-                     const SolverOptions& options, std::span<const glm::vec3> known = {});
+                     const DirectionsOptions& options, std::span<const glm::vec3> known = {});
 
     /// Bytes on the device at most, on one whose images and arrays may be as large as is wanted.
     /// Slabs that the device is to choose count as one.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const DirectionsOptions& options);
 
     void step() override;
-    /// From now on lumels emit what `lumels` says, and the sky is as it is now. For SolverOptions
-    /// with a leak. Waits for the device. Throws Error{input} without one.
+    /// From now on lumels emit as in `lumels`, and the sky is as it is now. For options with a
+    /// leak. Waits for the device. Throws Error{input} without one.
     void relight(const Lumels& lumels);
     SolverState state() const override { return iteration_.state(); }
     std::vector<glm::vec3> irradiance() override;
@@ -47,7 +49,7 @@ private:
     void gather(const Chunk& chunk, std::uint32_t first_view, std::uint32_t layer = 0,
                 bool keep = false);
 
-    SolverOptions options_;
+    DirectionsOptions options_;
     const gpu::Device* device_;
     const World* world_;
     IlluminationMaps maps_;

@@ -20,8 +20,9 @@
 //   sends ρ|ΔH| on, and no more than that can arrive.
 // - A hemicube sees from a point, while a lumel's value is its mean over the area. Once light has
 //   settled at the lumels' middles, points move from bounce to bounce and H_i is the mean of what
-//   arrived; two half-solutions of independent points tell its error. With SampleRule::centre or
-//   Scheme::paper points stay, and the error told is only of light still to come.
+//   arrived; the difference of two half-solutions of independent points gives its error. With
+//   SampleRule::centre or Scheme::paper points stay, and the stated error is only of light still to
+//   come.
 // - Delta form factors are exact, of the part of a pixel that each of its samples stands for. The
 //   samples are not resolved to pixels first.
 // - Pixels behind the geometric surface are black, where it leans away from the shading normal.
@@ -62,7 +63,8 @@ constexpr float kLift = 2e-6f;
 constexpr float kNearPart = 1e-3f;
 /// Pixels of all hemicubes of a batch, which bounds their memory to 320 MiB.
 constexpr std::uint64_t kMostPixels = 4u << 20;
-/// Light counts as settled once so much of it is still to come, or a quarter of the target error.
+/// Light counts as settled once only this part of it is still to come, or a quarter of the target
+/// error.
 constexpr double kSettled = 1e-3, kSettledPart = 0.25;
 
 float lift_of(const World& world)
@@ -71,13 +73,13 @@ float lift_of(const World& world)
     return kLift * std::max({world.diagonal(), most.x, most.y, most.z, 1e-20f});
 }
 
-std::uint32_t wanted_hemicubes(const SolverOptions& options, std::uint32_t channels)
+std::uint32_t wanted_hemicubes(const GatherOptions& options, std::uint32_t channels)
 {
     const Tiles tile = hemicube_tiles(std::uint32_t(options.hemicube), 1);
     const std::uint64_t pixels =
         std::max<std::uint64_t>(std::uint64_t(tile.width) * tile.height, 1);
     const std::uint64_t fit = std::max<std::uint64_t>(kMostPixels / pixels, channels);
-    const std::uint32_t asked = checked_batch(method_of("gather"), options.batch);
+    const auto asked = std::uint32_t(options.batch);
     return std::uint32_t(std::min<std::uint64_t>(fit, std::max(asked, channels)));
 }
 
@@ -161,8 +163,10 @@ std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
 }  // namespace
 
 GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
-                                 const Lumels& lumels, const SolverOptions& options)
+                                 const Lumels& lumels, const GatherOptions& options,
+                                 double target_error)
     : options_(options),
+      target_error_(target_error),
       count_(std::uint32_t(lumels.lumels.size())),
       world_(&world),
       channels_(world.has_coloured_glass() ? kChannels : 1),
@@ -200,7 +204,7 @@ GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
     });
 }
 
-std::uint64_t GatherRadiosity::device_bytes(const SolveSize& size, const SolverOptions& options)
+std::uint64_t GatherRadiosity::device_bytes(const SolveSize& size, const GatherOptions& options)
 {
     constexpr std::uint64_t kVectors = 4, kHalves = 1;  // arrays of vec3 [N] and [2][N]
     const auto side = std::uint32_t(options.hemicube);
@@ -289,13 +293,11 @@ void GatherRadiosity::end_bounce()
                           BounceFiguresParams{count_, {taken_[0], taken_[1]}}, count_);
         figures_.add_up(commands);
     });
-    const bool points_stay =
-        options_.rule == SampleRule::centre || options_.scheme == Scheme::paper;
+    const bool points_stay = options_.rule == SampleRule::centre;
     if (!averages_) {
         remaining_ = still_to_come(terms);
-        const double settled = options_.target_error > 0.0
-                                   ? std::max(kSettledPart * options_.target_error, kSettled)
-                                   : kSettled;
+        const double settled =
+            target_error_ > 0.0 ? std::max(kSettledPart * target_error_, kSettled) : kSettled;
         if (points_stay)
             state_.error = remaining_;
         else

@@ -19,7 +19,7 @@ layout(binding = 4, scalar) writeonly buffer Points { GatheringPoint points[]; }
 #include "world/lumel.glsl"
 #include "shooting/shooter.glsl"
 
-// A point keeps this part of its way to the piece's middle away from the edges, where other
+// A point keeps this part of its distance to the piece's middle away from the edges, where other
 // surfaces may stand closer than eyes are lifted.
 const float kInset = 0.05;
 // Normals that differ by more than this, as 1 - cosine, are two.
@@ -31,7 +31,7 @@ vec3 middle_of(Piece piece)
     return piece.origin + along * (piece.edge_u + piece.edge_v);
 }
 
-// Where the surface receives, and which way it faces there.
+// Where the surface receives, and its normal there.
 LumelPoint gathering_point(uint i)
 {
     const Lumel lumel = lumels[i];

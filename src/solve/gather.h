@@ -5,8 +5,10 @@
 #include <array>
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "solve/gather.shared.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "visibility/lit_views.h"
 
@@ -15,13 +17,13 @@ namespace lumel {
 /// Every lumel in turn takes what it sees.
 class GatherRadiosity final : public Solver {
 public:
-    /// `world` must know the atlas. Hemicubes count as shots.
+    /// `world` must hold the atlas. Hemicubes count as shots.
     GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                    const SolverOptions& options);
+                    const GatherOptions& options, double target_error);
 
     /// Bytes on the device at most, of a scene without coloured glass, on one whose images may be
     /// as large as is wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const GatherOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }
@@ -38,7 +40,8 @@ private:
     /// The half-solution that this bounce belongs to: they take turns.
     std::uint32_t half() const { return taken_[0] > taken_[1] ? 1 : 0; }
 
-    SolverOptions options_;
+    GatherOptions options_;
+    double target_error_;  ///< that bounces settle to a part of; 0: none
     std::uint32_t count_;  ///< N lumels
     const World* world_;
     std::uint32_t channels_;  ///< hemicubes of one lumel

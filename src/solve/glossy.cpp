@@ -21,9 +21,9 @@
 // receivers and shooters instead of standing at their centres, and a first part that is not
 // averaged.
 //
-// Differs from the paper else:
+// Other differences from the paper:
 // - K shooters per iteration.
-// - Given LobeParticles, these carry what lobes send on, and shooters send E + ρ_d I alone. Without
+// - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone. Without
 //   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
 //   wide, K but at most 64 where they are narrow.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
@@ -85,12 +85,12 @@ GlossyIllumination::Kernels::Kernels(const gpu::Device& device, Projection proje
 
 GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& world,
                                        const Lumels& lumels, const NearField& near,
-                                       const SolverOptions& options,
+                                       const GlossyOptions& options,
                                        std::span<const glm::vec3> known,
                                        const LobeParticles* particles)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
-      batch_(checked_batch(method_of("glossy"), options.batch)),
+      batch_(std::uint32_t(options.views.batch)),
       paper_(options.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
@@ -100,8 +100,9 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       world_(&world),
       lumels_(&lumels),
       particles_(!paper_ && particles && particles->any() ? particles : nullptr),
-      kernels_(device, options.projection),
-      views_(device, world, options.projection, std::uint32_t(options.hemicube), batch_),
+      kernels_(device, options.views.projection),
+      views_(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
+             batch_),
       eyes_{{device, kMostGlossyBatch}, {device, kMostGlossyBatch}},
       shots_(device, kMostGlossyBatch),
       lobes_(device, kMostGlossyBatch * kMostLobes),
@@ -139,14 +140,15 @@ void GlossyIllumination::begin()
     });
 }
 
-std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const SolverOptions& options)
+std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const GlossyOptions& options)
 {
     constexpr std::uint64_t kVectors = 7, kHalves = 2;  // arrays of vec3 [N] and [2][N]
     const std::size_t count = size.count();
-    const auto batch = std::uint32_t(options.batch);
+    const auto batch = std::uint32_t(options.views.batch);
     // Without particles the last irradiance of every shooter is kept.
     const std::uint64_t last = options.scheme == Scheme::paper ? std::uint64_t(batch) * count : 1;
-    return EyeViews::device_bytes(options.projection, std::uint32_t(options.hemicube), batch) +
+    return EyeViews::device_bytes(options.views.projection, std::uint32_t(options.views.hemicube),
+                                  batch) +
            kMostGlossyBatch *
                (2 * sizeof(Eye) + sizeof(GlossyShot) + kMostLobes * sizeof(GlossyLobe)) +
            count *
@@ -394,7 +396,7 @@ void GlossyIllumination::look_at(std::span<const EyePoint> points,
 {
     pacer_.finish();
     const std::vector<glm::vec3> emission = emission_.download();
-    eye_.emplace(*device_, options_.projection, points, brightness, sampling);
+    eye_.emplace(*device_, options_.views.projection, points, brightness, sampling);
     set_emission(emission);
 }
 

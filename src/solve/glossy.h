@@ -9,9 +9,11 @@
 #include "lobes/eye_image.h"
 #include "lobes/lobe_particles.h"
 #include "nearfield/near_rows.h"
+#include "nearfield/solve_size.h"
 #include "shooting/figures.h"
 #include "shooting/power_pyramid.h"
 #include "solve/glossy.shared.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "visibility/eye_views.h"
 
@@ -29,13 +31,13 @@ public:
     /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
     /// outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
-                       const NearField& near, const SolverOptions& options,
+                       const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr);
 
     /// Bytes on the device at most, but for an eye, on one whose images may be as large as is
     /// wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const GlossyOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }
@@ -94,7 +96,7 @@ private:
     void evaluate(gpu::Commands& commands);
     void take_figures();
 
-    SolverOptions options_;
+    GlossyOptions options_;
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;  ///< K
     bool paper_;

@@ -24,21 +24,26 @@
 #include "shooting/lumel_arrays.h"
 
 namespace lumel {
-MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
-                                 const Lumels& lumels, const NearField& near,
-                                 const SolverOptions& options, std::span<const glm::vec3> known)
-    : lumels_(&lumels),
-      black_(black(lumels)),
-      direct_(device, world, black_, near, options, known)
+StochasticOptions direct_options(const MatrixOptions& options)
 {
-    if (reflecting_area(lumels) > 0.0f)
-        builder_.emplace(device, world, lumels, near, transport_options(options));
+    return {.seed = options.seed, .views = options.transport.views};
 }
 
-std::uint64_t MatrixRadiosity::device_bytes(const SolveSize& size, const SolverOptions& options)
+MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
+                                 const Lumels& lumels, const NearField& near,
+                                 const MatrixOptions& options, std::span<const glm::vec3> known)
+    : lumels_(&lumels),
+      black_(black(lumels)),
+      direct_(device, world, black_, near, direct_options(options), known)
 {
-    return FormFactors::device_bytes(size, view_options(options)) +
-           StochasticRadiosity::device_bytes(size, options);
+    if (reflecting_area(lumels) > 0.0f)
+        builder_.emplace(device, world, lumels, near, options.transport);
+}
+
+std::uint64_t MatrixRadiosity::device_bytes(const SolveSize& size, const MatrixOptions& options)
+{
+    return FormFactors::device_bytes(size, options.transport.views) +
+           StochasticRadiosity::device_bytes(size, direct_options(options));
 }
 
 void MatrixRadiosity::step()

@@ -3,20 +3,24 @@
 
 #include <optional>
 
+#include "nearfield/solve_size.h"
 #include "solve/stochastic.h"
 #include "transport/transport.h"
 
 namespace lumel {
 
+/// How stochastic radiosity finds direct light beside the matrix.
+StochasticOptions direct_options(const MatrixOptions& options);
+
 /// Direct light by stochastic radiosity at full resolution, reflections by the matrix.
 class MatrixRadiosity final : public Solver {
 public:
     MatrixRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                    const NearField& near, const SolverOptions& options,
+                    const NearField& near, const MatrixOptions& options,
                     std::span<const glm::vec3> known);
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
 
     void step() override;
     /// The error is that of direct light.

@@ -20,14 +20,15 @@
 // B^u = B - B^s. Changed emission or reflectance, Eqs. (2.2.9) and (2.2.10), needs no more than
 // the new E or ρ.
 //
-// T is the same whenever it is asked for: patches shoot from fixed points with fixed hemicubes to
-// fixed points. What was shot can be taken back exactly.
+// T never changes: patches shoot from fixed points with fixed hemicubes to fixed points. Light
+// that was shot can be taken back exactly.
 //
 // Differs from the thesis:
 // - Patches shoot in batches, across charts; the GPU chooses them, and nothing is read back.
-// - Depth and the receiver's plane tell what is seen, where the thesis draws ids and asks the four
+// - Depth and the receiver's plane decide visibility, where the thesis draws ids and reads the four
 //   nearest pixels: one chart may then hide itself, and surfaces need not be quads.
-// - Patches send at once what they will reflect of light that is still under way [FP92]. If that
+// - Patches also send at once the light that they will reflect of light still to be shot [FP92]. If
+// that
 //   was too much, their unshot light becomes negative and is shot in turn.
 // - Pairs of close lumels are left out and solved exactly (the near field).
 
@@ -61,14 +62,14 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu
                                        gpu::Slot::array, gpu::Slot::texture, gpu::Slot::array,
                                        gpu::Slot::array};
 
-/// A patch sends at most this part of all light: shadows of so many points look soft.
+/// A patch sends at most this part of all light: shadows of that many points look soft.
 constexpr float kPatchShare = 1.0f / 512.0f;
-/// Light that is missing is missing everywhere, which counts so many times as much as noise.
+/// Weight of missing light, which is missing everywhere, compared with noise.
 constexpr double kMissing = 4.0;
 /// Where lamps go out, what is missing is a part of no less than this much of the most light that
 /// there was: of nothing at all it would stay a large part for ever.
 constexpr double kDark = 0.01;
-/// A scene in which nothing arrives after so many batches catches no light.
+/// A scene in which nothing arrives after this number of batches receives no light.
 constexpr std::uint64_t kSilent = 16;
 /// Batches between two sums of the near field, which costs about as much as one batch's receiving.
 constexpr std::uint64_t kNearEvery = 4;
@@ -105,7 +106,7 @@ double missing_part(const Terms& terms, double least = 0.0)
 
 ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const World& world,
                                            const Lumels& lumels, const NearField& near,
-                                           const SolverOptions& options)
+                                           const ProgressiveOptions& options)
     : world_(&world),
       count_(std::uint32_t(lumels.lumels.size())),
       near_radius_(near.radius),
@@ -114,12 +115,12 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
       power_(device, "progressive.power", kPowerSpirv, 8, sizeof(ChooseParams), kPatchGroup),
       select_(device, "progressive.select", kSelectSpirv, 6, sizeof(ChooseParams), kPatchGroup),
       receive_(device, "progressive.receive", kReceiveSpirv, kReceiveSlots,
-               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.projection)),
+               sizeof(PatchReceiveParams), kPatchGroup, std::uint32_t(options.views.projection)),
       settle_(device, "progressive.settle", kSettleSpirv, 4, sizeof(TakeParams), kPatchGroup),
       residual_(device, "progressive.residual", kResidualSpirv, 7, sizeof(ResidualParams),
                 kSumGroup),
       light_(device, lumels),
-      shots_(device, world, lumels, view_options(options)),
+      shots_(device, world, lumels, options.views),
       chart_light_(device, shots_.layout().charts.size()),
       ambient_(device, 1),
       cursor_(device, 1),
@@ -137,11 +138,11 @@ ProgressiveRadiosity::ProgressiveRadiosity(const gpu::Device& device, const Worl
 }
 
 std::uint64_t ProgressiveRadiosity::device_bytes(const SolveSize& size,
-                                                 const SolverOptions& options)
+                                                 const ProgressiveOptions& options)
 {
     const std::size_t count = size.count();
     const std::size_t charts = make_patches(*size.lumels).charts.size();
-    return ShotLight::device_bytes(count) + PatchShots::device_bytes(size, view_options(options)) +
+    return ShotLight::device_bytes(count) + PatchShots::device_bytes(size, options.views) +
            charts * sizeof(ChartLight) + sizeof(Cursor) + sizeof(glm::vec3) +
            NearRows::device_bytes(count, size.near_pairs) + Figures::device_bytes(count);
 }

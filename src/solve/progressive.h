@@ -1,7 +1,9 @@
 #pragma once
 // Progressive refinement radiosity [Hoef13] 4.3. See progressive.cpp.
 
+#include "nearfield/solve_size.h"
 #include "shooting/figures.h"
+#include "solve/options.h"
 #include "solve/progressive.shared.h"
 #include "solve/solver.h"
 #include "transport/patch_shots.h"
@@ -12,10 +14,10 @@ namespace lumel {
 class ProgressiveRadiosity final : public Solver {
 public:
     ProgressiveRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                         const NearField& near, const SolverOptions& options);
+                         const NearField& near, const ProgressiveOptions& options);
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const ProgressiveOptions& options);
 
     void step() override;
     SolverState state() const override { return state_; }

@@ -26,7 +26,7 @@ layout(binding = 5, scalar) writeonly buffer Ambient { vec3 ambient; };
 #include "transport/patches.glsl"
 #include "solve/progressive.chart_light.glsl"
 
-// A chart is shot anew only where a patch would send so many times the power it may.
+// Refine a chart when a patch exceeds its power limit by this factor.
 const float kTooBright = 8.0;
 
 // Of shot light no more than this is taken to be reflected: 1 / (1 - it) stays finite.

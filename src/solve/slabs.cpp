@@ -8,13 +8,13 @@
 namespace lumel {
 namespace {
 
-/// The overdraw is taken from so many directions, in maps of that side [pixels]: it hardly depends
-/// on how fine they are.
+/// The overdraw is taken from this number of directions, in maps of that side [pixels]: it hardly
+/// depends on how fine they are.
 constexpr std::uint32_t kTriedDirections = 8, kTriedSide = 128;
 /// Chance of a surface to be among the lookups at which no more slabs are tried.
 constexpr double kLikelyEnough = 0.999;
 /// The overdraw that is measured spreads by less than this where there is none: some 50,000 pixels
-/// know it within half a per cent.
+/// give it within half a per cent.
 constexpr double kSpread = 0.02;
 /// Pixels of the maps of one direction (192 MiB).
 constexpr std::uint64_t kMostPixels = 16u << 20;
@@ -40,7 +40,7 @@ double chance_found(double surfaces, int lookups)
 }
 
 std::uint32_t suitable_slabs(const gpu::Device& device, const World& world, std::uint32_t side,
-                             const SolverOptions& options)
+                             const DirectionsOptions& options)
 {
     if (options.layers != Layers::stochastic)
         return 1;

@@ -3,11 +3,11 @@
 //
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
-#include "solve/solver.h"
+#include "solve/options.h"
 
 namespace lumel {
 
-/// Slabs that are ever tried: so many have 15 maps for a direction.
+/// Most slabs that are tried: they have 15 maps for a direction.
 inline constexpr std::uint32_t kMostTriedSlabs = 8;
 
 /// C_n(K), [TN11] section 6: the chance that a surface is among n lookups where K compete.
@@ -17,6 +17,6 @@ double chance_found(double surfaces, int lookups);
 /// among the lookups. That is measured: some directions are drawn with 1, 2, 4, … slabs. Their maps
 /// have to fit a bounded memory beside that. side: of maps [pixels]. Waits for the device.
 std::uint32_t suitable_slabs(const gpu::Device& device, const World& world, std::uint32_t side,
-                             const SolverOptions& options);
+                             const DirectionsOptions& options);
 
 }  // namespace lumel

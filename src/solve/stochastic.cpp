@@ -54,23 +54,23 @@ constexpr gpu::Slot kReceiveSlots[] = {
 
 StochasticRadiosity::StochasticRadiosity(const gpu::Device& device, const World& world,
                                          const Lumels& lumels, const NearField& near,
-                                         const SolverOptions& options,
+                                         const StochasticOptions& options,
                                          std::span<const glm::vec3> known)
     : options_(options),
       atlas_width_(std::uint32_t(lumels.width)),
-      paper_(options.scheme == Scheme::paper),
+      paper_(options.iteration.scheme == Scheme::paper),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       world_(&world),
       select_(device, "stochastic.select", kSelectSpirv, 8, sizeof(SelectParams), kSelectGroup),
       receive_(device, "stochastic.receive", kReceiveSpirv, kReceiveSlots, sizeof(ReceiveParams),
-               kReceiveGroup, std::uint32_t(options.projection)),
-      views_(device, world, options.projection, std::uint32_t(options.hemicube),
-             checked_batch(method_of("stochastic"), options.batch)),
+               kReceiveGroup, std::uint32_t(options.views.projection)),
+      views_(device, world, options.views.projection, std::uint32_t(options.views.hemicube),
+             std::uint32_t(options.views.batch)),
       batch_(views_.capacity()),
       eyes_(device, kMostBatch),
       shots_(device, kMostBatch),
-      iteration_(device, lumels, near, known, iteration_options(options), batch_),
+      iteration_(device, lumels, near, known, options.iteration, batch_),
       emission_power_pyramid_(device, lumels.lumels.size()),
       source_power_pyramid_(device, lumels.lumels.size()),
       pacer_(device)
@@ -92,11 +92,12 @@ void StochasticRadiosity::build_source_pyramid()
     });
 }
 
-std::uint64_t StochasticRadiosity::device_bytes(const SolveSize& size, const SolverOptions& options)
+std::uint64_t StochasticRadiosity::device_bytes(const SolveSize& size,
+                                                const StochasticOptions& options)
 {
     const std::size_t count = size.count();
-    return EyeViews::device_bytes(options.projection, std::uint32_t(options.hemicube),
-                                  std::uint32_t(options.batch)) +
+    return EyeViews::device_bytes(options.views.projection, std::uint32_t(options.views.hemicube),
+                                  std::uint32_t(options.views.batch)) +
            kMostBatch * (sizeof(Eye) + sizeof(Shot)) +
            Iteration::device_bytes(count, size.near_pairs) + 2 * PowerPyramid::device_bytes(count);
 }

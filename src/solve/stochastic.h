@@ -2,8 +2,10 @@
 // Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
 
 #include "gpu/pacer.h"
+#include "nearfield/solve_size.h"
 #include "shooting/iteration.h"
 #include "shooting/power_pyramid.h"
+#include "solve/options.h"
 #include "solve/solver.h"
 #include "solve/stochastic.shared.h"
 #include "visibility/eye_views.h"
@@ -14,11 +16,11 @@ namespace lumel {
 class StochasticRadiosity final : public Solver {
 public:
     StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                        const NearField& near, const SolverOptions& options,
+                        const NearField& near, const StochasticOptions& options,
                         std::span<const glm::vec3> known = {});
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
-    static std::uint64_t device_bytes(const SolveSize& size, const SolverOptions& options);
+    static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
 
     void step() override;
     SolverState state() const override { return iteration_.state(); }
@@ -32,7 +34,7 @@ private:
     void build_source_pyramid();
     std::uint32_t emission_shots_of_batch();
 
-    SolverOptions options_;
+    StochasticOptions options_;
     std::uint32_t atlas_width_;  ///< [texels]
     bool paper_;
     float near_radius_;

@@ -39,7 +39,7 @@ constexpr gpu::Slot kReceiveSlots[] = {gpu::Slot::array, gpu::Slot::array,   gpu
 constexpr std::uint32_t kOne = 0x3f800000;  // 1.0f
 constexpr std::size_t kRowsPerTask = 32;
 constexpr std::size_t kLumelsPerTask = 4096;
-/// Balancing ends when sums are met so closely, or after so many rounds.
+/// Balancing ends when sums differ by less than this part, or after this number of rounds.
 constexpr double kBalanced = 1e-6;
 constexpr int kMostRounds = 200;
 

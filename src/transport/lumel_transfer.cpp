@@ -3,14 +3,14 @@
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017. Section 3.6,
 //   step 4.
 //
-// The paper does not say how. A lumel i would receive Σ_p F_ip B_p; its row F_i is much like the
+// The paper leaves this open. A lumel i would receive Σ_p F_ip B_p; its row F_i is much like the
 // rows F_q of the patches around it. The weights are those with which these rows are most like it:
 //
 //     Σ_p (F_ip - Σ_q w_q F_qp)²  +  λ Σ_q (w_q - w⁰_q)²  →  min,
 //
 // w⁰ by distance and likeness. So patches behind a wall get no weight though they may be closest,
-// and where a lumel lies in a corner it is told from the middle of its patch. The sums on the way
-// are taken while the columns p are found: no row of a lumel is ever kept.
+// and a lumel in a corner is distinguished from the middle of its patch. The sums are taken while
+// the columns p are found: no row of a lumel is ever kept.
 
 #include "transport/lumel_transfer.h"
 
@@ -28,13 +28,13 @@ namespace {
 constexpr std::size_t kLumelsPerTask = 256;
 /// Weights by distance fall by e over this part of a voxel's side.
 constexpr float kReach = 0.6f;
-/// Patches that face elsewhere are farther by so many voxels times 1 - cosine.
+/// Patches that face elsewhere are farther by this number of voxels times 1 - cosine.
 constexpr float kTurn = 2.0f;
-/// Those that face away more than this cosine tells are no neighbours.
+/// Those whose normals have a smaller cosine than this are no neighbours.
 constexpr float kLeastAgreement = 0.5f;
 /// λ, as a part of the mean of Σ_p F_qp².
 constexpr float kFaith = 0.003f;
-/// What keeps weights of patches that are out of question at 0, in the same measure.
+/// Holds the weights of excluded patches at 0, in the same measure.
 constexpr float kIdle = 1e6f;
 
 using Row = std::array<float, kTransferPatches>;
@@ -79,8 +79,8 @@ std::array<Candidate, kTransferPatches> nearest(const VoxelPatches& patches,
     found.fill({std::numeric_limits<float>::max(), own});
     for (std::uint32_t q = 0; q < patches.size(); ++q) {
         const VoxelPatch& patch = patches.patches[q];
-        const glm::vec3 way = (patch.centre - position) / patches.side;
-        const float distance = glm::dot(way, way);
+        const glm::vec3 offset = (patch.centre - position) / patches.side;
+        const float distance = glm::dot(offset, offset);
         if (distance >= found.back().distance && q != own)
             continue;
         const float agreement = glm::dot(patch.normal, normal);
@@ -129,10 +129,10 @@ LumelTransferFit::LumelTransferFit(const World& world, const Lumels& lumels,
             float sum = 0.0f;
             for (std::size_t k = 0; k < kTransferPatches; ++k) {
                 const std::uint32_t q = found[k].patch;
-                const glm::vec3 way = (patches.patches[q].centre - position) / patches.side;
+                const glm::vec3 offset = (patches.patches[q].centre - position) / patches.side;
                 const bool spare = k > 0 && q == own;
                 const float weight =
-                    spare ? 0.0f : std::exp(-glm::dot(way, way) / (kReach * kReach));
+                    spare ? 0.0f : std::exp(-glm::dot(offset, offset) / (kReach * kReach));
                 patch_[i * kTransferPatches + k] = q;
                 start_[i * kTransferPatches + k] = weight;
                 sum += weight;
@@ -214,7 +214,7 @@ void LumelTransferFit::fit_lumel(std::size_t i, const Overlaps& overlaps,
     Row wish;
     float wishes = 0.0f;
     for (std::size_t a = 0; a < kTransferPatches; ++a) {
-        // What this patch alone would tell of the lumel: nothing if they see nothing in common.
+        // The weight of this patch alone: 0 if it and the lumel see nothing in common.
         const float likeness = std::min(product[a] / std::max(system[a][a], 1e-30f), 1.0f);
         wish[a] = likeness * start[a];
         wishes += wish[a];

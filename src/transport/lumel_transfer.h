@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// A lumel takes its light from so many patches.
+/// A lumel takes its light from this number of patches.
 inline constexpr std::size_t kTransferPatches = 8;
 
 /// H_i = Σ_k weight_ik H_patch_ik.

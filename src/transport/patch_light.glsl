@@ -5,7 +5,7 @@
 #include "nearfield/near_pairs.glsl"
 #include "shooting/receiver.glsl"
 
-// From so many times the patch's size away it counts as one point.
+// Beyond this many times the patch's size it counts as one point.
 const float kFar = 4.0;
 
 // [Hoef13] Eq. (2.2.8), with the disc of each lumel where the patch is close (adaptive form factor

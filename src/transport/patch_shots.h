@@ -24,7 +24,7 @@ struct ShotLight {
     gpu::Array<glm::vec3> far, near;  ///< [N] H of the shot light, but for close pairs, and of them
 };
 
-/// Patches of the lumels, and a batch of them on its way: chosen, taken, seen from.
+/// Patches of the lumels, and a batch of them at work: chosen, taken, rendered from.
 class PatchShots {
 public:
     PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,

@@ -30,7 +30,7 @@ struct PatchShot {
     float lumel_size;  ///< largest of its lumels [m]
     uint first;        ///< its lumels
     uint count;        ///< 0: nothing is shot
-    uint parts;        ///< so many points share the patch's light
+    uint parts;        ///< number of points that share the patch's light
     uint number;       ///< of the patch's point, the same whenever it shoots
     float side_;       ///< 1, or -1 of what stands on the back of its lumels
 };

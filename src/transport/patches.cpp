@@ -6,7 +6,7 @@
 namespace lumel {
 namespace {
 
-/// Normals of a patch differ from their mean by no more than this cosine tells (15°).
+/// Normals of a patch have at least this cosine to their mean (15°).
 constexpr float kLeastAgreement = 0.966f;
 /// Lumels of a flat patch leave its plane by no more than this part of its size.
 constexpr float kFlatness = 0.02f;

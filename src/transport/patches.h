@@ -27,7 +27,7 @@ Patches make_patches(const Lumels& lumels);
 std::vector<Patch> make_blocks(const Lumels& lumels, std::span<const std::uint32_t> group);
 
 /// Patches of a chart at a level, and points that each of its lumels shoots from. Twins of
-/// solve/patches.glsl.
+/// transport/patches.glsl.
 std::uint32_t patches_of(const PatchChart& chart, std::uint32_t level);
 std::uint32_t points_per_lumel(std::uint32_t level);
 

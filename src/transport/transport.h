@@ -22,7 +22,7 @@ struct Transport {
     ColorMatrix bounces;  ///< [n][n] Σ_{h ≥ 1} (F^c)^h, Eq. (8)
     LumelTransfer transfer;
 
-    /// H [N] [lx] that reflections bring, of direct light [N] [lx].
+    /// H [N] [lx] of all reflections of direct light [N] [lx].
     std::vector<glm::vec3> indirect(const Lumels& lumels, std::span<const glm::vec3> direct) const;
 };
 
@@ -30,7 +30,7 @@ struct Transport {
 class TransportBuilder {
 public:
     /// All must outlive this. Form factors are made to add up, and patches to end at walls, as far
-    /// as near.around knows.
+    /// as near.around shows.
     TransportBuilder(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const NearField& near, const TransportOptions& options);
 

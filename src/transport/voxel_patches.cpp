@@ -17,11 +17,12 @@ namespace {
 using Key = std::array<std::int32_t, 5>;
 inline constexpr std::int32_t kAnyChart = -1;
 
-/// The grid's corner lies so many voxels before the scene's: surfaces rarely lie on its planes.
+/// The grid's corner lies this part of a voxel before the scene's: surfaces rarely lie on its
+/// planes.
 constexpr glm::vec3 kGridShift{0.381966f, 0.414214f, 0.267949f};
 /// Halvings in the search for the finest grid: a voxel's side is then known to about 1 %.
 constexpr int kHalvings = 12;
-/// The finest grid has so many voxels along the scene's diagonal, the coarsest one.
+/// The finest grid has this number of voxels along the scene's diagonal, the coarsest one.
 constexpr float kMostVoxels = 4096.0f;
 
 struct Place {
@@ -199,8 +200,9 @@ VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
     std::size_t count = 0;
     result.patch_of = numbers_of(layout, result.side, count);
     if (count < 2 || count > most)
-        throw Error(ErrorKind::input, "--patches " + std::to_string(most),
-                    "this scene cannot be cut into from 2 to so many patches");
+        throw Error(
+            ErrorKind::input, "--patches " + std::to_string(most),
+            "the scene cannot be divided into at least 2 and at most this number of patches");
     result.patches.resize(count);
     for (std::size_t i = 0; i < layout.places.size(); ++i)
         if (result.patch_of[i] != kPatchless)

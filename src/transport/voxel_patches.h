@@ -44,13 +44,13 @@ PlacedLumel placed(const World& world, const Lumel& lumel);
 
 /// Cuts charts by a grid of voxels, as fine as makes at most `most` patches, and where something
 /// stands between lumels: light on one side of a wall is none on the other. What is smaller than a
-/// voxel's face shares its patch with what lies in the same voxel and faces the same way. The same
-/// scene and number give the same patches. around: as far as it is known.
-/// Throws Error{input} if there are fewer than two to be had, or none so few.
+/// voxel's face shares its patch with what lies in the same voxel and faces the same direction. The
+/// same scene and number give the same patches. around: as far as it is known. Throws Error{input}
+/// if fewer than two result, or no grid gives so few.
 VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
                                 const Surroundings& around, std::uint32_t most);
 
-/// What the compressed forms of a matrix are told of the patches.
+/// The patches as compressed forms of a matrix use them.
 Elements elements_of(const VoxelPatches& patches);
 
 }  // namespace lumel

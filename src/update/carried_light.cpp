@@ -1,6 +1,6 @@
-// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and bring all they
-// carry to each lumel that they meet; reflected by its ρ, they go on by chance. Two independent
-// halves tell the error.
+// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and deposit all they
+// carry at each lumel that they meet; reflected by its ρ, they continue at random. The difference
+// of two independent halves gives the error.
 
 #include "update/carried_light.h"
 
@@ -19,7 +19,7 @@ namespace lumel {
 namespace {
 
 /// Particles of each half in the first round. A round at most doubles what there is, as the error
-/// that it foresees is noisy itself, and makes so many times as many as that asks for.
+/// that it foresees is noisy itself, and takes this many times the number that follows from it.
 constexpr std::size_t kFirstParticles = 1 << 15;
 constexpr double kMargin = 1.1;
 /// Particles worth a task, and followed before their landings are added up.
@@ -68,10 +68,10 @@ void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint3
         const std::uint32_t pair = kFirstBouncePair + kPairsPerBounce * bounce;
         const glm::vec2 at =
             bounce < kStratifiedBounces ? samples.stratified(pair) : samples.random(pair);
-        const glm::vec3 way = frame_about(normal) * by_cosine(at);
+        const glm::vec3 direction = frame_about(normal) * by_cosine(at);
         RayHit hit;
-        if (!rays_->closest(position + lift * normal, way, 0.0f, std::numeric_limits<float>::max(),
-                            samples.bits(pair), hit))
+        if (!rays_->closest(position + lift * normal, direction, 0.0f,
+                            std::numeric_limits<float>::max(), samples.bits(pair), hit))
             return;
         const std::uint32_t i = hits_->lumel(hit);
         if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
@@ -83,7 +83,7 @@ void LightCarrier::follow(std::uint32_t from, const glm::vec3& power, std::uint3
         if (!(double(samples.random(pair + 1).x) < chance))
             return;
         carried = reflected * float(1.0 / chance);
-        position += lift * normal + hit.distance * way;
+        position += lift * normal + hit.distance * direction;
         normal = hit.front ? hit.normal : -hit.normal;
     }
 }

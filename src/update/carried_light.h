@@ -1,5 +1,5 @@
 #pragma once
-// Light of either sign, carried on from lumel to lumel until it is absorbed.
+// Light of either sign, carried from lumel to lumel until it is absorbed.
 
 #include <cstdint>
 #include <functional>
@@ -38,7 +38,7 @@ public:
     }
 
     /// X = T (source + ρ X), source [N] [lm/m²] of either sign, by particles: until their error is
-    /// at most `error` [lx], or it shows that it takes more than `most` of them, or go_on, asked
+    /// at most `error` [lx], or more than `most` of them turn out to be needed, or go_on, called
     /// from time to time, returns false. The same seed gives the same bytes unless that stops them.
     CarriedLight carry(std::span<const glm::vec3> source, double error, std::uint64_t most,
                        std::uint32_t seed,

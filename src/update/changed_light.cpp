@@ -5,7 +5,7 @@
 // L' and L differ only along ω that meet something which moved, where it was or where it is. So ω
 // is drawn from the cones of balls around it, and followed through both scenes: what both see alike
 // cancels to 0, and what is far from all that moved needs few rays. Emission is looked for by
-// points drawn on lamps too, and the two ways are weighted by the balance heuristic.
+// points drawn on lamps too, and the two techniques are weighted by the balance heuristic.
 //
 //   [VG95] E. Veach, L. Guibas. Optimally Combining Sampling Techniques for Monte Carlo Rendering.
 //          SIGGRAPH 1995.
@@ -43,11 +43,11 @@ constexpr float kPointsPerFineness = 4.0f / 3.0f;
 constexpr std::uint32_t kLeastPoints = 2, kMostPoints = 256;
 /// Points of one half for each lamp that is no surface and has a size.
 constexpr std::uint32_t kLampPoints = 16;
-/// Lumels that are worth a task, and after which is told how many are done.
+/// Lumels of one task, and between two progress reports.
 constexpr std::size_t kLumelsPerTask = 16, kLumelsPerStep = 4096;
 
 /// Dimension pairs of a sample's random numbers.
-constexpr std::uint32_t kPointPair = 0, kWayPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
+constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
                         kDiscPair = 4, kSeedPair = 5;
 
 /// A cone of directions as a point sees a ball: all of them from within it.
@@ -63,13 +63,13 @@ struct Cone {
 
 Cone cone_of(const Ball& ball, const glm::vec3& x)
 {
-    const glm::vec3 way = ball.centre - x;
-    const float distance = glm::length(way);
+    const glm::vec3 direction = ball.centre - x;
+    const float distance = glm::length(direction);
     Cone cone;
     if (distance <= ball.radius)
         return cone;
     const float sine = ball.radius / distance;
-    cone.axis = way / distance;
+    cone.axis = direction / distance;
     cone.angle = std::asin(sine);
     cone.cosine = std::sqrt(std::max(1.0f - sine * sine, 0.0f));
     cone.all_round = false;
@@ -87,11 +87,11 @@ float cosine_share(const Cone& cone, const glm::vec3& normal)
 }
 
 /// Directions drawn toward balls; none of them: by the cosine.
-class Ways {
+class BallDirections {
 public:
     /// shares [balls]
-    Ways(const std::vector<Ball>& balls, const std::vector<float>& shares, const glm::vec3& x,
-         const glm::vec3& normal)
+    BallDirections(const std::vector<Ball>& balls, const std::vector<float>& shares,
+                   const glm::vec3& x, const glm::vec3& normal)
         : normal_(normal)
     {
         for (std::size_t b = 0; b < balls.size(); ++b)
@@ -116,14 +116,14 @@ public:
     }
 
     /// Per solid angle, of a direction with that cosine to the normal.
-    float density(const glm::vec3& way, float cosine) const
+    float density(const glm::vec3& direction, float cosine) const
     {
         float sum = 0.0f;
         for (std::size_t k = 0; k < count_; ++k) {
             const Cone& cone = cones_[k];
             if (cone.all_round)
                 sum += cone.share * cosine / kPi;
-            else if (glm::dot(cone.axis, way) >= cone.cosine)
+            else if (glm::dot(cone.axis, direction) >= cone.cosine)
                 sum += cone.share / cone.solid_angle();
         }
         return sum;
@@ -135,11 +135,11 @@ private:
     std::size_t count_ = 0;
 };
 
-bool meets(const Ball& ball, const glm::vec3& from, const glm::vec3& way, float distance)
+bool meets(const Ball& ball, const glm::vec3& from, const glm::vec3& direction, float distance)
 {
     const glm::vec3 to = ball.centre - from;
-    const float along = std::clamp(glm::dot(to, way), 0.0f, distance);
-    const glm::vec3 d = to - along * way;
+    const float along = std::clamp(glm::dot(to, direction), 0.0f, distance);
+    const glm::vec3 d = to - along * direction;
     return glm::dot(d, d) <= ball.radius * ball.radius;
 }
 
@@ -239,9 +239,9 @@ private:
     glm::vec3 from_lamp_points(const Receiver& receiver) const;
     glm::vec3 from_lamps(const Receiver& receiver) const;
     Met meet(const SeenScene& seen, const Receiver& receiver, const glm::vec3& from,
-             const glm::vec3& way, std::uint32_t seed, bool is_now) const;
+             const glm::vec3& direction, std::uint32_t seed, bool is_now) const;
     LumelPoint point_of(const Receiver& receiver, const PathSamples& samples) const;
-    bool may_be_hidden(const Receiver& receiver, const glm::vec3& from, const glm::vec3& way,
+    bool may_be_hidden(const Receiver& receiver, const glm::vec3& from, const glm::vec3& direction,
                        float distance) const;
 
     const SeenScene& before_;
@@ -257,10 +257,10 @@ private:
 
 struct Gatherer::Receiver {
     std::uint32_t lumel;
-    bool whole;                 ///< all light is asked for
-    std::uint32_t stream;       ///< of random numbers
-    std::uint32_t ways, lamps;  ///< directions, and points on emissive lumels
-    std::vector<float> shares;  ///< [balls] of the directions
+    bool whole;                       ///< all light is found
+    std::uint32_t stream;             ///< of random numbers
+    std::uint32_t directions, lamps;  ///< directions, and points on emissive lumels
+    std::vector<float> shares;        ///< [balls] of the directions
     std::uint64_t* rays;
 };
 
@@ -278,7 +278,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
                       .whole = asked_[i] == Asked::all,
                       .stream = PathSamples::hash(PathSamples::hash(options_.seed, options_.effort),
                                                   2 * i + half),
-                      .ways = std::max(options_.effort * options_.whole / 2, 1u),
+                      .directions = std::max(options_.effort * options_.whole / 2, 1u),
                       .lamps = std::max(options_.effort * options_.lamps / 2, 1u),
                       .shares = std::vector<float>(balls_.size(), 0.0f),
                       .rays = &rays};
@@ -294,7 +294,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
             return glm::vec3(0.0f);
         for (float& share : receiver.shares)
             share /= sum;
-        receiver.ways = options_.effort * points_for(std::min(sum, 1.0f));
+        receiver.directions = options_.effort * points_for(std::min(sum, 1.0f));
     }
     glm::vec3 light = along_ways(receiver) + from_lamps(receiver);
     if (!lamp_points_.empty())
@@ -311,26 +311,26 @@ LumelPoint Gatherer::point_of(const Receiver& receiver, const PathSamples& sampl
     return x;
 }
 
-bool Gatherer::may_be_hidden(const Receiver& receiver, const glm::vec3& from, const glm::vec3& way,
-                             float distance) const
+bool Gatherer::may_be_hidden(const Receiver& receiver, const glm::vec3& from,
+                             const glm::vec3& direction, float distance) const
 {
     return receiver.whole || std::any_of(balls_.begin(), balls_.end(), [&](const Ball& ball) {
-               return meets(ball, from, way, distance);
+               return meets(ball, from, direction, distance);
            });
 }
 
 Met Gatherer::meet(const SeenScene& seen, const Receiver& receiver, const glm::vec3& from,
-                   const glm::vec3& way, std::uint32_t seed, bool is_now) const
+                   const glm::vec3& direction, std::uint32_t seed, bool is_now) const
 {
     RayHit hit;
     ++*receiver.rays;
-    if (!seen.rays->closest(from, way, 0.0f, kFar, seed, hit))
-        return {.reflected = hit.tint * sky_radiance(before_.scene->sky, way)};
+    if (!seen.rays->closest(from, direction, 0.0f, kFar, seed, hit))
+        return {.reflected = hit.tint * sky_radiance(before_.scene->sky, direction)};
     const std::uint32_t j = seen.hits->lumel(hit);
     if (j == HitLumels::kNone || (seen.lumels->lumels[j].flags & kLumelBuried) != 0)
         return {};
     const float per_area = is_now ? lamp_points_.density_now(j) : lamp_points_.density_before(j);
-    const float cosine = std::abs(glm::dot(hit.normal, way));
+    const float cosine = std::abs(glm::dot(hit.normal, direction));
     return {hit.tint * seen.sent.reflected[j] / kPi, hit.tint * seen.sent.emission[j] / kPi,
             per_area * hit.distance * hit.distance / std::max(cosine, 1e-6f)};
 }
@@ -338,19 +338,19 @@ Met Gatherer::meet(const SeenScene& seen, const Receiver& receiver, const glm::v
 glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
 {
     glm::vec3 sum(0.0f);
-    for (std::uint32_t k = 0; k < receiver.ways; ++k) {
+    for (std::uint32_t k = 0; k < receiver.directions; ++k) {
         const PathSamples samples(receiver.stream, k);
         const LumelPoint x = point_of(receiver, samples);
-        const Ways ways(balls_, receiver.shares, x.position, x.normal);
-        const glm::vec3 way = ways.draw(samples.stratified(kWayPair));
-        const float cosine = glm::dot(way, x.normal);
+        const BallDirections directions(balls_, receiver.shares, x.position, x.normal);
+        const glm::vec3 direction = directions.draw(samples.stratified(kDirectionPair));
+        const float cosine = glm::dot(direction, x.normal);
         if (!(cosine > 0.0f))
             continue;
-        const float density = ways.density(way, cosine);
+        const float density = directions.density(direction, cosine);
         const std::uint32_t seed = samples.bits(kSeedPair);
         const auto seen_along = [&](const SeenScene& seen, bool is_now) {
-            const Met met = meet(seen, receiver, x.position, way, seed, is_now);
-            const float here = float(receiver.ways) * density;
+            const Met met = meet(seen, receiver, x.position, direction, seed, is_now);
+            const float here = float(receiver.directions) * density;
             const float there = float(receiver.lamps) * met.lamp_density;
             return met.reflected + met.emitted * (here / (here + there));
         };
@@ -360,7 +360,7 @@ glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
         if (density > 0.0f)
             sum += radiance * (cosine / density);
     }
-    return sum / float(receiver.ways);
+    return sum / float(receiver.directions);
 }
 
 glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
@@ -378,17 +378,17 @@ glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
             is_now ? world_now_.point_on(lamp.now, at) : world_before_.point_on(lamp.before, at);
         const glm::vec3 to = y.position + lift_ * y.normal - x.position;
         const float distance = glm::length(to);
-        const glm::vec3 way = to / distance;
-        const float cosine = glm::dot(way, x.normal), there = -glm::dot(way, y.normal);
+        const glm::vec3 direction = to / distance;
+        const float cosine = glm::dot(direction, x.normal), there = -glm::dot(direction, y.normal);
         if (!(cosine > 0.0f) || !(there > 0.0f) ||
-            !may_be_hidden(receiver, x.position, way, distance))
+            !may_be_hidden(receiver, x.position, direction, distance))
             continue;
         const float per_area =
             is_now ? lamp_points_.density_now(lamp.now) : lamp_points_.density_before(lamp.before);
         const float density = per_area * distance * distance / there;
-        const Ways ways(balls_, receiver.shares, x.position, x.normal);
-        const float mixed =
-            float(receiver.lamps) * density + float(receiver.ways) * ways.density(way, cosine);
+        const BallDirections directions(balls_, receiver.shares, x.position, x.normal);
+        const float mixed = float(receiver.lamps) * density +
+                            float(receiver.directions) * directions.density(direction, cosine);
         const std::uint32_t seed = samples.bits(kSeedPair);
         glm::vec3 radiance(0.0f);
         const auto passing = [&](const SeenScene& seen) {
@@ -508,7 +508,7 @@ ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
                                   const std::vector<Asked>& asked, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,
-                                  const std::function<void(double)>& tell)
+                                  const std::function<void(double)>& progress)
 {
     const Gatherer gatherer(before, now, partner, asked, balls, options);
     const std::size_t count = asked.size();
@@ -524,8 +524,8 @@ ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
             rays += followed;
         },
         [&](std::size_t done) {
-            if (tell)
-                tell(double(done) / double(count));
+            if (progress)
+                progress(double(done) / double(count));
             return true;
         });
     light.rays = rays;

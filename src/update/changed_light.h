@@ -1,5 +1,5 @@
 #pragma once
-// How the light that arrives at lumels changes where something moved, came or went.
+// The change of the light that arrives at lumels where something moved, came or went.
 
 #include <cstdint>
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace lumel {
 
-/// A ball that holds a thing that moved, where it was or where it is.
+/// A ball that contains an object that moved, where it was or where it is.
 struct Ball {
     glm::vec3 centre;  ///< [m]
     float radius;      ///< [m]
@@ -34,7 +34,7 @@ struct SeenScene {
     SentLight sent;
 };
 
-/// What is asked of a lumel.
+/// What is to be found for a lumel.
 enum class Asked : std::uint8_t {
     nothing,     ///< it is buried
     difference,  ///< light that arrives now, less light that arrived before
@@ -43,9 +43,9 @@ enum class Asked : std::uint8_t {
 
 struct ChangedLightOptions {
     float fineness = 0.012f;    ///< error of a lumel's light aimed at, as a part of what it faces
-    std::uint32_t whole = 128;  ///< rays of a lumel of which all is asked
+    std::uint32_t whole = 128;  ///< rays of a lumel whose whole light is found
     std::uint32_t lamps = 32;   ///< points of lamps for each lumel
-    std::uint32_t effort = 1;   ///< so many times as many rays and points
+    std::uint32_t effort = 1;   ///< factor for the numbers of rays and points
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };
@@ -56,13 +56,13 @@ struct ChangedLight {
 };
 
 /// Of the lumels `now`. Light that comes straight from the sky and lamps of `before` counts, in
-/// both scenes; the lights of `now` are not asked. partner [N]: the same lumel before, kNoLumel:
+/// both scenes; the lights of `now` are not used. partner [N]: the same lumel before, kNoLumel:
 /// none or changed. Noise is in proportion to what changed: where nothing did the difference is 0.
 ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
                                   const std::vector<Asked>& asked, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,
-                                  const std::function<void(double)>& tell = {});
+                                  const std::function<void(double)>& progress = {});
 
 /// Around what moved, in both places, what is new and what is gone. Few, by joining them if need
 /// be.

@@ -49,7 +49,7 @@ Surface moved_over(const Surface& kept, const Primitive& primitive, std::uint32_
     return surface;
 }
 
-/// Texels of a square map that no chart, nor the gutter around it, touches; asked for rectangles.
+/// Texels of a square map that no chart, nor the gutter around it, touches; finds free rectangles.
 class Room {
 public:
     Room(const Atlas& atlas, int gutter)

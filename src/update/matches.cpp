@@ -9,7 +9,7 @@ namespace lumel {
 namespace {
 
 /// Exporters write transforms as products of rounded parts: corners that stay within this part of
-/// a thing's distance from the origin, or of its size, have not moved.
+/// an object's distance from the origin, or of its size, have not moved.
 constexpr float kSamePlace = 1e-5f;
 
 template <class T>
@@ -39,7 +39,7 @@ void append_opacity(std::string& bytes, const Scene& scene, const Primitive& pri
             append(bytes, texcoords[index]);
 }
 
-/// Equal for meshes that stand in light's way alike, however their vertices are shared.
+/// Equal for meshes that block light alike, however their vertices are shared.
 std::size_t shape_key(const Scene& scene, const Mesh& mesh)
 {
     std::string bytes;

@@ -1,5 +1,5 @@
 #pragma once
-// Which thing of an edited scene is which of the scene before.
+// Which object of an edited scene is which of the scene before.
 
 #include <cstdint>
 #include <vector>

@@ -18,7 +18,7 @@ struct TwoEstimates {
 
     glm::vec3 mean(std::size_t i) const { return 0.5f * (half[0][i] + half[1][i]); }
 
-    /// Root mean square of the mean's error, over lumels and channels, as the difference tells it.
+    /// Root mean square of the mean's error, over lumels and channels, from their difference.
     double error() const
     {
         double square = 0.0;

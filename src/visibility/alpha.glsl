@@ -23,7 +23,7 @@ Opacity opacity_of(Passage passage, vec4 base, uint channel)
 }
 
 // A number in 0…1 for a surface at a pixel: over many shots, a surface that blocks where it is less
-// than a share of the light blocks that share. `depth` tells surfaces apart that lie behind one
+// than a share of the light blocks that share. `depth` distinguishes surfaces that lie behind one
 // another.
 float chance_at(vec2 at, float depth, uint random)
 {

@@ -23,15 +23,15 @@ std::uint64_t view_pixels(Projection projection, std::uint32_t side);
 /// The longest arc [rad] that one straight line may stand for on a disc of that radius [pixels].
 float longest_chord(float radius);
 
-/// Depth images of what `capacity` eyes see, side by side in one image. A kernel asks them through
+/// Depth images of what `capacity` eyes see, side by side in one image. A kernel reads them through
 /// visibility/sees.glsl, with image() bound, layout() given, and projection() as its variant.
 class EyeViews {
 public:
     /// side: pixels of a hemicube's front face, even. A hemisphere's disc measures twice that: then
     /// its area is π side², a hemicube's 3 side². The capacity given is what fits the device's
-    /// images and is at most the one asked for.
-    /// Throws Error{input} if the side will not do, Error{device} if the device cannot tessellate,
-    /// which hemispheres need.
+    /// images and is at most the one requested.
+    /// Throws Error{input} if the side cannot be used, Error{device} if the device cannot
+    /// tessellate, which hemispheres need.
     EyeViews(const gpu::Device& device, const World& world, Projection projection,
              std::uint32_t side, std::uint32_t capacity);
 

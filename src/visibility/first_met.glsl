@@ -1,9 +1,9 @@
 // Is a lumel the first thing that light meets? Needs atlas/lumel.shared.h.
 //
-// A pixel tells exactly what the ray through its centre meets first, and nothing of the rays beside
-// it. So the point of a lumel that is asked about is one where a pixel's ray meets the lumel: all
-// that is compared there is the lumel with itself, and no light can leak. Lumels that are small or
-// seen from the side may have no such point; then nothing is known of them from this view.
+// A pixel stores exactly what the ray through its centre meets first, and nothing about the rays
+// beside it. So a lumel is tested at a point where a pixel's ray meets it: there it is compared
+// only with itself, and no light can leak. Lumels that are small or
+// seen from the side may have no such point; then this view does not decide about them.
 
 // A flat piece of a lumel in a view. Where the ray through a place p = (x, y, 1) [pixels] meets the
 // piece's plane, in the piece's coordinates and in the depth that the view stores, is a ratio of

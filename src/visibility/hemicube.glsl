@@ -25,8 +25,8 @@ bool is_mirrored(uint face)
     return face == 2u || face == 3u;
 }
 
-// The way, of any length, to a pixel's centre in the eye's frame (t, b, n). `pixel`: in the tile of
-// a hemicube, as EyeViewLayout has it.
+// The direction, of any length, to a pixel's centre in the eye's frame (t, b, n). `pixel`: in the
+// tile of a hemicube, as EyeViewLayout has it.
 vec3 ray_to(uint side, uvec2 pixel)
 {
     const bool right = pixel.x >= side, below = pixel.y >= side;

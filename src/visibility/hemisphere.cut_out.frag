@@ -41,8 +41,8 @@ void main()
     const float depth = p.near * nearness;
     if (depth > 1.0 || depth <= 0.0)
         discard;
-    const vec3 way = mat3(eye.tangent, eye.bitangent, eye.normal) * ray;
-    const vec3 look = look_at(eye.position + way / nearness);
+    const vec3 direction = mat3(eye.tangent, eye.bitangent, eye.normal) * ray;
+    const vec3 look = look_at(eye.position + direction / nearness);
     const Meeting met = meet(p.passage, base_color, look, eye.channel, gl_FragCoord.xy,
                              depth, eye.random);
     if (!met.blocked)

@@ -20,8 +20,8 @@ layout(location = 6) patch out uint triangle;
 // part of the near distance is the surface the eye lies on, or seen edge-on.
 const float kEdgeOn = 1.0 / 16.0;
 
-// Every device cuts an edge into so many pieces. More would be needed only by discs of a radius
-// above 996 pixels: at 2048 a half circle is 0.62 pixels off.
+// Every device can cut an edge into this number of pieces. More would be needed only by discs of a
+// radius above 996 pixels: at 2048 a half circle is 0.62 pixels off.
 const float kMostPieces = 64.0;
 
 // A power of two: then the tessellator's rings fit one another, and inside no piece is much longer

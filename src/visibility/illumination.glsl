@@ -1,7 +1,7 @@
 // What a pixel of an illumination map holds. Needs illumination_maps.shared.h.
 
 // Which side of which texel a fragment shows. Seen against the direction, fronts go around
-// counter-clockwise; in the image, whose y axis points down, they go around the other way.
+// counter-clockwise; in the image, whose y axis points down, they go around clockwise.
 uint surface_at(IlluminationParams p, vec2 place)
 {
     const uvec2 texel = min(uvec2(max(place, vec2(0.0))), uvec2(p.width, p.height) - 1u);

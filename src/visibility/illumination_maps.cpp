@@ -62,7 +62,7 @@ Drawing drawing_of(Layers layers)
 /// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
 /// map, several times.
 constexpr std::uint64_t kFragmentsPerPixel = 4;
-/// And at least so many (48 MiB): few maps do not even out what single views need.
+/// And at least this number (48 MiB): few maps do not even out the needs of single views.
 constexpr std::uint64_t kLeastFragments = 4u << 20;
 
 gpu::Raster make_raster(const gpu::Device& device, Layers layers, bool cut_out)

@@ -18,7 +18,7 @@ enum class Layers : std::uint32_t {
     peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
 };
 
-/// Maps that a direction has if what lies along it is cut into so many slabs: one of each slab, and
+/// Maps of a direction that is cut into this number of slabs: one of each slab, and
 /// one of what lies beyond each but the nearest to the light.
 constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
 {
@@ -35,9 +35,9 @@ constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
 /// maps_of_slabs(S) tiles: those of slabs 0, 1, … S - 1, and those beyond slabs 0, 1, … S - 2.
 class IlluminationMaps {
 public:
-    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must know.
+    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must hold.
     /// slabs: 1 unless layers are stochastic. The capacity given is what fits the device and is at
-    /// most the one asked for. Throws Error{device} if the device cannot keep lists, or the maps of
+    /// most the one requested. Throws Error{device} if the device cannot keep lists, or the maps of
     /// one direction do not fit its images.
     IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
                      std::uint32_t side, std::uint32_t capacity, std::uint32_t width,

@@ -20,7 +20,7 @@ struct Fragment {
 
 /// Fragments of the lists.
 struct FragmentCount {
-    uint count;     ///< asked for by the batch
+    uint count;     ///< requested by the batch
     uint most;      ///< the same of the largest batch that did not fit
     uint capacity;  ///< there is room for
 };

@@ -5,7 +5,7 @@
 const float kBorder = 1.0 / 1024.0;
 
 // B of the lumel at a place of the atlas [texels]; sides without lumels are black. A pixel of which
-// a surface covers only some samples asks for a place beyond the surface's edge: it gets the
+// a surface covers only some samples refers to a place beyond the surface's edge: it gets the
 // nearest of its chart, whose rectangle has the corners (low, high).
 vec3 radiosity_at(LitParams p, vec2 place, vec4 chart)
 {

@@ -46,7 +46,7 @@ EyeViewLayout make_layout(const gpu::Device& device, std::uint32_t side, float n
 {
     if (!device.can_clip())
         throw Error(ErrorKind::device, device.info().name,
-                    "has no clip distances, which what gathers light needs");
+                    "has no clip distances, which gathering light needs");
     return {side, tile_columns(capacity, fitting_hemicubes(device, side)), near};
 }
 

@@ -26,8 +26,8 @@ struct SurfaceLight {
 class LitViews {
 public:
     /// side: pixels of a hemicube's front face, even. near: closer surfaces are not seen [m]. The
-    /// capacity given is what fits the device's images and is at most the one asked for. `world`
-    /// must know the atlas.
+    /// capacity given is what fits the device's images and is at most the one requested. `world`
+    /// must hold the atlas.
     /// Throws Error{input} if the side will not do, Error{device} if the device cannot clip.
     LitViews(const gpu::Device& device, const World& world, std::uint32_t side, float near,
              std::uint32_t capacity);

@@ -1,5 +1,5 @@
 #pragma once
-// How many surfaces lie behind one another, told from the random depths that they were given.
+// The number of surfaces behind one another, estimated from the random depths that they were given.
 //
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 

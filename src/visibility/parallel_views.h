@@ -24,7 +24,7 @@ struct ParallelPose {
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose);
 
-/// The side of parallel views that shows typical lumels so many pixels wide, within limits.
+/// The side of parallel views that shows typical lumels that number of pixels wide, within limits.
 /// diagonal: of the scene's bounding box [m]; most: side that the device's images may have
 /// [pixels].
 std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels,
@@ -35,12 +35,12 @@ std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels,
 ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity);
 Tiles tiles_of(const ParallelLayout& layout);
 
-/// Depth images of what `capacity` directions see, side by side in one image. A kernel asks them
+/// Depth images of what `capacity` directions see, side by side in one image. A kernel reads them
 /// through visibility/piece_along.glsl and first_met.glsl.
 class ParallelViews {
 public:
     /// side: of each image [pixels]. The capacity given is what fits the device's images and is at
-    /// most the one asked for.
+    /// most the one requested.
     ParallelViews(const gpu::Device& device, const World& world, std::uint32_t side,
                   std::uint32_t capacity);
 

@@ -1,5 +1,5 @@
 // The pixels of an eye's view: which one holds a point, what it stores, where its ray goes. Needs
-// eye_views.shared.h and `sampler2D views` declared. A Kernel's variant says the projection.
+// eye_views.shared.h and `sampler2D views` declared. A Kernel's variant selects the projection.
 
 #include "visibility/hemisphere.glsl"
 
@@ -32,7 +32,7 @@ ViewPoint project_to_hemicube(EyeViewLayout layout_, vec3 local)
     return f;
 }
 
-// The centre of a pixel that is asked lies at least so far inside the disc's rim [pixels]: what
+// The centre of a pixel that is read lies at least this far inside the disc's rim [pixels]: what
 // stands on the eye's plane ends at the rim, and its chords half a pixel before.
 const float kRim = 0.5;
 

@@ -1,7 +1,7 @@
 #version 460
 #include "visibility/probe.shared.h"
 
-// What one eye answers to a list of questions.
+// Which of a list of points one eye sees.
 
 layout(local_size_x = kProbeGroup) in;
 layout(push_constant, scalar) uniform Params { ProbeParams p; };

@@ -1,5 +1,5 @@
 #pragma once
-// What eyes answer, brought to the host: for tests and benchmarks.
+// The visibility that eyes find, brought to the host: for tests and benchmarks.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace lumel {
 /// An eye at a surface point, its frame at any angle about the normal (length 1).
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal);
 
-/// Asks every eye about every point. Blocks.
+/// Tests every point from every eye. Blocks.
 /// eyes: on the device, those that `views` last looked from. Returns [eyes][questions], 1: seen.
 std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const EyeViews& views,
                                             const gpu::Array<Eye>& eyes,

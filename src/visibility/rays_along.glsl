@@ -1,13 +1,12 @@
 // All rays of a parallel view that meet a piece of a lumel. Needs what piece_along.glsl needs.
 //
-// Where something's edge crosses a lumel, how much of it is lit is found only as exactly as the
-// points that are asked are evenly spread. The points where rays meet it are, and each stands for
-// the area of a pixel.
+// Where an edge crosses a lumel, its lit part is found only as exactly as the test points are
+// evenly spread. The points where rays meet it are, and each represents the area of a pixel.
 
 struct RaysAlong {
     vec3 sides[4];  // a ray through p meets the piece where each dot(side, p) > 0
     vec2 rows;      // of pixels, first and last
-    float area;     // of the piece [pixels]: so many rays meet it in the mean
+    float area;     // of the piece [pixels]: the mean number of rays that meet it
 };
 
 // Pieces that are smaller, as seen along the view, are left out [pixels].

@@ -7,10 +7,10 @@
 const float kDepthSlack = 2e-4;
 // A curved receiver's neighbouring facets fall behind its plane by this much at most, relative.
 const float kPlaneSlack = 2e-3;
-// Half so many pixel widths may a plane be nearer at the pixel's centre than at the point, as a
-// part of z, before being on it there says little: a steep plane meets many others.
+// If a plane is nearer at the pixel's centre than at the point by more than half this number of
+// pixel widths, as a part of z, being on it there means little: a steep plane meets many others.
 const float kSlope = 2.0;
-// And before it says nothing.
+// And by more than this it means nothing.
 const float kMostSlope = 8.0;
 // What is drawn may be off by this much [pixels]: corners are rounded to 1/256, and interpolation
 // adds its own.
@@ -63,7 +63,7 @@ bool is_past_edge(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, fl
     return flat_ && in_front + step * dot(offset, way) <= plane * kDepthSlack;
 }
 
-// Does the receiver's plane show beside the pixel as well, on the way to or from the eye? Another
+// Does the receiver's plane show beside the pixel as well, toward the eye or away from it? Another
 // surface meets the plane in a line, and off that line leaves it.
 bool is_plane_beside(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, float toward_point,
                      float plane)
@@ -118,7 +118,7 @@ bool is_free_around(EyeViewLayout layout_, uint tile, ViewPoint f, vec3 facing, 
 // and if that is what is stored, the pixel shows the receiver's own surface: it is seen. Otherwise
 // the point's own z decides, as in any shadow map, but for points beside an edge or a contact. Only
 // equality counts for the plane: it may well run in front of an occluder that hides the point
-// itself. At grazing angles one pixel is not enough to tell: its neighbours are asked as well.
+// itself. At grazing angles one pixel is not enough: its neighbours are read as well.
 bool sees(EyeViewLayout layout_, uint tile, vec3 local, vec3 facing)
 {
     const ViewPoint f = project(layout_, local);

@@ -72,7 +72,7 @@ float diagonal_of(const std::vector<glm::vec3>& points)
 }
 
 /// For each triangle, corners three by three: does it lie on the convex hull of them all and of
-/// the other points? Where that would take too long to tell, none is said to.
+/// the other points? Where that would take too long to find out, the answer is no.
 std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
                             const std::vector<glm::vec3>& others)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that can stand in light's way, ready to be drawn.
+// The triangles that can block light, ready to be drawn.
 
 #include <cstdint>
 #include <vector>
@@ -42,7 +42,7 @@ struct Occluders {
 /// Collects all triangles. Those that have the whole scene and its lamps on one side of their plane
 /// are its hull: the outer walls of a room hide no point of it from another. `with_hull`: false
 /// where instances will move, which makes every triangle an inner one.
-/// `atlas`: if given, vertices are split at chart borders and know their place. Corners go around
+/// `atlas`: if given, vertices are split at chart borders and have their place. Corners go around
 /// a triangle counter-clockwise where it is seen from its front, mirrored instances' too.
 Occluders find_occluders(const Scene& scene, const std::vector<char>& movers = {},
                          const Atlas* atlas = nullptr);

@@ -10,7 +10,7 @@ struct Passage {
     vec3 color;          ///< of glass, linear; multiplies the texture
 };
 
-/// A pixel of a view knows one depth, and coloured glass blocks more of one colour than of another:
+/// A pixel of a view holds one depth, and coloured glass blocks more of one colour than of another:
 /// so there are views that carry one colour channel each. Channel c is 1 + c; or all of them, and
 /// glass blocks as it does in the mean.
 LUMEL_CONST uint kAllChannels = 0u;

@@ -23,14 +23,15 @@ gpu::Address address_of(Wrap wrap)
 gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const TextureUse& use)
 {
     if (use.texture < 0) {
-        gpu::Target white(device, gpu::Pixel::srgba8, 1, 1);
+        gpu::Target white(device, gpu::Pixel::srgba8, 1, 1, 1, 1, "white texel");
         const std::uint32_t texel = 0xffffffffu;
         white.upload(&texel);
         return white;
     }
     const Texture& texture = scene.textures[use.texture];
     gpu::Target target(device, gpu::Pixel::srgba8, std::uint32_t(texture.width),
-                       std::uint32_t(texture.height));
+                       std::uint32_t(texture.height), 1, 1,
+                       "cut-out texture " + std::to_string(use.texture));
     target.upload(texture.rgba.data());
     return target;
 }

@@ -28,11 +28,11 @@ struct CutOutDraw {
 class World {
 public:
     /// The world looks at the scene's sky for as long as it lives. `atlas`: which the lumels were
-    /// lifted from; null where no one asks where vertices are in it.
+    /// lifted from; null where the places of vertices in it are not needed.
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Atlas* atlas = nullptr, const std::vector<char>& movers = {});
 
-    /// Puts instances where `transforms` [instances] say. Waits for the device.
+    /// Moves instances to `transforms` [instances]. Waits for the device.
     void place(std::span<const glm::mat4> transforms);
 
     /// From now on views show movers, as they do at first, or not.

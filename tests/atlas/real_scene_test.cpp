@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "shapes.h"
 
 namespace lumel::test {
@@ -29,7 +30,7 @@ void expect_sound(const Scene& scene, int size)
 
 TEST(RealScene, OurOwnScenesAreCoveredWithoutSharedTexels)
 {
-    const std::filesystem::path folder(LUMEL_SOURCE_DIR "/scenes");
+    const std::filesystem::path folder(support::source_path("scenes"));
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".gltf")
             continue;
@@ -41,7 +42,7 @@ TEST(RealScene, OurOwnScenesAreCoveredWithoutSharedTexels)
 TEST(RealScene, AFurnishedClassroomIsCoveredWithoutSharedTexels)
 {
     const std::filesystem::path path(
-        LUMEL_SOURCE_DIR "/../shared/data/interiors/japanese_classroom/japanese_classroom.glb");
+        support::data_path("interiors/japanese_classroom/japanese_classroom.glb"));
     if (!std::filesystem::exists(path))
         GTEST_SKIP() << "needs " << path.filename() << " of the test data";
     expect_sound(read_opaque(path), 256);

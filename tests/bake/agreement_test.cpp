@@ -57,9 +57,9 @@ double cornell_error_alone(const Solved& solved, const Cornell& box = cornell())
 /// Hemicubes of those who gather are multisampled, and more than shooters.
 SolverOptions suited(SolverOptions options)
 {
-    if (options.method == "gather") {
-        options.batch = 64;
-        options.hemicube = 32;
+    if (auto* gather = std::get_if<GatherOptions>(&options.method)) {
+        gather->batch = 64;
+        gather->hemicube = 32;
     }
     return options;
 }
@@ -78,13 +78,13 @@ INSTANTIATE_TEST_SUITE_P(By, EverySolver,
 TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
 {
     const Cornell& box = cornell(GetParam());
-    const LumelError error =
-        cornell_error(support::solve_scene(box.world, suited({.method = GetParam()})), box);
+    const LumelError error = cornell_error(
+        support::solve_scene(box.world, suited({.method = support::method(GetParam())})), box);
     EXPECT_LE(error.rmse, 0.02);
     EXPECT_LE(std::abs(error.bias), 0.005);
 }
 
-/// What the matrix says of its error is of direct light: reflected light is as fine as its patches.
+/// The matrix states the error of direct light only: reflected light is as fine as its patches.
 class SolversToAnyError : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
@@ -94,8 +94,8 @@ INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
 TEST_P(SolversToAnyError, LightTheCornellBoxWithinOnePerCentAtErrorOneHalf)
 {
     const Cornell& box = cornell(GetParam());
-    const Solved solved =
-        support::solve_scene(box.world, suited({.method = GetParam(), .target_error = 0.005}));
+    const Solved solved = support::solve_scene(
+        box.world, suited({.method = support::method(GetParam()), .target_error = 0.005}));
     EXPECT_LE(cornell_error_alone(solved, box), 0.01);
     EXPECT_LE(cornell_error(solved, box).rmse, 0.0125);  // 0.9 % of it is the reference's noise
     EXPECT_LE(std::abs(cornell_error(solved, box).bias), 0.005);
@@ -107,7 +107,8 @@ TEST(CornellBox, TheEstimatedErrorIsHonest)
     double stated = 0.0, real = 0.0;
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const Solved solved = support::solve_scene(
-            cornell().world, {.seed = seed, .max_shots = 1024, .target_error = 0.0});
+            cornell().world,
+            {.method = StochasticOptions{.seed = seed}, .max_shots = 1024, .target_error = 0.0});
         stated += solved.state.error;
         real += cornell_error_alone(solved);
     }
@@ -127,7 +128,9 @@ TEST(CornellBox, OtherBatchesGiveTheSameAnswer)
 {
     for (const int batch : {1, 5, 64}) {
         const Solved solved = support::solve_scene(
-            cornell().world, {.batch = batch, .max_shots = 1024, .target_error = 0.0});
+            cornell().world, {.method = StochasticOptions{.views = {.batch = batch}},
+                              .max_shots = 1024,
+                              .target_error = 0.0});
         EXPECT_LE(cornell_error(solved).rmse, 0.05) << "K = " << batch;
     }
 }
@@ -139,7 +142,10 @@ TEST(CornellBox, ThePapersIterationConvergesToTheSameAnswer)
     const std::vector<glm::vec3> truth = path_traced(small, 1024);
     const auto error = [&](std::uint64_t shots) {
         const Solved solved = support::solve_scene(
-            small, {.scheme = Scheme::paper, .batch = 1, .max_shots = shots, .target_error = 0.0});
+            small,
+            {.method = StochasticOptions{.views = {.batch = 1}, .iteration = {Scheme::paper}},
+             .max_shots = shots,
+             .target_error = 0.0});
         return support::lumel_error(small.lumels, solved.irradiance, truth, everywhere).rmse;
     };
     const double early = error(256), late = error(4096);
@@ -155,13 +161,14 @@ TEST(CornellBox, MergedTexelsLeaveLessNoise)
         double square = 0.0;
         std::vector<glm::vec3> before;
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-            const Solved solved = support::solve_scene(small, {.scheme = Scheme::paper,
-                                                               .rule = SampleRule::centre,
-                                                               .merge = merge,
-                                                               .seed = seed,
-                                                               .batch = 1,
-                                                               .max_shots = 256,
-                                                               .target_error = 0.0});
+            const Solved solved = support::solve_scene(
+                small, {.method = StochasticOptions{.seed = seed,
+                                                    .views = {.batch = 1},
+                                                    .rule = SampleRule::centre,
+                                                    .iteration = {Scheme::paper},
+                                                    .merge = merge},
+                        .max_shots = 256,
+                        .target_error = 0.0});
             for (std::size_t i = 0; i < before.size(); ++i) {
                 const glm::vec3 apart = solved.irradiance[i] - before[i];
                 square += double(glm::dot(apart, apart));
@@ -180,8 +187,10 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
     const auto truth =
         reference_irradiance(world.scene, world.rays, world.lumels,
                              {.samples_per_lumel = 2048, .seed = 5, .rule = SampleRule::centre});
-    const Solved solved = support::solve_scene(
-        world, {.rule = SampleRule::centre, .max_shots = 4096, .target_error = 0.0});
+    const Solved solved =
+        support::solve_scene(world, {.method = StochasticOptions{.rule = SampleRule::centre},
+                                     .max_shots = 4096,
+                                     .target_error = 0.0});
     EXPECT_LE(support::lumel_error(world.lumels, solved.irradiance, truth, everywhere).rmse, 0.04);
 }
 
@@ -189,16 +198,16 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
 // which the glossy solver's noise is sensitive: with 4096 its level scatters by half a per cent.
 TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
 {
-    for (const MethodInfo& method : kMethods) {
-        if (std::string(method.id) == "gather")  // which knows hemicubes alone
+    for (const MethodInfo& method : methods()) {
+        if (!method.option("projection"))  // has no other
             continue;
         const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
                              AtlasOptions{.size = 64});
         const bool glossy = method.materials == MaterialModel::glossy;
         SolverOptions options{
-            .method = method.id, .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
+            .method = method.defaults(), .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
         const Solved cubes = support::solve_scene(world, options);
-        options.projection = Projection::hemisphere;
+        ASSERT_TRUE(set_option(options.method, "projection", "hemisphere"));
         const Solved spheres = support::solve_scene(world, options);
         const LumelError apart =
             support::lumel_error(world.lumels, spheres.irradiance, cubes.irradiance, everywhere);
@@ -207,13 +216,32 @@ TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
     }
 }
 
+/// Two rooms with a door between them, and their reference, made once for all tests.
+struct TwoRooms {
+    explicit TwoRooms(int size)
+        : world(support::scene_path("two-rooms"), {.size = size}),
+          truth(path_traced(world, 4096))
+    {
+    }
+    Prepared world;
+    std::vector<glm::vec3> truth;
+};
+
+const TwoRooms& two_rooms(const std::string& method)
+{
+    if (method == "gather") {
+        static const TwoRooms small(72);
+        return small;
+    }
+    static const TwoRooms instance(128);
+    return instance;
+}
+
 TEST_P(EverySolver, FindsTheDoorBetweenTwoRoomsAndNothingElse)
 {
-    const bool gathers = std::string(GetParam()) == "gather";
-    const Prepared world(support::scene_path("two-rooms"),
-                         AtlasOptions{.size = gathers ? 72 : 128});
-    const auto truth = path_traced(world, 4096);
-    const Solved solved = support::solve_scene(world, suited({.method = GetParam()}));
+    const auto& [world, truth] = two_rooms(GetParam());
+    const Solved solved =
+        support::solve_scene(world, suited({.method = support::method(GetParam())}));
     const auto in_room = [&](const char* prefix) {
         return support::lumel_error(
             world.lumels, solved.irradiance, truth, [&](const Lumel& lumel) {

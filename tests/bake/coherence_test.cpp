@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Light of the frame before is still on its way in the first of a frame's iterations: it leaves 2
+/// Light of the previous frame is still present in the first of a frame's iterations: it leaves 2
 /// % after 64 iterations, 0.7 % after these.
 constexpr int kFrameSteps = 128;
 
@@ -44,8 +44,8 @@ struct Running {
         : world(read_gltf(support::scene_path("glossy-cornell-box"), MaterialModel::glossy),
                 AtlasOptions{.size = 32}),
           lumels(lit_by(world.lumels, lamps(world.lumels))),
-          options{.method = "glossy", .seed = seed},
-          resident(world.scene, world.rays, lumels, options),
+          options{.seed = seed},
+          resident(world.scene, world.rays, lumels, {.method = options}),
           particles(world.scene, world.atlas, world.rays, lumels),
           solver(resident.device, resident.world, lumels, resident.near, options, {},
                  lobes == Lobes::carried ? &particles : nullptr)
@@ -92,7 +92,7 @@ struct Running {
 
     Prepared world;
     Lumels lumels;
-    SolverOptions options;
+    GlossyOptions options;
     support::Resident resident;
     LobeParticles particles;
     GlossyIllumination solver;

@@ -35,14 +35,15 @@ Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
 {
     const support::Resident resident(scene, rays, lumels, options);
     const auto& [near, device, world] = resident;
-    const auto solver = make_solver(device, world, lumels, near, options);
+    const auto solver = make_solver({device, world, lumels, near}, options);
     EXPECT_TRUE(solve(*solver, options));
     Lit lit;
     lit.irradiance = solver->irradiance();
     for (const Directional kind : {Directional::sh1, Directional::sh2})
         lit.coefficients[int(kind)] =
-            gather_directional(device, world, scene, lumels, near, lit.irradiance,
-                               {.kind = kind, .rule = options.rule, .shots = directional_shots})
+            gather_directional(
+                device, world, scene, lumels, near, lit.irradiance,
+                {.kind = kind, .rule = rule_of(options.method), .shots = directional_shots})
                 .coefficients;
     EXPECT_EQ(device.validation_messages(), "");
     return lit;
@@ -63,7 +64,7 @@ std::vector<glm::vec3> of_lumel(const std::vector<std::vector<glm::vec3>>& coeff
     return own;
 }
 
-/// Normals tilted by so much [degrees] to eight sides.
+/// Normals tilted by an angle [degrees] to eight sides.
 std::vector<glm::vec3> tilted(const glm::vec3& normal, float degrees)
 {
     const glm::mat3 frame = frame_about(normal);
@@ -153,9 +154,9 @@ TEST(DirectionalLight, GivesBackTheIrradianceOfEveryMethodSchemeAndRule)
     const std::vector<glm::vec3> normals = world_normals(world.scene, world.lumels);
     SolverOptions plain{.max_shots = 128, .target_error = 0.0};
     SolverOptions paper = plain, centre = plain, glossy = plain;
-    paper.scheme = Scheme::paper;
-    centre.rule = SampleRule::centre;
-    glossy.method = "glossy";
+    paper.method = StochasticOptions{.iteration = {Scheme::paper}};
+    centre.method = StochasticOptions{.rule = SampleRule::centre};
+    glossy.method = GlossyOptions{};
     for (const SolverOptions& options : {plain, paper, centre, glossy}) {
         const Lit lit = light_up(world.scene, world.rays, world.lumels, options, 256);
         for (std::size_t i = 0; i < normals.size(); ++i)
@@ -184,7 +185,8 @@ TEST(DirectionalLight, StopsEarlyWhenAskedTo)
 
 // All directions above a wall of the furnace shine with L = B/π = 2/π. The sums over half the
 // sphere are √π L in band 0, √(3π)/2 L along the normal in band 1, and 0 in band 2; and since
-// H = π L (1 + cos) / 2 at a tilted normal is just what bands 0 and 1 can say, the fit agrees.
+// H = π L (1 + cos) / 2 at a tilted normal is exactly what bands 0 and 1 can represent, the fit
+// agrees.
 TEST(DirectionalFurnace, IsTheHalfSphereOfUniformRadiance)
 {
     const Prepared furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
@@ -216,8 +218,8 @@ TEST(DirectionalFurnace, IsTheHalfSphereOfUniformRadiance)
 }
 
 // A small emitter far away is a direction ω. At the normal n its light is given back; at normals
-// tilted by 30° what two or three bands cannot say is left, relative to the light at n: for ω at
-// 20° from n 2.3 % and 4.4 % at most (the fit is a compromise over all ω), at 50° 26 % and 10 %.
+// tilted by 30° what two or three bands cannot represent is left, relative to the light at n: for ω
+// at 20° from n 2.3 % and 4.4 % at most (the fit is a compromise over all ω), at 50° 26 % and 10 %.
 TEST(DirectionalDelta, IsLitLikeTheClosedFormAtTiltedNormals)
 {
     struct Case {
@@ -231,13 +233,13 @@ TEST(DirectionalDelta, IsLitLikeTheClosedFormAtTiltedNormals)
         floor.edge_u = {0.1f, 0.0f, 0.0f};
         floor.edge_v = {0.0f, 0.1f, 0.0f};
         const float angle = glm::radians(c.angle);
-        const glm::vec3 way(std::sin(angle), 0.0f, std::cos(angle));
+        const glm::vec3 direction(std::sin(angle), 0.0f, std::cos(angle));
         const glm::vec3 up(-std::cos(angle), 0.0f, std::sin(angle));
         lamp.edge_u = 0.1f * up;
         lamp.edge_v = {0.0f, 0.1f, 0.0f};
-        lamp.corner = 10.0f * way - 0.5f * (lamp.edge_u + lamp.edge_v);
+        lamp.corner = 10.0f * direction - 0.5f * (lamp.edge_u + lamp.edge_v);
         lamp.emission = glm::vec3(1000.0f);
-        if (glm::dot(glm::cross(lamp.edge_u, lamp.edge_v), way) > 0.0f)
+        if (glm::dot(glm::cross(lamp.edge_u, lamp.edge_v), direction) > 0.0f)
             std::swap(lamp.edge_u, lamp.edge_v);
         const support::HandMade made = support::make_quads({floor, lamp});
         const RayScene rays(made.scene);
@@ -247,10 +249,10 @@ TEST(DirectionalDelta, IsLitLikeTheClosedFormAtTiltedNormals)
         const glm::vec3 normal(0, 0, 1);
         for (int order = 1; order <= 2; ++order) {
             const std::vector<glm::vec3> own = of_lumel(lit.coefficients[order], 0);
-            const double here = facing * double(way.z);
+            const double here = facing * double(direction.z);
             EXPECT_NEAR(double(irradiance_at(own, normal).g), here, 0.002 * here);
             for (const glm::vec3& n : tilted(normal, 30.0f)) {
-                const double truth = facing * std::max(double(glm::dot(way, n)), 0.0);
+                const double truth = facing * std::max(double(glm::dot(direction, n)), 0.0);
                 EXPECT_NEAR(double(irradiance_at(own, n).g), truth, c.error[order] * here)
                     << "order " << order << ", light from " << c.angle << "°";
             }
@@ -285,9 +287,9 @@ public:
         std::mt19937 random{std::mt19937::result_type(i)};
         std::uniform_real_distribution<float> u;
         std::vector<glm::vec3> sums(normals.size(), glm::vec3(0.0f));
-        const auto add = [&](const glm::vec3& way, const glm::vec3& light) {
+        const auto add = [&](const glm::vec3& direction, const glm::vec3& light) {
             for (std::size_t m = 0; m < normals.size(); ++m)
-                sums[m] += light * std::max(glm::dot(way, normals[m]), 0.0f);
+                sums[m] += light * std::max(glm::dot(direction, normals[m]), 0.0f);
         };
         const glm::vec3 n = places_[i].normal;
         const glm::mat3 frame = frame_about(n);
@@ -295,10 +297,12 @@ public:
             const float z = (float(k / side) + u(random)) / float(side);
             const float angle = 2.0f * kPi * (float(k % side) + u(random)) / float(side);
             const float s = std::sqrt(1.0f - z * z);
-            const glm::vec3 way = frame * glm::vec3(s * std::cos(angle), s * std::sin(angle), z);
+            const glm::vec3 direction =
+                frame * glm::vec3(s * std::cos(angle), s * std::sin(angle), z);
             const LumelPoint from = places_.point_on(i, {u(random), u(random)});
-            add(way, reflected(from.position + places_[i].lift * n, glm::normalize(way)) * 2.0f *
-                         kPi / float(side * side));
+            add(direction,
+                reflected(from.position + places_[i].lift * n, glm::normalize(direction)) * 2.0f *
+                    kPi / float(side * side));
         }
         for (const std::size_t j : emitters_)
             for (int k = 0; k < kEmitterPoints; ++k) {
@@ -317,10 +321,10 @@ public:
 private:
     static constexpr int kEmitterPoints = 8;  // of each emitting lumel
 
-    glm::vec3 reflected(const glm::vec3& from, const glm::vec3& way) const
+    glm::vec3 reflected(const glm::vec3& from, const glm::vec3& direction) const
     {
         RayHit hit;
-        if (!world_.rays.closest(from, way, 0.0f, 1e30f, 0, hit) || !hit.front)
+        if (!world_.rays.closest(from, direction, 0.0f, 1e30f, 0, hit) || !hit.front)
             return glm::vec3(0.0f);
         const auto surface = std::find_if(
             world_.atlas.surfaces.begin(), world_.atlas.surfaces.end(), [&](const Surface& s) {
@@ -343,7 +347,7 @@ private:
     std::vector<glm::vec3> reflected_;  ///< [N] radiance [cd/m²]
 };
 
-/// Relative RMSE over every third lumel at normals tilted by so much, by order.
+/// Relative RMSE over every third lumel at tilted normals, by order.
 struct TiltedError {
     double order[3] = {};
     double least = 0.0;  ///< lowest irradiance, relative to that at the surface's normal
@@ -383,9 +387,9 @@ TiltedError tilted_error(const Prepared& world, const Lit& lit, float degrees)
     return error;
 }
 
-// What bands 1 and 2 cannot say is most of these errors: rays put through the same fit have 5.7 %
-// and 3.8 % at 20°, 11 % and 5.3 % at 40°, 15 % and 5.4 % at 60°, and 1.7 % at the normal itself
-// (the error of the solve).
+// Most of these errors is what bands 1 and 2 cannot represent: rays put through the same fit
+// have 5.7 % and 3.8 % at 20°, 11 % and 5.3 % at 40°, 15 % and 5.4 % at 60°, and 1.7 % at the
+// normal itself (the error of the solve).
 TEST(DirectionalCornellBox, AgreesWithRaysAtTiltedNormals)
 {
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});

@@ -62,7 +62,7 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const NearField near = near_field_for(room.scene, room.rays, room.lumels, GetParam());
     const gpu::Device device;
     const World world(device, room.scene, room.lumels, &room.atlas);
-    const auto solver = make_solver(device, world, room.lumels, near, GetParam());
+    const auto solver = make_solver({device, world, room.lumels, near}, GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());
     for (int c = 0; c < 3; ++c)
@@ -72,15 +72,19 @@ TEST_P(Glass, TintsTheFloorBelowIt)
 
 SolverOptions method(const char* id, std::uint64_t shots)
 {
-    return {
-        .method = id, .hemicube = 128, .map_side = 256, .max_shots = shots, .target_error = 0.0};
+    SolverOptions options{
+        .method = method_of(id).defaults(), .max_shots = shots, .target_error = 0.0};
+    set_option(options.method, "hemicube", "128");
+    set_option(options.method, "map-side", "256");
+    return options;
 }
 
 /// Three hemicubes a lumel, for four bounces.
 SolverOptions gather()
 {
-    return {
-        .method = "gather", .batch = 48, .hemicube = 32, .max_shots = 40000, .target_error = 0.0};
+    return {.method = GatherOptions{.batch = 48, .hemicube = 32},
+            .max_shots = 40000,
+            .target_error = 0.0};
 }
 
 // With stochastic layers the nearest of several pixels counts, each of which decides by chance

@@ -27,11 +27,12 @@ GlossySolution solve_room(const GlossyRoom& room, std::uint64_t shots)
     Prepared furnace(support::scene_path("furnace-0.5"), AtlasOptions{.size = 64});
     for (Gloss& gloss : furnace.lumels.gloss)
         gloss = {glm::vec3(room.diffuse), glm::vec3(room.specular), room.shininess};
-    const SolverOptions options{.method = "glossy", .max_shots = shots, .target_error = 0.0};
+    const SolverOptions options{.method = GlossyOptions{}, .max_shots = shots, .target_error = 0.0};
     const support::Resident resident(furnace.scene, furnace.rays, furnace.lumels, options);
     const auto& [near, device, world] = resident;
     const LobeParticles particles(furnace.scene, furnace.atlas, furnace.rays, furnace.lumels);
-    GlossyIllumination solver(device, world, furnace.lumels, near, options, {}, &particles);
+    GlossyIllumination solver(device, world, furnace.lumels, near,
+                              std::get<GlossyOptions>(options.method), {}, &particles);
     EXPECT_TRUE(solve(solver, options));
 
     GlossySolution solution;
@@ -76,8 +77,8 @@ TEST(GlossyCornellBox, OfDiffuseWallsAgreesWithTheDiffuseSolver)
     for (std::size_t i = 0; i < world.lumels.gloss.size(); ++i)
         world.lumels.gloss[i] = {world.lumels.lumels[i].albedo, glm::vec3(0.0f), 1.0f};
     const auto diffuse = support::solve_scene(world, {.max_shots = 8192, .target_error = 0.0});
-    const auto glossy =
-        support::solve_scene(world, {.method = "glossy", .max_shots = 32768, .target_error = 0.0});
+    const auto glossy = support::solve_scene(
+        world, {.method = GlossyOptions{}, .max_shots = 32768, .target_error = 0.0});
     const support::LumelError error = support::lumel_error(
         world.lumels, glossy.irradiance, diffuse.irradiance, [](const Lumel&) { return true; });
     EXPECT_LE(error.rmse, 0.05);

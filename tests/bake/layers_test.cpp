@@ -27,15 +27,14 @@ std::vector<glm::vec3> gathered(const Prepared& world, Layers layers, int lookup
 {
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    const SolverOptions options{.method = "directions",
-                                .scheme = Scheme::paper,
-                                .layers = layers,
-                                .lookups = lookups,
-                                .slabs = slabs,
-                                .map_side = 128,
+    const SolverOptions options{.method = DirectionsOptions{.iteration = {Scheme::paper},
+                                                            .layers = layers,
+                                                            .lookups = lookups,
+                                                            .slabs = slabs,
+                                                            .map_side = 128},
                                 .max_shots = 1024,
                                 .target_error = 0.0};
-    const auto solver = make_solver(device, resident, world.lumels, {}, options);
+    const auto solver = make_solver({device, resident, world.lumels, {}}, options);
     EXPECT_TRUE(solve(*solver, options));
     std::vector<glm::vec3> irradiance = solver->irradiance();
     EXPECT_EQ(device.validation_messages(), "");
@@ -110,11 +109,9 @@ std::uint32_t slabs_of(const Prepared& world, int lookups)
 {
     const gpu::Device device;
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    const GlobalDirections solver(device, resident, world.lumels,
-                                  {.method = "directions",
-                                   .layers = Layers::stochastic,
-                                   .lookups = lookups,
-                                   .map_side = 128});
+    const GlobalDirections solver(
+        device, resident, world.lumels,
+        {.layers = Layers::stochastic, .lookups = lookups, .map_side = 128});
     EXPECT_EQ(device.validation_messages(), "");
     return solver.slabs();
 }

@@ -19,11 +19,10 @@ double light_inside(Layers layers)
     const Scene scene = read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse,
                                    {.sky_color = glm::vec3(1e4f)});
     const Prepared world(scene, AtlasOptions{.size = kSize});
-    const support::Solved solved = support::solve_scene(world, {.method = "directions",
-                                                                .scheme = Scheme::paper,
-                                                                .layers = layers,
-                                                                .max_shots = 1024,
-                                                                .target_error = 0.0});
+    const support::Solved solved = support::solve_scene(
+        world, {.method = DirectionsOptions{.iteration = {Scheme::paper}, .layers = layers},
+                .max_shots = 1024,
+                .target_error = 0.0});
     double inside = 0.0, outside = 0.0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -68,7 +67,7 @@ struct City {
     support::Solved solve(const SolverOptions& options) const
     {
         const NearField near = near_field_for(world.scene, world.rays, lit, options);
-        const auto solver = make_solver(device, resident, lit, near, options, direct);
+        const auto solver = make_solver({device, resident, lit, near, direct}, options);
         EXPECT_TRUE(lumel::solve(*solver, options));
         support::Solved solved{solver->irradiance(), solver->state()};
         add_light(solved.irradiance, direct);
@@ -94,7 +93,7 @@ TEST(City, IsLitAlikeByShootersAndAlongGlobalDirections)
     const City city;
     const SolverOptions shooters{.max_shots = 2048, .target_error = 0.0};
     SolverOptions directions = shooters;
-    directions.method = "directions";
+    directions.method = DirectionsOptions{};
     const support::LumelError apart = city.apart(city.solve(directions), city.solve(shooters));
     EXPECT_LE(apart.rmse, 0.02);
     EXPECT_LE(std::abs(apart.bias), 0.005);
@@ -105,12 +104,12 @@ TEST(City, IsLitAlikeByShootersAndAlongGlobalDirections)
 TEST(City, TheEstimatedErrorIsHonest)
 {
     const City city;
-    const support::Solved truth =
-        city.solve({.method = "directions", .seed = 9, .max_shots = 8192, .target_error = 0.0});
+    const support::Solved truth = city.solve(
+        {.method = DirectionsOptions{.seed = 9}, .max_shots = 8192, .target_error = 0.0});
     double stated = 0.0, real = 0.0;
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         const support::Solved solved = city.solve(
-            {.method = "directions", .seed = seed, .max_shots = 512, .target_error = 0.0});
+            {.method = DirectionsOptions{.seed = seed}, .max_shots = 512, .target_error = 0.0});
         stated += solved.state.error;
         real += city.apart(solved, truth).rmse;
     }

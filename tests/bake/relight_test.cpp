@@ -30,8 +30,7 @@ struct Lit {
     static BakeOptions options()
     {
         BakeOptions options;
-        options.solver.method = "matrix";
-        options.solver.patches = 150;
+        options.solver.method = MatrixOptions{.transport = {.patches = 150}};
         options.solver.target_error = 0.03;
         options.atlas.size = kSize;
         options.sky_directions = 64;
@@ -208,7 +207,7 @@ struct File {
     {
         std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
     }
-    /// What reading says, empty if it reads it.
+    /// The message of reading, empty if it succeeds.
     std::string complaint() const
     {
         try {

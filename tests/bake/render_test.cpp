@@ -94,7 +94,7 @@ TEST(Picture, OfBlocksOfMetalIsWhatPathsFind)
     options.width = options.height = 48;
     const Image image = picture("glossy-cornell-box", options);
     const Image first = path_traced("glossy-cornell-box", options, 1024);
-    options.bake.solver.seed = 2;
+    options.bake.solver.method = GlossyOptions{.seed = 2};
     const Image second = path_traced("glossy-cornell-box", options, 1024);
     EXPECT_LE(error_alone(image, first, second), 0.06);
 }

@@ -6,16 +6,23 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "bake/prepare.h"
 #include "finish/finish.h"
 #include "reference/metrics.h"
-#include "solve/solver.h"
+#include "solve/methods.h"
 
 namespace lumel::support {
 
 inline std::string scene_path(const std::string& name)
 {
-    return LUMEL_SOURCE_DIR "/scenes/" + name + ".gltf";
+    return source_path("scenes/" + name + ".gltf");
+}
+
+/// A method with its defaults.
+inline MethodOptions method(const std::string& id)
+{
+    return method_of(id).defaults();
 }
 
 /// A scene on the default device with what a solver is made of.
@@ -43,7 +50,7 @@ inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels
 {
     const Resident resident(scene, rays, lumels, options, atlas);
     const auto& [near, device, world] = resident;
-    const auto solver = make_solver(device, world, lumels, near, options);
+    const auto solver = make_solver({device, world, lumels, near}, options);
     EXPECT_TRUE(solve(*solver, options));
     Solved solved{solver->irradiance(), solver->state()};
     EXPECT_EQ(device.validation_messages(), "");

@@ -11,10 +11,10 @@ namespace {
 
 Transport transport_of(const Prepared& world, std::uint32_t patches)
 {
-    const SolverOptions options{.method = "matrix", .patches = patches};
+    const SolverOptions options{.method = MatrixOptions{.transport = {.patches = patches}}};
     const support::Resident resident(world.scene, world.rays, world.lumels, options);
     TransportBuilder builder(resident.device, resident.world, world.lumels, resident.near,
-                             transport_options(options));
+                             {.patches = patches});
     while (!builder.done())
         builder.step();
     Transport transport = builder.finish();
@@ -62,7 +62,8 @@ TEST(FormFactors, BalancedKeepTheSumsOfOpenRows)
 TEST(VoxelPatches, HoldAllOpenLumelsOnceAndAreTheSameAgain)
 {
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
-    const support::Resident resident(world.scene, world.rays, world.lumels, {.method = "matrix"});
+    const support::Resident resident(world.scene, world.rays, world.lumels,
+                                     {.method = MatrixOptions{}});
     const auto make = [&] {
         return make_voxel_patches(resident.world, world.lumels, resident.near.around, 600);
     };
@@ -85,7 +86,8 @@ TEST(VoxelPatches, HoldAllOpenLumelsOnceAndAreTheSameAgain)
 TEST(VoxelPatches, FaceOneWay)
 {
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
-    const support::Resident resident(world.scene, world.rays, world.lumels, {.method = "matrix"});
+    const support::Resident resident(world.scene, world.rays, world.lumels,
+                                     {.method = MatrixOptions{}});
     const VoxelPatches patches =
         make_voxel_patches(resident.world, world.lumels, resident.near.around, 100);
     for (std::size_t i = 0; i < world.lumels.lumels.size(); ++i)
@@ -117,14 +119,14 @@ double error_of_means(const Lumels& lumels, const VoxelPatches& patches,
 TEST(MatrixRadiosity, AgreesWithALumelSolverOnItsPatches)
 {
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
-    const SolverOptions options{.method = "matrix", .max_shots = 8192, .target_error = 0.0};
+    const SolverOptions options{.method = MatrixOptions{}, .max_shots = 8192, .target_error = 0.0};
     const support::Resident resident(world.scene, world.rays, world.lumels, options);
-    MatrixRadiosity matrix(resident.device, resident.world, world.lumels, resident.near, options,
-                           {});
+    MatrixRadiosity matrix(resident.device, resident.world, world.lumels, resident.near,
+                           std::get<MatrixOptions>(options.method), {});
     ASSERT_TRUE(solve(matrix, options));
     ASSERT_NE(matrix.transport(), nullptr);
     const support::Solved lumels = support::solve_scene(
-        world, {.method = "progressive", .max_shots = 16384, .target_error = 0.0});
+        world, {.method = ProgressiveOptions{}, .max_shots = 16384, .target_error = 0.0});
     EXPECT_LT(error_of_means(world.lumels, matrix.transport()->patches, matrix.irradiance(),
                              lumels.irradiance),
               0.01);

@@ -27,9 +27,9 @@ SolverOptions with_shots(SolverOptions options, std::uint64_t shooters, const Lu
 {
     options.target_error = 0.0;
     options.max_shots = shooters;
-    if (options.method == "gather") {
-        options.batch = 64;
-        options.hemicube = gathering.hemicube;
+    if (auto* gather = std::get_if<GatherOptions>(&options.method)) {
+        gather->batch = 64;
+        gather->hemicube = gathering.hemicube;
         options.max_shots = gathering.bounces * lumels.lumels.size();
     }
     return options;
@@ -43,7 +43,7 @@ struct Glow {
 
 Glow furnace_glow(const std::string& name, double truth, double tolerance, SolverOptions options)
 {
-    const bool gathers = options.method == "gather";
+    const bool gathers = std::holds_alternative<GatherOptions>(options.method);
     const Prepared furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
     const Solved solved =
         support::solve_scene(furnace, with_shots(options, 16384, furnace.lumels, {40}));
@@ -67,14 +67,16 @@ INSTANTIATE_TEST_SUITE_P(By, Furnace, kEverySolver, kMethodName);
 
 TEST_P(Furnace, AlbedoOneHalfGlowsTwiceItsEmission)
 {
-    const Glow glow = furnace_glow("furnace-0.5", 2.0, 0.03, {.method = GetParam()});
+    const Glow glow =
+        furnace_glow("furnace-0.5", 2.0, 0.03, {.method = support::method(GetParam())});
     EXPECT_NEAR(glow.mean, 2.0, 0.005 * 2.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
 
 TEST_P(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
 {
-    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, {.method = GetParam()});
+    const Glow glow =
+        furnace_glow("furnace-0.9", 10.0, 0.05, {.method = support::method(GetParam())});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
@@ -85,8 +87,9 @@ INSTANTIATE_TEST_SUITE_P(By, FurnaceOnDiscs, kEveryShooter, kMethodName);
 
 TEST_P(FurnaceOnDiscs, GlowsAlikeThroughHemispheres)
 {
-    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05,
-                                   {.method = GetParam(), .projection = Projection::hemisphere});
+    MethodOptions method = support::method(GetParam());
+    ASSERT_TRUE(set_option(method, "projection", "hemisphere"));
+    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, {.method = method});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
@@ -107,9 +110,9 @@ double plate_error(const std::string& method, const support::Quad& emitter,
     support::HandMade plates = support::make_quads(quads);
     const Atlas atlas = support::lay_out(plates, quads);
     const RayScene rays(plates.scene);
-    const Solved solved =
-        support::solve_scene(plates.scene, rays, plates.lumels,
-                             with_shots({.method = method}, 4096, plates.lumels), &atlas);
+    const Solved solved = support::solve_scene(
+        plates.scene, rays, plates.lumels,
+        with_shots({.method = support::method(method)}, 4096, plates.lumels), &atlas);
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -192,7 +195,7 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     const RayScene rays(place.scene);
     const Solved solved = support::solve_scene(
         place.scene, rays, place.lumels,
-        with_shots({.method = GetParam()}, 4096, place.lumels, {3, 96}), &atlas);
+        with_shots({.method = support::method(GetParam())}, 4096, place.lumels, {3, 96}), &atlas);
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -215,8 +218,12 @@ TEST_P(SealedBox, StaysExactlyDarkInside)
     const bool gathers = std::string(method) == "gather";
     const Prepared world(support::scene_path("sealed-box"),
                          AtlasOptions{.size = gathers ? 64 : 128});
-    const Solved solved = support::solve_scene(
-        world, with_shots({.method = method, .projection = projection}, 2048, world.lumels, {9}));
+    MethodOptions options = support::method(method);
+    if (projection == Projection::hemisphere) {
+        ASSERT_TRUE(set_option(options, "projection", "hemisphere"));
+    }
+    const Solved solved =
+        support::solve_scene(world, with_shots({.method = options}, 2048, world.lumels, {9}));
     std::size_t inside = 0;
     float brightest = 0.0f;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
@@ -287,9 +294,9 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
     support::HandMade sphere = support::make_quads(quads);
     const Atlas atlas = support::lay_out(sphere, quads);
     const RayScene rays(sphere.scene);
-    const Solved solved =
-        support::solve_scene(sphere.scene, rays, sphere.lumels,
-                             with_shots({.method = GetParam()}, 4096, sphere.lumels), &atlas);
+    const Solved solved = support::solve_scene(
+        sphere.scene, rays, sphere.lumels,
+        with_shots({.method = support::method(GetParam())}, 4096, sphere.lumels), &atlas);
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;

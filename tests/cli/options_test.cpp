@@ -1,7 +1,10 @@
-// What the command line accepts, and what it says to what it does not.
+// What the command line accepts, and its messages for what it does not.
+
+#include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -50,6 +53,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
          {"--map-side", "--solver directions"}},
         {{"bake", scene, "out", "--solver", "gather", "--projection", "hemisphere"},
          {"--projection", "--solver gather"}},
+        {{"bake", scene, "out", "--quiet", "--verbose"}, {"--verbose", "--quiet"}},
+        {{"render", scene, "out.png", "--paths", "4", "--dump", "inside"}, {"--dump", "--paths"}},
         {{"bake", scene, "out", "--scheme", "magic"}, {"--scheme", "magic", "paper"}},
         {{"bake", scene, "out", "--sampling", "corner"}, {"--sampling", "corner", "centre"}},
         {{"bake", scene, "out", "--projection", "sphere"},
@@ -101,19 +106,34 @@ TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
         EXPECT_NE(help.out.find(option), std::string::npos) << option;
 }
 
-TEST(Options, ReadmeExplainsEveryOptionThatHelpLists)
+TEST(Options, OptionsPageIsWhatTheProgramPrints)
 {
-    const std::string readme = bytes_of(LUMEL_SOURCE_DIR "/README.md");
+    const Outcome page = run_lumel({"options"});
+    EXPECT_EQ(page.code, 0) << page.err;
+    EXPECT_TRUE(page.out == bytes_of(support::source_path("docs/options.md")))
+        << "print it again: lumel options > docs/options.md";
+}
+
+TEST(Options, OptionsPageHoldsEveryOptionThatHelpLists)
+{
+    const std::string page = run_lumel({"options"}).out;
     for (const char* command : {"bake", "update", "relight", "why", "render", "play", "reference",
                                 "info", "compare", "devices", "methods"}) {
         const std::string help = run_lumel({command, "--help"}).out;
-        for (std::size_t at = help.find("--"); at != std::string::npos;
-             at = help.find("--", at + 2)) {
-            const std::string option = help.substr(at, help.find_first_of(" ,=)\n", at) - at);
-            EXPECT_NE(readme.find("`" + option), std::string::npos)
-                << option << " of " << command << " is not in README.md";
+        for (std::size_t at = help.find("\n  --"); at != std::string::npos;
+             at = help.find("\n  --", at + 1)) {
+            const std::size_t name = at + 3;
+            const std::string option = help.substr(name, help.find_first_of(" \n", name) - name);
+            EXPECT_NE(page.find("`" + option), std::string::npos) << option << " of " << command;
         }
     }
+}
+
+TEST(Options, HelpFitsHundredColumns)
+{
+    std::istringstream help(run_lumel({"bake", "--help"}).out);
+    for (std::string line; std::getline(help, line);)
+        EXPECT_LE(line.size(), 100u) << line;
 }
 
 TEST(Options, MethodsListsTheDefaultSolver)

@@ -20,26 +20,28 @@ std::vector<std::string> small_play(const std::string& folder, const std::vector
 TEST(Play, WritesAPictureAndARowForEachFrame)
 {
     const Workplace place;
-    for (const std::string way : {"incremental", "cross"}) {
-        const Outcome outcome = run_lumel(
-            small_play(place.path(way), {"--frames", "3", "--redistribution", way, "--json"}));
+    for (const std::string redistribution : {"incremental", "cross"}) {
+        const Outcome outcome =
+            run_lumel(small_play(place.path(redistribution),
+                                 {"--frames", "3", "--redistribution", redistribution, "--json"}));
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
         ASSERT_FALSE(report.is_discarded()) << outcome.out;
-        EXPECT_EQ(report, nlohmann::json::parse(bytes_of(place.path(way + "/report.json"))));
+        EXPECT_EQ(report,
+                  nlohmann::json::parse(bytes_of(place.path(redistribution + "/report.json"))));
         const auto& rows = report["frames"];
         ASSERT_EQ(rows.size(), 3u);
         for (std::size_t k = 0; k < rows.size(); ++k) {
             const std::string name = "frame-000" + std::to_string(k + 1) + ".png";
             EXPECT_EQ(rows[k]["file"], name);
-            EXPECT_EQ(bytes_of(place.path(way + "/" + name)).substr(1, 3), "PNG");
+            EXPECT_EQ(bytes_of(place.path(redistribution + "/" + name)).substr(1, 3), "PNG");
             EXPECT_NEAR(rows[k]["time_s"], double(k) / 12.0, 1e-9);
             EXPECT_LE(rows[k]["residual"], 0.002);
             EXPECT_EQ(rows[k]["at_rest"], true);
             EXPECT_GT(rows[k]["hemicubes"], 0);
         }
-        EXPECT_NE(bytes_of(place.path(way + "/frame-0001.png")),
-                  bytes_of(place.path(way + "/frame-0002.png")));
+        EXPECT_NE(bytes_of(place.path(redistribution + "/frame-0001.png")),
+                  bytes_of(place.path(redistribution + "/frame-0002.png")));
     }
 }
 

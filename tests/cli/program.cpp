@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../support/source_folder.h"
+
 namespace lumel::test {
 namespace {
 
@@ -141,7 +143,7 @@ std::vector<std::string> Workplace::listing() const
 
 std::string own_scene(const std::string& name)
 {
-    return LUMEL_SOURCE_DIR "/scenes/" + name;
+    return support::source_path("scenes/" + name);
 }
 
 std::string bytes_of(const std::string& path)

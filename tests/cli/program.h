@@ -45,7 +45,7 @@ std::string own_scene(const std::string& name);
 /// All bytes of a file; empty if there is none.
 std::string bytes_of(const std::string& path);
 
-/// Passes if `outcome` is a failure with this exit code that says one line on stderr, nothing on
+/// Passes if `outcome` is a failure with this exit code that prints one line on stderr, nothing on
 /// stdout, and names all of `words`.
 void expect_one_sentence(const Outcome& outcome, int code, const std::vector<std::string>& words);
 

@@ -1,4 +1,4 @@
-// A bake is lit anew, and says where its light comes from.
+// A bake is lit anew, and shows where its light comes from.
 
 #include <algorithm>
 #include <filesystem>

@@ -40,8 +40,9 @@ TEST(Render, WritesThePictureItsNameAsksFor)
 TEST(Render, PrintsItsReportAsJson)
 {
     const Workplace place;
-    for (const char* way : {"--lobe-rays", "--paths"}) {
-        const Outcome outcome = run_lumel(small_render(place.path("a.png"), {"--json", way, "4"}));
+    for (const char* option : {"--lobe-rays", "--paths"}) {
+        const Outcome outcome =
+            run_lumel(small_render(place.path("a.png"), {"--json", option, "4"}));
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
         ASSERT_FALSE(report.is_discarded()) << outcome.out;

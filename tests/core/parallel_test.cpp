@@ -32,24 +32,24 @@ TEST(ParallelFor, HandsAnExceptionOfItsBodyToTheCaller)
     EXPECT_THROW(parallel_for(1000, 1, body), std::runtime_error);
 }
 
-TEST(ParallelSteps, TellHowManyAreDoneAndStopWhenAsked)
+TEST(ParallelSteps, ReportProgressAndStopOnRequest)
 {
     for (const std::size_t last : {100u, 8u}) {
         std::vector<std::atomic<int>> visits(10);
-        std::vector<std::size_t> told;
+        std::vector<std::size_t> reported;
         const auto body = [&](std::size_t first, std::size_t end) {
             for (std::size_t i = first; i < end; ++i)
                 ++visits[i];
         };
         const bool finished = parallel_steps(10, 4, 1, body, [&](std::size_t done) {
-            told.push_back(done);
+            reported.push_back(done);
             return done < last;
         });
         EXPECT_EQ(finished, last > 10);
-        EXPECT_EQ(told, finished ? (std::vector<std::size_t>{4, 8, 10})
-                                 : (std::vector<std::size_t>{4, 8}));
+        EXPECT_EQ(reported, finished ? (std::vector<std::size_t>{4, 8, 10})
+                                     : (std::vector<std::size_t>{4, 8}));
         for (std::size_t i = 0; i < visits.size(); ++i)
-            EXPECT_EQ(visits[i], i < told.back() ? 1 : 0) << "index " << i;
+            EXPECT_EQ(visits[i], i < reported.back() ? 1 : 0) << "index " << i;
     }
 }
 

@@ -1,9 +1,11 @@
 // The thin layer over Vulkan.
 
+#include <cstdlib>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "gpu/memory.h"
 #include "gpu/pacer.h"
 
 namespace lumel::gpu {
@@ -11,6 +13,61 @@ namespace {
 
 constexpr std::uint32_t kTwiceSpirv[] = {
 #include "../tests/gpu/twice.comp.inc"
+};
+
+/// A host's instance and device with no more than HostDevice asks for: no VK_EXT_debug_utils.
+class PlainHost {
+public:
+    PlainHost()
+    {
+        check(volkInitialize(), "volkInitialize");
+        const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                            .apiVersion = VK_API_VERSION_1_3};
+        const VkInstanceCreateInfo instance{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                            .pApplicationInfo = &application};
+        check(vkCreateInstance(&instance, nullptr, &handles_.instance), "vkCreateInstance");
+        volkLoadInstance(handles_.instance);
+        std::uint32_t one = 1;
+        vkEnumeratePhysicalDevices(handles_.instance, &one, &handles_.physical);
+        VkPhysicalDeviceVulkan13Features v13{
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+            .synchronization2 = VK_TRUE,
+            .dynamicRendering = VK_TRUE,
+            .maintenance4 = VK_TRUE};
+        const VkPhysicalDeviceVulkan12Features v12{
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+            .pNext = &v13,
+            .scalarBlockLayout = VK_TRUE};
+        const VkPhysicalDeviceFeatures features{.fullDrawIndexUint32 = VK_TRUE};
+        const float priority = 1.0f;
+        const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                            .queueCount = 1,
+                                            .pQueuePriorities = &priority};
+        const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+        const VkDeviceCreateInfo device{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                        .pNext = &v12,
+                                        .queueCreateInfoCount = 1,
+                                        .pQueueCreateInfos = &queue,
+                                        .enabledExtensionCount = 1,
+                                        .ppEnabledExtensionNames = &extension,
+                                        .pEnabledFeatures = &features};
+        check(vkCreateDevice(handles_.physical, &device, nullptr, &handles_.device),
+              "vkCreateDevice");
+        volkLoadDevice(handles_.device);
+        vkGetDeviceQueue(handles_.device, 0, 0, &handles_.queue);
+    }
+    ~PlainHost()
+    {
+        vkDestroyDevice(handles_.device, nullptr);
+        vkDestroyInstance(handles_.instance, nullptr);
+    }
+    PlainHost(const PlainHost&) = delete;
+    PlainHost& operator=(const PlainHost&) = delete;
+
+    const HostDevice& handles() const { return handles_; }
+
+private:
+    HostDevice handles_;
 };
 
 struct TwiceParams {
@@ -54,6 +111,87 @@ TEST(Device, OfAHostServesAndStaysTheHosts)
     EXPECT_EQ(after.download(), values);
     EXPECT_THROW(Device(HostDevice{}), Error);
     EXPECT_EQ(host.validation_messages(), "");
+}
+
+TEST(Device, OfAHostNeedsNoDebugUtils)
+{
+    const PlainHost host;
+    const Device guest(host.handles());
+    const std::vector<std::uint32_t> values = {2, 7, 1, 8};
+    const Array<std::uint32_t> array(guest, std::span<const std::uint32_t>(values), "named");
+    Target image(guest, Pixel::rgba8, 2, 2);
+    image.upload(values.data());
+    Pacer pacer(guest);
+    pacer.work("labelled", [&](Commands& commands) { commands.fill(array.buffer(), 3); });
+    pacer.finish();
+    EXPECT_EQ(array.download(), std::vector<std::uint32_t>(4, 3));
+}
+
+TEST(Device, HasWhatItsArraysHold)
+{
+    const Device device;
+    const std::uint64_t before = device.held_bytes();
+    {
+        const Array<std::uint32_t> array(device, 1000);
+        EXPECT_GE(device.held_bytes(), before + 4000);
+    }
+    EXPECT_EQ(device.held_bytes(), before);
+    EXPECT_GE(device.peak_bytes(), before + 4000);
+}
+
+TEST(Array, SharesMemoryWithOthersButNoByte)
+{
+    const Device device;
+    std::vector<Array<std::uint32_t>> arrays;
+    const auto values_of = [](std::size_t i) {
+        return std::vector<std::uint32_t>(1 + 97 * i, std::uint32_t(i));
+    };
+    for (std::size_t i = 0; i < 400; ++i) {
+        arrays.emplace_back(device, std::span<const std::uint32_t>(values_of(i)));
+        if (i % 3 == 2)  // gaps of many sizes to be filled again
+            arrays.erase(arrays.begin() + std::ptrdiff_t(arrays.size() / 2));
+    }
+    EXPECT_LT(device.memory().blocks(), 4u);
+    for (const Array<std::uint32_t>& array : arrays) {
+        const std::vector<std::uint32_t> back = array.download();
+        EXPECT_EQ(back, values_of((back.size() - 1) / 97));
+    }
+    const std::size_t blocks = device.memory().blocks();
+    arrays.clear();
+    EXPECT_LT(device.memory().blocks(), blocks);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Array, OfManyPartsComesBackAsItWent)
+{
+    const Device device;
+    std::vector<std::uint32_t> values(5'000'001);
+    std::iota(values.begin(), values.end(), 7u);
+    const Array<std::uint32_t> array(device, std::span<const std::uint32_t>(values));
+    EXPECT_EQ(array.download(), values);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Names, StandInValidationMessages)
+{
+    const Device device;
+    if (std::getenv("LUMEL_VALIDATION") == nullptr)
+        GTEST_SKIP() << "needs the validation layers";
+    const Array<std::uint32_t> few(device, 1, "sums of light"), many(device, 100);
+    Commands commands(device);
+    commands.stage("adding up");
+    commands.copy(many.buffer(), few.buffer(), 400);
+    const std::string messages = device.validation_messages();
+    EXPECT_NE(messages.find("sums of light"), std::string::npos) << messages;
+    EXPECT_NE(messages.find("adding up"), std::string::npos) << messages;
+}
+
+TEST(Names, AreTheLineOfSourceWhereNoneIsGiven)
+{
+    EXPECT_EQ(Name::of_line().text(), "gpu_test.cpp:" + std::to_string(__LINE__));
+    EXPECT_EQ(Name::of_line("/home/me/src/lumel/src/solve/glossy.cpp", 7).text(),
+              "solve/glossy.cpp:7");
+    EXPECT_EQ(Name("sums").text(), "sums");
 }
 
 TEST(Array, ComesBackAsItWent)
@@ -146,6 +284,19 @@ TEST(Target, ComesBackAsItWent)
     std::vector<float> pixels(64, 0.25f);
     target.upload(pixels.data());
     std::vector<float> back(64);
+    target.download(back.data());
+    EXPECT_EQ(back, pixels);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Target, OfManyPartsComesBackAsItWent)
+{
+    const Device device;
+    Target target(device, Pixel::rgba32, 1001, 701);
+    std::vector<float> pixels(std::size_t(1001) * 701 * 4);
+    std::iota(pixels.begin(), pixels.end(), 0.0f);
+    target.upload(pixels.data());
+    std::vector<float> back(pixels.size());
     target.download(back.data());
     EXPECT_EQ(back, pixels);
     EXPECT_EQ(device.validation_messages(), "");

@@ -30,10 +30,10 @@ Sky constant_sky(const glm::vec3& radiance)
     return {1, 1, {radiance}};
 }
 
-/// Places a light so that it shines along `way`.
-glm::mat4 shining(const glm::vec3& way, const glm::vec3& position = glm::vec3(0.0f))
+/// Places a light so that it shines along `direction`.
+glm::mat4 shining(const glm::vec3& direction, const glm::vec3& position = glm::vec3(0.0f))
 {
-    const glm::vec3 z = -glm::normalize(way);
+    const glm::vec3 z = -glm::normalize(direction);
     const glm::vec3 other =
         std::abs(z.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
     const glm::vec3 x = glm::normalize(glm::cross(other, z));

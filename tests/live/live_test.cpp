@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "../support/source_folder.h"
 #include "core/error.h"
 #include "live/live_scene.h"
 #include "scene/scene.h"
@@ -19,7 +20,7 @@ constexpr int kSmallHemicube = 64;
 
 Scene room_with_a_box()
 {
-    return read_gltf(LUMEL_SOURCE_DIR "/scenes/moving-large-lamp.gltf");
+    return read_gltf(support::source_path("scenes/moving-large-lamp.gltf"));
 }
 
 LiveOptions options_for(const Scene& scene, Redistribution redistribution)
@@ -32,10 +33,11 @@ LiveOptions options_for(const Scene& scene, Redistribution redistribution)
 }
 
 /// The box's place, shifted toward a wall and turned about its own axis [rad].
-glm::mat4 shifted(const Scene& scene, float way, float angle)
+glm::mat4 shifted(const Scene& scene, float distance, float angle)
 {
     const glm::vec3 axis(1.0f, 0.0f, 1.0f);
-    const glm::mat4 shift = glm::translate(glm::mat4(1.0f), axis + glm::vec3(-way, 0.0f, 0.0f));
+    const glm::mat4 shift =
+        glm::translate(glm::mat4(1.0f), axis + glm::vec3(-distance, 0.0f, 0.0f));
     return glm::translate(glm::rotate(shift, angle, glm::vec3(0, 1, 0)), -axis) *
            scene.instances[find_instance(scene, "box")].transform;
 }
@@ -95,7 +97,7 @@ TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
     const gpu::Device device;
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
-    options.solver.hemicube = kSmallHemicube;  // what drifts does so whatever is seen
+    options.solver.views.hemicube = kSmallHemicube;  // what drifts does so whatever is seen
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
     live.settle();
@@ -116,7 +118,7 @@ TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = kSmallSide;
-    options.solver.hemicube = kSmallHemicube;
+    options.solver.views.hemicube = kSmallHemicube;
     options.residual = 0.0005;  // less than the two may be apart
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
@@ -138,7 +140,7 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     const Scene scene = room_with_a_box();
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = kSmallSide;
-    options.solver.hemicube = kSmallHemicube;
+    options.solver.views.hemicube = kSmallHemicube;
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
     LiveScene at_once(device, scene, options), bit_by_bit(device, scene, options);
@@ -149,7 +151,7 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     bit_by_bit.move(block, place);
     // Cross redistribution looks from fronts and from backs.
     const std::uint64_t batch =
-        std::uint64_t(options.solver.batch) * (GetParam() == Redistribution::cross ? 2 : 1);
+        std::uint64_t(options.solver.views.batch) * (GetParam() == Redistribution::cross ? 2 : 1);
     std::uint64_t hemicubes = bit_by_bit.state().hemicubes;
     do {
         const auto shown = bit_by_bit.irradiance();

@@ -73,9 +73,9 @@ TEST(Phong, DirectionsAreDrawnAsOftenAsTheLobeIsDense)
         for (int x = 0; x < kSide; ++x)
             for (int y = 0; y < kSide; ++y) {
                 const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / float(kSide);
-                const glm::vec3 way = phong_direction(mirror, shininess, at);
-                EXPECT_NEAR(glm::length(way), 1.0f, 1e-5f);
-                const auto cosine = double(glm::dot(way, mirror));
+                const glm::vec3 direction = phong_direction(mirror, shininess, at);
+                EXPECT_NEAR(glm::length(direction), 1.0f, 1e-5f);
+                const auto cosine = double(glm::dot(direction, mirror));
                 drawn += cosine > kFrom && cosine < kTo ? 1.0 / (kSide * kSide) : 0.0;
             }
         for (int i = 0; i < kSteps; ++i) {

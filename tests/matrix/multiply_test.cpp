@@ -37,7 +37,7 @@ std::vector<glm::vec3> on_gpu(const gpu::Device& device, Product product,
     return to.download();
 }
 
-/// Each state's colours within `tolerance` of what the matrix says, against the largest.
+/// Each state's colours within `tolerance` of those by the matrix, relative to the largest.
 void expect_products(const std::vector<glm::vec3>& found, const ColorMatrix& matrix,
                      const std::vector<glm::vec3>& x, float tolerance)
 {

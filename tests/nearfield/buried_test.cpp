@@ -37,7 +37,7 @@ void add_box(std::vector<Quad>& quads, const glm::vec3& low, const glm::vec3& hi
             quads.push_back(walls[side]);
 }
 
-/// Marks and says which lumels are buried.
+/// Marks the lumels that are buried, and returns them.
 std::vector<bool> buried(HandMade made)
 {
     mark_buried(made.scene, RayScene(made.scene), made.lumels);

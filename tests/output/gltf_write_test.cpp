@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
 #include "core/error.h"
 #include "hand_atlas.h"
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kConformance = fs::path(LUMEL_SOURCE_DIR) / "../shared/data/gltf_conformance";
+const fs::path kConformance = support::data_path("gltf_conformance");
 
 std::vector<std::string> conformance_files()
 {
@@ -45,7 +46,7 @@ const Primitive& primitive_of(const Scene& scene, const Surface& surface)
     return scene.meshes.at(std::size_t(instance.mesh)).primitives.at(surface.primitive);
 }
 
-// Colour, emission and opacity at a corner, read the way a renderer would.
+// Colour, emission and opacity at a corner, read as a renderer would.
 MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
 {
     glm::vec2 texcoords[2];

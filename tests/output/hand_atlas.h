@@ -1,6 +1,6 @@
 #pragma once
 // An atlas without charts: every corner of every triangle is a vertex of its own at a place that
-// tells which one it is. Nothing of the atlas room is needed.
+// identifies it. Nothing of the atlas room is needed.
 
 #include <cstdint>
 

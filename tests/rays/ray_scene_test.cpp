@@ -185,7 +185,7 @@ TEST(RayScene, GlassTintsWhatPasses)
     RayHit hit;
     ASSERT_TRUE(rays.closest(above, down, 0.0f, kFar, 1, hit));
     EXPECT_FLOAT_EQ(hit.distance, 2.0f);
-    EXPECT_EQ(hit.tint, pane.albedo) << "glass behind the wall has no say";
+    EXPECT_EQ(hit.tint, pane.albedo) << "glass behind the wall has no effect";
 
     scene.materials[1].transmission = 1.0f;
     const glm::vec3 thrice = pane.albedo * pane.albedo * pane.albedo;

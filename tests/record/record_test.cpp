@@ -39,19 +39,14 @@ BakeRecord unusual()
     record.lights.light_radius = 0.025f;
     record.lights.profiles = {{"bulb", "/lamps/a.ies"}, {"spot", "/lamps/b.ies"}};
     record.atlas = {.texels_per_metre = 12.3f, .size = 96, .max_size = 1024, .gutter = 3};
-    record.solver.method = "matrix";
-    record.solver.scheme = Scheme::paper;
-    record.solver.rule = SampleRule::centre;
-    record.solver.seed = 4294967295u;
-    record.solver.batch = 5;
-    record.solver.projection = Projection::hemisphere;
-    record.solver.hemicube = 128;
-    record.solver.layers = Layers::peel;
-    record.solver.lookups = 5;
-    record.solver.slabs = 7;
-    record.solver.map_side = 333;
-    record.solver.patches = 1000;
-    record.solver.bounces = 3;
+    record.solver.method = DirectionsOptions{.seed = 4294967295u,
+                                             .batch = 5,
+                                             .rule = SampleRule::centre,
+                                             .iteration = {Scheme::paper},
+                                             .layers = Layers::stochastic,
+                                             .lookups = 5,
+                                             .slabs = 7,
+                                             .map_side = 333};
     record.solver.max_shots = 4096;
     record.solver.max_seconds = 12.5;
     record.solver.target_error = 0.005;
@@ -111,7 +106,7 @@ TEST(BakeRecord, IsReadBackAsItWasWritten)
     EXPECT_EQ(same.lights.sun->azimuth, glm::radians(10.0));
     EXPECT_EQ(same.lights.sun_angle, float(glm::radians(0.3)));
     EXPECT_EQ(same.atlas.texels_per_metre, 12.3f);
-    EXPECT_EQ(same.solver.seed, 4294967295u);
+    EXPECT_EQ(seed_of(same.solver.method), 4294967295u);
     EXPECT_EQ(same.exposure, 0.0625f);
 }
 
@@ -123,7 +118,7 @@ TEST(BakeRecord, HasNumbersAsNumbersAndAnglesAsTheyWereGiven)
     EXPECT_EQ(report["settings"]["texels-per-metre"].dump(), "12.3");
     EXPECT_EQ(report["lights"]["sun"]["elevation"].dump(), "35.0");
     EXPECT_EQ(report["lights"]["sky-scale"].dump(), "0.1");
-    EXPECT_EQ(report["solver"]["options"]["layers"], "peel");
+    EXPECT_EQ(report["solver"]["options"]["layers"], "stochastic");
     EXPECT_EQ(report["solver"]["limits"]["error"], 0.005);
 }
 

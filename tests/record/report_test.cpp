@@ -12,7 +12,7 @@ TEST(Report, SaysWhatItWasGiven)
     Report report;
     report.scene = "room.glb";
     report.settings = {{"gutter", 2}, {"half", true}};
-    report.solver = {{"method", "gather"}, {"seed", 7}};
+    report.solver = {{"method", "gather"}, {"options", {{"seed", 7}}}};
     report.convergence = {{100, 0.5, 0.1}, {200, 1.0, 0.05}};
     report.gpu_milliseconds = {{"receive", {1.0, 3.0}}, {"never run", {}}};
     report.warnings = {"a lamp is too bright"};
@@ -20,7 +20,7 @@ TEST(Report, SaysWhatItWasGiven)
     EXPECT_EQ(json["scene"]["file"], "room.glb");
     EXPECT_EQ(json["settings"]["gutter"], 2);
     EXPECT_EQ(json["settings"]["half"], true);
-    EXPECT_EQ(json["solver"]["seed"], 7);
+    EXPECT_EQ(json["solver"]["options"]["seed"], 7);
     EXPECT_EQ(json["solution"]["convergence"][1]["shots"], 200);
     EXPECT_EQ(json["timings"]["gpu"]["receive"]["total_ms"], 4.0);
     EXPECT_FALSE(json["timings"]["gpu"].contains("never run"));

@@ -137,8 +137,9 @@ TEST(Brdf, SamplesFollowItsDensity)
                     kCount * solid_angle * double(brdf.respond(incoming).density);
             });
             for (std::uint32_t i = 0; i < kCount; ++i)
-                if (const glm::vec3 way = brdf.sample(PathSamples(2, i).random(0)); way.z > 0.0f)
-                    drawn[bin_of(way)] += 1.0;
+                if (const glm::vec3 direction = brdf.sample(PathSamples(2, i).random(0));
+                    direction.z > 0.0f)
+                    drawn[bin_of(direction)] += 1.0;
 
             double chi_squared = 0.0, degrees = 0.0;
             for (std::size_t bin = 0; bin < drawn.size(); ++bin) {

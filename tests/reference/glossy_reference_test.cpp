@@ -44,7 +44,7 @@ struct Reflection {
     }
 };
 
-/// H [lx] at the receiver's centre by way of the plate: points on the plate times points on the
+/// H [lx] at the receiver's centre through the plate: points on the plate times points on the
 /// lamp.
 double reflected_irradiance(const Reflection& scene, const Reflectance& look)
 {

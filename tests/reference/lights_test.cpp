@@ -64,9 +64,9 @@ glm::dvec3 under(const Sky& sky, const glm::dvec3& normal)
         const double angle = 2.0 * double(kPi) / columns * std::sin(theta) * double(kPi) / rows;
         for (int column = 0; column < columns; ++column) {
             const double phi = (column + 0.5) * 2.0 * double(kPi) / columns;
-            const glm::dvec3 way(-std::cos(phi) * std::sin(theta), std::cos(theta),
-                                 -std::sin(phi) * std::sin(theta));
-            const double cosine = std::max(0.0, glm::dot(way, normal));
+            const glm::dvec3 direction(-std::cos(phi) * std::sin(theta), std::cos(theta),
+                                       -std::sin(phi) * std::sin(theta));
+            const double cosine = std::max(0.0, glm::dot(direction, normal));
             const std::size_t texel =
                 std::size_t(row / kFine) * std::size_t(sky.width) + std::size_t(column / kFine);
             sum += cosine * angle * glm::dvec3(sky.radiance[texel]);

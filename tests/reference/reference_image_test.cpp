@@ -163,10 +163,10 @@ double lit_by(const Quad& lamp, const Brdf& brdf)
     double sum = 0.0;
     for (int v = 0; v < kSide; ++v)
         for (int u = 0; u < kSide; ++u) {
-            const glm::vec3 way = lamp.corner + (float(u) + 0.5f) / kSide * lamp.edge_u +
-                                  (float(v) + 0.5f) / kSide * lamp.edge_v;
-            const float squared = glm::dot(way, way);
-            const glm::vec3 incoming = way / std::sqrt(squared);
+            const glm::vec3 offset = lamp.corner + (float(u) + 0.5f) / kSide * lamp.edge_u +
+                                     (float(v) + 0.5f) / kSide * lamp.edge_v;
+            const float squared = glm::dot(offset, offset);
+            const glm::vec3 incoming = offset / std::sqrt(squared);
             sum += double(support::value_of(brdf, incoming).x * incoming.z *
                           std::max(0.0f, -glm::dot(across, incoming)) / squared);
         }
@@ -175,7 +175,7 @@ double lit_by(const Quad& lamp, const Brdf& brdf)
 
 TEST(ReferenceImage, ALampIsReflectedAsItsQuadratureSays)
 {
-    // Small and large, so that either way of finding it matters; in the mirror and off it.
+    // Small and large, so that either technique of finding it matters; in the mirror and off it.
     Quad small{{-0.6f, -0.05f, 1.0f}, {0.0f, 0.1f, 0.0f}, {0.1f, 0.0f, 0.0f}};
     Quad large{{-3.0f, -2.0f, 1.0f}, {0.0f, 4.0f, 0.0f}, {4.0f, 0.0f, 0.0f}};
     for (Quad lamp : {small, large})
@@ -218,9 +218,10 @@ TEST(ReferenceImage, AGlossyFloorReflectsALampAndTheSkyAsItsBrdfSays)
             const Image image =
                 render(made.scene, view, {.width = 4, .height = 4, .samples_per_pixel = 4096});
             const Brdf brdf(look, {0.0f, 0.0f, 1.0f}, toward);
-            const glm::vec3 way = glm::normalize(place);
-            const double from_lamp = double(support::value_of(brdf, way).x * 5.0f * way.z) /
-                                     double(glm::dot(place, place));
+            const glm::vec3 direction = glm::normalize(place);
+            const double from_lamp =
+                double(support::value_of(brdf, direction).x * 5.0f * direction.z) /
+                double(glm::dot(place, place));
             const double from_sky = support::over_hemisphere([&](const glm::vec3& incoming) {
                 return support::value_of(brdf, incoming).x * incoming.z *
                        sky_radiance(made.scene.sky, incoming).x;

@@ -2,7 +2,7 @@
 //
 //     H = S = ⟨E⟩ / (1 - ⟨ρ⟩),      ⟨·⟩ = area average.
 //
-// A room of one look cannot tell swapped indices from right ones; this one can.
+// A uniform room cannot reveal swapped indices; this one can.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Animations: values between keys against hand-computed ones, and what files say.
+// Animations: values between keys against hand-computed ones, and the contents of files.
 
 #include <cmath>
 #include <numbers>
@@ -122,7 +122,7 @@ TEST(Animations, RotationsTurnEvenlyAlongTheShorterArc)
 
 TEST(Animations, SplinesAreHermites)
 {
-    // From 1 to 2 over 2 s, leaving with slope 3 and arriving with slope -1: at half way
+    // From 1 to 2 over 2 s, leaving with slope 3 and arriving with slope -1: in the middle
     // (1 + 2) / 2 + 2 (3 - (-1)) / 8; at a quarter 27/32 + 2 · 9/64 · 3 + 10/32 + 2 · 3/64.
     const Track track{Interpolation::cubic_spline,
                       {0.0, 2.0},

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "gltf_builder.h"
 
 using namespace lumel;
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kData = LUMEL_SOURCE_DIR "/../shared/data";
+const fs::path kData = support::data_path("");
 
 /// All glTF files below a folder, sorted; empty where the data is absent.
 std::vector<std::string> files_below(const std::string& folder)

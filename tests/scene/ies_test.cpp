@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "gltf_builder.h"
 #include "scene/ies.h"
 
@@ -14,7 +15,7 @@ using namespace lumel::test;
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-const std::string kFiles = LUMEL_SOURCE_DIR "/../shared/data/ies/synthetic/";
+const std::string kFiles = support::data_path("ies/synthetic/");
 
 Photometry read(const std::string& text)
 {
@@ -179,11 +180,11 @@ TEST(Ies, MistakesAreNamedWithTheirLine)
         std::string text = lamp();
         return error_of_text(text.replace(text.find(part), part.size(), other));
     };
-    EXPECT_TRUE(contains(with("100 70 0", "100 7o 0"), "lamp.ies: line 8: \"7o\" is no number"));
+    EXPECT_TRUE(contains(with("100 70 0", "100 7o 0"), "lamp.ies: line 8: \"7o\" is not a number"));
     EXPECT_TRUE(contains(with("100 70 0", "100 70"), "ends before its candela"));
     EXPECT_TRUE(contains(with("100 70 0", "100 70 0 9"), "line 8: \"9\" follows"));
     EXPECT_TRUE(contains(with("100 70 0", "100 -70 0"), "line 8: the candela is below 0"));
-    EXPECT_TRUE(contains(with("100 70 0", "100 1e999 0"), "is no number"));
+    EXPECT_TRUE(contains(with("100 70 0", "100 1e999 0"), "is not a number"));
     EXPECT_TRUE(contains(with("0 45 90", "0 95 90"), "line 6: the vertical angles must grow"));
     EXPECT_TRUE(contains(with("0 45 90", "-90 45 90"), "vertical angles must be"));
     EXPECT_TRUE(contains(with("90\n0\n", "90\n5\n"), "horizontal angles must go"));

@@ -1,4 +1,4 @@
-// EXT_lights_image_based: which way its faces look, and how bright they are.
+// EXT_lights_image_based: the directions of its faces, and their brightness.
 
 #include <gtest/gtest.h>
 

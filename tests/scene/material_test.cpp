@@ -1,4 +1,4 @@
-// Materials as the file says, and how they look at a point.
+// Materials as in the file, and their values at a point.
 
 #include <cmath>
 
@@ -84,7 +84,7 @@ TEST(Materials, EmissiveStrengthScalesTheFactor)
     EXPECT_EQ(sample_material(scene, 0, kNowhere, glm::vec4(1)).emitted, glm::vec3(40, 20, 0));
 }
 
-// The mapping of README's "Gloss".
+// The mapping of docs/methods.md, "Gloss".
 TEST(Materials, DielectricsReflectF0AndMetalsTheirColour)
 {
     const auto sample = [](float metallic, const Json& extensions) {

@@ -1,4 +1,4 @@
-// Which way lamps send how much.
+// The light that lamps send into each direction.
 
 #include <cmath>
 

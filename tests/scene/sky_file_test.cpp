@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "gltf_builder.h"
 #include "images/image_files.h"
 #include "scene/sky_file.h"
@@ -138,7 +139,7 @@ TEST(SkyFile, TurningMovesTheCentreCounterClockwiseFromAbove)
 
 TEST(SkyFile, RealSkiesHaveTheirIrradiance)
 {
-    const std::string folder = LUMEL_SOURCE_DIR "/../shared/data/hdri/blender_world/";
+    const std::string folder = support::data_path("hdri/blender_world/");
     if (!std::filesystem::exists(folder))
         GTEST_SKIP() << "the test data is absent";
     const std::pair<const char*, glm::dvec3> expected[] = {

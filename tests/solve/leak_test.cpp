@@ -25,7 +25,7 @@ struct Furnace {
         atlas = support::lay_out(made, quads);
     }
 
-    /// Lets the walls emit so much.
+    /// Lets the walls emit this much.
     void shine(float emission)
     {
         for (Lumel& lumel : made.lumels.lumels)
@@ -42,11 +42,7 @@ struct Lit {
         : furnace(albedo),
           world(device, furnace.made.scene, furnace.made.lumels, &furnace.atlas),
           solver(device, world, furnace.made.lumels,
-                 {.method = "directions",
-                  .scheme = Scheme::paper,
-                  .batch = batch,
-                  .map_side = 64,
-                  .leak = leak})
+                 {.batch = batch, .iteration = {Scheme::paper, leak}, .map_side = 64})
     {
     }
     ~Lit() { EXPECT_EQ(device.validation_messages(), ""); }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether two ways to solve have the same mean, whatever their noise.
+// Whether two solvers have the same mean, whatever their noise.
 
 #include <cmath>
 #include <cstdint>

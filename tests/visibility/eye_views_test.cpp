@@ -1,4 +1,4 @@
-// What eyes say about visibility by either projection, held against rays.
+// The visibility that eyes find by either projection, compared with rays.
 
 #include <random>
 
@@ -47,7 +47,7 @@ support::HandMade room_with_blocks()
 }
 
 struct Agreement {
-    double wrong = 0.0;  ///< share of all asked
+    double wrong = 0.0;  ///< share of all tested
     double wrongly_seen = 0.0;
     double wrong_light = 0.0;  ///< share of cosθ cosθ' / r², of all that is seen
 };
@@ -68,7 +68,7 @@ Agreement agreement(Projection projection, bool in_parts)
         eyes.push_back(eye_at(lumel.position, lumel.normal));
     }
     const auto answers = look_and_ask(device, world, eyes, questions, projection, in_parts);
-    std::size_t asked = 0, wrong = 0, wrongly_seen = 0;
+    std::size_t tested = 0, wrong = 0, wrongly_seen = 0;
     double light = 0.0, wrong_light = 0.0;
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t q = 0; q < questions.size(); ++q) {
@@ -77,7 +77,7 @@ Agreement agreement(Projection projection, bool in_parts)
                 continue;
             const bool truth = rays.sees(eyes[e].position, questions[q].position, 1e-4f, 1);
             const bool answer = answers[e][q] != 0;
-            ++asked;
+            ++tested;
             wrong += truth != answer;
             wrongly_seen += answer && !truth;
             const double r2 = double(glm::dot(d, d));
@@ -86,9 +86,9 @@ Agreement agreement(Projection projection, bool in_parts)
             light += truth ? factor : 0.0;
             wrong_light += truth != answer ? factor : 0.0;
         }
-    EXPECT_GT(asked, 10000u);
+    EXPECT_GT(tested, 10000u);
     EXPECT_EQ(device.validation_messages(), "");
-    return {double(wrong) / double(asked), double(wrongly_seen) / double(asked),
+    return {double(wrong) / double(tested), double(wrongly_seen) / double(tested),
             wrong_light / light};
 }
 
@@ -138,8 +138,9 @@ double grazing_light_seen(Projection projection)
     std::vector<Eye> eyes;
     std::vector<Question> questions;
     for (int i = 0; i < 24; ++i) {
-        const glm::vec3 way(1.0f, unit(random) - 0.5f, 0.4f * (unit(random) - 0.5f));
-        eyes.push_back(eye_at({0.0f, 0.0f, 0.005f + 0.1f * unit(random)}, glm::normalize(way)));
+        const glm::vec3 direction(1.0f, unit(random) - 0.5f, 0.4f * (unit(random) - 0.5f));
+        eyes.push_back(
+            eye_at({0.0f, 0.0f, 0.005f + 0.1f * unit(random)}, glm::normalize(direction)));
     }
     for (int i = 0; i < 20000; ++i)
         questions.push_back(
@@ -201,16 +202,16 @@ TEST_P(Views, ShowNothingInsideAClosedBox)
     for (std::size_t i = 0; i < place.first[6]; ++i)
         questions.push_back({place.lumels.lumels[i].position, place.lumels.lumels[i].normal});
     const auto answers = look_and_ask(device, world, eyes, questions, GetParam().projection, false);
-    std::size_t asked = 0, seen = 0;
+    std::size_t tested = 0, seen = 0;
     for (std::size_t e = 0; e < eyes.size(); ++e)
         for (std::size_t q = 0; q < questions.size(); ++q) {
             const glm::vec3 d = questions[q].position - eyes[e].position;
             if (glm::dot(d, eyes[e].normal) <= 0.0f || glm::dot(d, questions[q].facing) >= 0.0f)
                 continue;
-            ++asked;
+            ++tested;
             seen += answers[e][q];
         }
-    EXPECT_GT(asked, 100000u);
+    EXPECT_GT(tested, 100000u);
     EXPECT_EQ(seen, 0u);
     EXPECT_EQ(device.validation_messages(), "");
 }

@@ -85,10 +85,10 @@ std::vector<glm::dvec2> outline(const Triangle& t)
         const double angle = std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
         for (int i = 0; i <= samples; ++i) {
             const double part = double(i) / samples;
-            const glm::dvec3 way =
+            const glm::dvec3 direction =
                 glm::normalize(a * std::sin((1.0 - part) * angle) + b * std::sin(part * angle));
-            if (way.z >= 0.0)
-                points.emplace_back(glm::dvec2(way) * kRadius + kRadius);
+            if (direction.z >= 0.0)
+                points.emplace_back(glm::dvec2(direction) * kRadius + kRadius);
         }
     }
     return points;

@@ -1,0 +1,115 @@
+// The score of `lumel bake`, without its files.
+
+#include "api/bake.h"
+
+#include <cmath>
+
+#include "api/device.h"
+#include "api/scene.h"
+#include "api/translate.h"
+#include "api/values.h"
+#include "bake/lighting.h"
+#include "bake/sources.h"
+#include "core/log.h"
+#include "finish/finish.h"
+#include "solve/methods.h"
+
+namespace lumel::v0 {
+namespace {
+
+[[noreturn]] void refuse(const std::string& setting, const std::string& what)
+{
+    throw lumel::Error(lumel::ErrorKind::input, "BakeSettings::" + setting, what);
+}
+
+lumel::Parts parts_of(Parts parts)
+{
+    switch (parts) {
+    case Parts::direct:
+        return lumel::Parts::direct;
+    case Parts::indirect:
+        return lumel::Parts::indirect;
+    default:
+        return lumel::Parts::all;
+    }
+}
+
+BakeOptions checked_options(const BakeSettings& settings, bool has_progress)
+{
+    BakeOptions options;
+    options.atlas = checked_options(settings.atlas);
+    options.parts = parts_of(settings.parts);
+    options.solver.method =
+        method_options(settings.method, {{"seed", std::to_string(settings.seed)}});
+    options.solver.target_error = settings.error;
+    options.solver.max_seconds = settings.seconds;
+    options.solver.max_shots = settings.shots;
+    if (!std::isfinite(settings.error) || settings.error < 0.0)
+        refuse("error", "must be a number of 0 or more");
+    if (!std::isfinite(settings.seconds) || settings.seconds < 0.0)
+        refuse("seconds", "must be a number of 0 or more");
+    if (settings.error == 0.0 && settings.seconds == 0.0 && settings.shots == 0 && !has_progress)
+        refuse("error", "nothing would end the bake: set an error, seconds or shots");
+    return options;
+}
+
+void check_materials(const MethodInfo& method, const lumel::Scene& scene)
+{
+    if (method.materials == MaterialModel::glossy && scene.model != MaterialModel::glossy)
+        refuse("method", std::string(method.id) + " needs a scene loaded with Materials::glossy");
+}
+
+lumel::ProgressFunction follower(const ProgressFunction& progress)
+{
+    if (!progress)
+        return {};
+    return [&progress](const BakeProgress& now) {
+        return progress({.stage = now.stage,
+                         .fraction = now.fraction,
+                         .shots = now.shots,
+                         .error = now.error,
+                         .seconds = now.seconds});
+    };
+}
+
+Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const BakeOptions& options,
+                 const lumel::ProgressFunction& progress)
+{
+    const LogCapture log;
+    Stages stages(progress);
+    const Setting setting(scene, device, options, stages);
+    std::unique_ptr<Solution> solution = keeps_sources_apart(options)
+                                             ? solve_sources(device, setting, options, stages)
+                                             : solve_light(device, setting, options, stages);
+    const SolverState solved = solution->solver->state();
+    const Prepared& world = setting.world;
+    Baked baked;
+    baked.interrupted = stages.stopped();
+    stages.begin("finishing");
+    baked.map = map_of(finish_map(world.scene, world.atlas, world.lumels, solution->irradiance));
+    baked.surfaces = surfaces_of(world.scene, world.atlas);
+    baked.texels_per_metre = world.atlas.texels_per_metre;
+    baked.error = solved.error;
+    baked.shots = solved.shots;
+    if (solution->relightable)
+        baked.relightable = std::make_shared<Relightable>(std::move(*solution->relightable),
+                                                          world.scene, world.atlas, world.lumels);
+    device.check_validation();
+    baked.notes = log.messages();
+    baked.seconds = stages.seconds();
+    return baked;
+}
+
+}  // namespace
+
+Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings,
+           const ProgressFunction& progress)
+{
+    return translated([&] {
+        const BakeOptions options = checked_options(settings, bool(progress));
+        check_materials(method_of(options.solver.method), scene.impl().scene);
+        return bake_scene(device.impl().device, scene.impl().scene, options, follower(progress));
+    });
+}
+
+}  // namespace lumel::v0

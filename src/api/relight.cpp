@@ -1,0 +1,94 @@
+#include "api/bake.h"
+#include "api/device.h"
+#include "api/translate.h"
+#include "api/values.h"
+#include "finish/finish.h"
+#include "relight/matrix_file.h"
+#include "relight/relight_session.h"
+
+namespace lumel::v0 {
+namespace {
+
+const lumel::Relightable& light_of(const Baked& baked)
+{
+    if (!baked.relightable)
+        throw lumel::Error(lumel::ErrorKind::input, "Baked",
+                           "is not relightable; bake all light by method \"matrix\" to its end");
+    return baked.relightable->light;
+}
+
+/// What a texel shows of lumels without charts: the front where there is one.
+Map map_of_places(const lumel::Relightable& light, const std::vector<glm::vec3>& irradiance)
+{
+    Image map(int(light.side), int(light.side), 4);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const std::uint32_t texel = light.place[i] / 2;
+        float* shown = map.values.data() + std::size_t(texel) * 4;
+        const bool back = light.place[i] != place_of(texel, false);
+        if (back && shown[3] > 0.0f)
+            continue;
+        for (int c = 0; c < 3; ++c)
+            shown[c] = irradiance[i][c];
+        shown[3] = 1.0f;
+    }
+    dilate(map);
+    return map_of(std::move(map));
+}
+
+}  // namespace
+
+struct RelightImpl {
+    const gpu::Device* device;
+    RelightSession session;
+    std::shared_ptr<const Relightable> baked;  ///< null: read from a file
+};
+
+Relight::Relight(const Device& device, const Baked& baked)
+    : impl_(translated([&] {
+          const gpu::Device& on = device.impl().device;
+          return std::unique_ptr<RelightImpl>(
+              new RelightImpl{&on, RelightSession(on, light_of(baked)), baked.relightable});
+      }))
+{
+}
+
+Relight::Relight(const Device& device, const std::string& path)
+    : impl_(translated([&] {
+          const gpu::Device& on = device.impl().device;
+          return std::unique_ptr<RelightImpl>(
+              new RelightImpl{&on, RelightSession(on, path), nullptr});
+      }))
+{
+}
+
+Relight::~Relight() = default;
+Relight::Relight(Relight&&) noexcept = default;
+Relight& Relight::operator=(Relight&&) noexcept = default;
+
+std::vector<std::string> Relight::lights() const
+{
+    return impl_->session.names();
+}
+
+void Relight::set_light(const std::string& name, const Vec3& factor)
+{
+    translated([&] { impl_->session.set_light(name, to_glm(factor)); });
+}
+
+Map Relight::map()
+{
+    return translated([&] {
+        const std::vector<glm::vec3> irradiance = impl_->session.irradiance();
+        impl_->device->check_validation();
+        if (const Relightable* baked = impl_->baked.get())
+            return map_of(finish_map(baked->scene, baked->atlas, baked->lumels, irradiance));
+        return map_of_places(impl_->session.light(), irradiance);
+    });
+}
+
+void Relight::save(const std::string& path) const
+{
+    translated([&] { write_relightable(path, impl_->session.light()); });
+}
+
+}  // namespace lumel::v0

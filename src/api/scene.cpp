@@ -1,0 +1,102 @@
+#include "api/scene.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "api/translate.h"
+#include "api/values.h"
+#include "scene/light_options.h"
+
+namespace lumel::v0 {
+namespace {
+
+void refuse(const std::string& what)
+{
+    throw lumel::Error(lumel::ErrorKind::input, "Daylight", what);
+}
+
+LightOptions options_of(const Daylight& daylight)
+{
+    LightOptions options;
+    options.sky_file = daylight.sky_file;
+    if (const auto& luminance = daylight.sky_luminance)
+        options.sky_color = checked_factor(*luminance, "Daylight::sky_luminance");
+    if (const auto& sun = daylight.sun) {
+        if (!std::isfinite(sun->azimuth) || !(std::abs(sun->elevation) <= std::numbers::pi / 2.0))
+            refuse("the elevation of the sun must lie between -pi/2 and pi/2, its azimuth must be "
+                   "a number");
+        options.sun = SunPosition{sun->azimuth, sun->elevation};
+    }
+    if (!std::isfinite(daylight.sky_scale) || daylight.sky_scale < 0.0f)
+        refuse("sky_scale must be a number of 0 or more");
+    if (!std::isfinite(daylight.rotation))
+        refuse("rotation must be a number");
+    options.sky_scale = daylight.sky_scale;
+    options.sky_rotation = daylight.rotation;
+    return options;
+}
+
+MaterialModel model_of(Materials materials)
+{
+    return materials == Materials::glossy ? MaterialModel::glossy : MaterialModel::diffuse;
+}
+
+}  // namespace
+
+Scene Scene::load(const std::string& path, Materials materials)
+{
+    return translated([&] {
+        return Scene(std::make_unique<SceneImpl>(lumel::read_gltf(path, model_of(materials))));
+    });
+}
+
+Scene::Scene(const SceneContent& content)
+    : impl_(translated([&] { return std::make_unique<SceneImpl>(scene_of(content)); }))
+{
+}
+
+Scene::Scene(std::unique_ptr<SceneImpl> impl) : impl_(std::move(impl)) {}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+void Scene::add_daylight(const Daylight& daylight)
+{
+    translated([&] {
+        lumel::Scene changed = impl_->scene;
+        add_lights(changed, options_of(daylight));
+        impl_->scene = std::move(changed);
+    });
+}
+
+std::vector<Instance> Scene::instances() const
+{
+    std::vector<Instance> list;
+    for (const lumel::Instance& instance : impl_->scene.instances)
+        list.push_back({.name = instance.name,
+                        .mesh = std::uint32_t(instance.mesh),
+                        .transform = from_glm(instance.transform),
+                        .node = instance.node});
+    return list;
+}
+
+std::vector<std::string> Scene::lights() const
+{
+    std::vector<std::string> names;
+    for (const PunctualLight& light : impl_->scene.lights)
+        names.push_back(light.name);
+    return names;
+}
+
+std::uint32_t Scene::find_instance(const std::string& name) const
+{
+    return translated([&] { return lumel::find_instance(impl_->scene, name); });
+}
+
+const std::vector<std::string>& Scene::warnings() const
+{
+    return impl_->scene.warnings;
+}
+
+}  // namespace lumel::v0

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "lumel/lumel.h"
+#include "scene/scene.h"
+
+namespace lumel::v0 {
+
+struct SceneImpl {
+    lumel::Scene scene;
+};
+
+/// Checks and copies. Throws lumel::Error{input} with the place of what is wrong.
+lumel::Scene scene_of(const SceneContent& content);
+
+}  // namespace lumel::v0

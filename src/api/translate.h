@@ -1,0 +1,34 @@
+#pragma once
+// From the rooms' errors to those that hosts catch.
+
+#include <utility>
+
+#include "core/error.h"
+#include "lumel/lumel.h"
+
+namespace lumel::v0 {
+
+inline ErrorKind kind_of(lumel::ErrorKind kind)
+{
+    switch (kind) {
+    case lumel::ErrorKind::device:
+        return ErrorKind::device;
+    case lumel::ErrorKind::output:
+        return ErrorKind::output;
+    default:
+        return ErrorKind::input;
+    }
+}
+
+/// What `work` returns; what it throws as an error of the rooms becomes the API's.
+template <class Work>
+decltype(auto) translated(Work&& work)
+{
+    try {
+        return std::forward<Work>(work)();
+    } catch (const lumel::Error& error) {
+        throw Error(kind_of(error.kind()), error.what());
+    }
+}
+
+}  // namespace lumel::v0

@@ -1,0 +1,95 @@
+#include "api/values.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include "core/error.h"
+
+namespace lumel::v0 {
+namespace {
+
+constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
+constexpr int kLargestGutter = 64;    // [texels]
+
+void check_range(int value, int least, int most, const std::string& name)
+{
+    if (value < least || value > most)
+        throw lumel::Error(lumel::ErrorKind::input, "AtlasSettings::" + name,
+                           "is " + std::to_string(value) + ", but must lie between " +
+                               std::to_string(least) + " and " + std::to_string(most));
+}
+
+}  // namespace
+
+glm::vec2 to_glm(const Vec2& v)
+{
+    return {v[0], v[1]};
+}
+
+glm::vec3 to_glm(const Vec3& v)
+{
+    return {v[0], v[1], v[2]};
+}
+
+glm::vec4 to_glm(const Vec4& v)
+{
+    return {v[0], v[1], v[2], v[3]};
+}
+
+glm::mat4 to_glm(const Mat4& m)
+{
+    return glm::make_mat4(m.data());
+}
+
+Mat4 from_glm(const glm::mat4& m)
+{
+    Mat4 result;
+    std::copy_n(glm::value_ptr(m), result.size(), result.begin());
+    return result;
+}
+
+glm::vec3 checked_factor(const Vec3& factor, const std::string& what)
+{
+    if (!is_finite(factor) || *std::min_element(factor.begin(), factor.end()) < 0.0f)
+        throw lumel::Error(lumel::ErrorKind::input, what,
+                           "the factor must be three numbers of 0 or more");
+    return to_glm(factor);
+}
+
+AtlasOptions checked_options(const AtlasSettings& settings)
+{
+    const float density = settings.texels_per_metre;
+    if (!std::isfinite(density) || density < 0.0f)
+        throw lumel::Error(lumel::ErrorKind::input, "AtlasSettings::texels_per_metre",
+                           "must be a number of 0 or more");
+    check_range(settings.size, 0, kLargestAtlas, "size");
+    check_range(settings.max_size, 1, kLargestAtlas, "max_size");
+    check_range(settings.gutter, 0, kLargestGutter, "gutter");
+    return {.texels_per_metre = density,
+            .size = settings.size,
+            .max_size = settings.max_size,
+            .gutter = settings.gutter};
+}
+
+Map map_of(Image&& image)
+{
+    return {.width = image.width, .height = image.height, .rgba = std::move(image.values)};
+}
+
+std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas)
+{
+    std::vector<Surface> surfaces;
+    const glm::vec2 size(atlas.width, atlas.height);
+    for (const lumel::Surface& from : atlas.surfaces) {
+        const lumel::Mesh& mesh = scene.meshes[std::size_t(scene.instances[from.instance].mesh)];
+        Surface& surface = surfaces.emplace_back();
+        surface.instance = from.instance;
+        surface.primitive = std::uint32_t(mesh.primitives[from.primitive].source_primitive);
+        surface.source_vertex = from.source_vertex;
+        surface.indices = from.indices;
+        for (const glm::vec2& place : from.texcoord)
+            surface.lightmap.push_back({place.x / size.x, place.y / size.y});
+    }
+    return surfaces;
+}
+
+}  // namespace lumel::v0

@@ -1,0 +1,48 @@
+#pragma once
+// Between plain values and those of the rooms.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "atlas/atlas.h"
+#include "core/image.h"
+#include "lumel/lumel.h"
+
+namespace lumel::v0 {
+
+glm::vec2 to_glm(const Vec2& v);
+glm::vec3 to_glm(const Vec3& v);
+glm::vec4 to_glm(const Vec4& v);
+glm::mat4 to_glm(const Mat4& m);
+template <class T>
+auto to_glm(const std::vector<T>& values)
+{
+    std::vector<decltype(to_glm(values[0]))> result;
+    result.reserve(values.size());
+    for (const T& value : values)
+        result.push_back(to_glm(value));
+    return result;
+}
+Mat4 from_glm(const glm::mat4& m);
+
+/// True if all of it are numbers.
+template <class Array>
+bool is_finite(const Array& values)
+{
+    return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+}
+
+/// Throws lumel::Error{input} if it is negative somewhere or no number. `what`: whose it is.
+glm::vec3 checked_factor(const Vec3& factor, const std::string& what);
+
+/// Throws lumel::Error{input} if a number is out of its limits.
+AtlasOptions checked_options(const AtlasSettings& settings);
+
+Map map_of(Image&& image);
+std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas);
+
+}  // namespace lumel::v0

@@ -1,0 +1,569 @@
+#include "solve/methods.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+#include "core/number.h"
+#include "solve/directions.h"
+#include "solve/gather.h"
+#include "solve/glossy.h"
+#include "solve/matrix.h"
+#include "solve/progressive.h"
+#include "solve/stochastic.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kLeastHemicube = 16, kMostHemicube = 2048;  // sides that devices draw [pixels]
+constexpr int kLeastMap = 16, kMostMap = 4096;            // sides [pixels]
+constexpr std::uint32_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kMostSlabs = 64;  // a direction has twice as many maps
+// Three matrices of n × n numbers and their inverse have to fit into memory, and take n³
+// operations.
+constexpr std::uint32_t kFewestPatches = 8, kMostPatches = 16384;
+constexpr std::uint32_t kMostReflections = 1'000'000;
+constexpr std::uint32_t kMostDirectionBatch = 256;  // maps that fit the images of common devices
+
+// Values that are words.
+
+template <class Value>
+struct Word {
+    const char* word;
+    Value value;
+};
+
+constexpr Word<SampleRule> kRules[] = {{"area", SampleRule::area}, {"centre", SampleRule::centre}};
+constexpr Word<Projection> kProjections[] = {{"hemicube", Projection::hemicube},
+                                             {"hemisphere", Projection::hemisphere}};
+constexpr Word<Scheme> kSchemes[] = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
+constexpr Word<Layers> kLayers[] = {
+    {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
+constexpr Word<int> kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
+
+// Where options are in the structs.
+
+constexpr auto seed = [](auto& o) -> auto&
+{
+    return o.seed;
+};
+constexpr auto rule = [](auto& o) -> auto&
+{
+    return o.rule;
+};
+constexpr auto scheme = [](auto& o) -> auto&
+{
+    return o.scheme;
+};
+constexpr auto averaging = [](auto& o) -> auto&
+{
+    return o.iteration.scheme;
+};
+constexpr auto batch = [](auto& o) -> auto&
+{
+    return o.batch;
+};
+constexpr auto hemicube = [](auto& o) -> auto&
+{
+    return o.hemicube;
+};
+constexpr auto eye_batch = [](auto& o) -> auto&
+{
+    return o.views.batch;
+};
+constexpr auto eye_hemicube = [](auto& o) -> auto&
+{
+    return o.views.hemicube;
+};
+constexpr auto projection = [](auto& o) -> auto&
+{
+    return o.views.projection;
+};
+constexpr auto layers = [](auto& o) -> auto&
+{
+    return o.layers;
+};
+constexpr auto lookups = [](auto& o) -> auto&
+{
+    return o.lookups;
+};
+constexpr auto slabs = [](auto& o) -> auto&
+{
+    return o.slabs;
+};
+constexpr auto map_side = [](auto& o) -> auto&
+{
+    return o.map_side;
+};
+constexpr auto patch_batch = [](auto& o) -> auto&
+{
+    return o.transport.views.batch;
+};
+constexpr auto patch_hemicube = [](auto& o) -> auto&
+{
+    return o.transport.views.hemicube;
+};
+constexpr auto patch_projection = [](auto& o) -> auto&
+{
+    return o.transport.views.projection;
+};
+constexpr auto patches = [](auto& o) -> auto&
+{
+    return o.transport.patches;
+};
+constexpr auto bounces = [](auto& o) -> auto&
+{
+    return o.transport.bounces;
+};
+
+/// What an option is called and says, and when it counts.
+struct Label {
+    const char* name;
+    const char* type;
+    const char* help;
+    const char* with = nullptr;
+    const char* with_value = nullptr;
+};
+
+/// An option that takes one of a few words.
+template <class Options, const auto& words, auto field>
+constexpr OptionInfo choice(const Label& label)
+{
+    return {.name = label.name,
+            .type = label.type,
+            .help = label.help,
+            .with = label.with,
+            .with_value = label.with_value,
+            .is_number = false,
+            .range =
+                [] {
+                    std::string list;
+                    for (const auto& [word, value] : words)
+                        list += (list.empty() ? "" : ", ") + std::string(word);
+                    return "one of " + list;
+                },
+            .get =
+                [](const MethodOptions& method) {
+                    std::string found;
+                    for (const auto& [word, value] : words)
+                        if (field(std::get<Options>(method)) == value)
+                            found = word;
+                    return found;
+                },
+            .set =
+                [](MethodOptions& method, const std::string& text) {
+                    for (const auto& [word, value] : words)
+                        if (text == word) {
+                            field(std::get<Options>(method)) = value;
+                            return true;
+                        }
+                    return false;
+                }};
+}
+
+/// The word that stands for 0, where 0 is no number of its own.
+enum class Zero { number, automatic, all };
+
+constexpr const char* word_of(Zero zero)
+{
+    return zero == Zero::automatic ? "auto" : zero == Zero::all ? "all" : "";
+}
+
+/// An option that takes a whole number.
+template <class Options, auto low, auto high, auto field, Zero zero = Zero::number>
+constexpr OptionInfo number(const Label& label)
+{
+    return {.name = label.name,
+            .type = label.type,
+            .help = label.help,
+            .with = label.with,
+            .with_value = label.with_value,
+            .is_number = true,
+            .range =
+                [] {
+                    return (zero == Zero::number ? "" : word_of(zero) + std::string(" or ")) +
+                           "a whole number from " + std::to_string(low) + " to " +
+                           std::to_string(high);
+                },
+            .get =
+                [](const MethodOptions& method) {
+                    const auto value = field(std::get<Options>(method));
+                    return zero != Zero::number && value == 0 ? word_of(zero)
+                                                              : std::to_string(value);
+                },
+            .set =
+                [](MethodOptions& method, const std::string& text) {
+                    auto& value = field(std::get<Options>(method));
+                    using Value = std::decay_t<decltype(value)>;
+                    if (zero != Zero::number && text == word_of(zero)) {
+                        value = 0;
+                        return true;
+                    }
+                    const auto found = number_of(text);
+                    if (!found || *found != std::floor(*found) || *found < double(low) ||
+                        *found > double(high))
+                        return false;
+                    value = Value(*found);
+                    return true;
+                }};
+}
+
+// Options that several methods read.
+
+constexpr Label kSeed{"seed", "N", "Random seed"};
+constexpr Label kScheme{"scheme", "phased|paper",
+                        "Iteration scheme: phased, with exact near pairs, or the papers'"};
+constexpr Label kSampling{"sampling", "area|centre",
+                          "Receive over the covered area of a lumel or at its centre"};
+constexpr Label kBatch{"batch", "K", "Shooters (or hemicubes, or directions) per iteration"};
+constexpr Label kProjection{"projection", "hemicube|hemisphere",
+                            "Draw what shooters see on five faces (hemicube) or on one disc"};
+constexpr Label kHemicube{
+    "hemicube", "N",
+    "Side of a hemicube's front face in pixels; a hemisphere's disc is twice as wide"};
+
+template <class Options>
+constexpr OptionInfo seed_option()
+{
+    return number<Options, 0u, kMostSeed, seed>(kSeed);
+}
+
+constexpr OptionInfo kStochasticOptions[] = {
+    seed_option<StochasticOptions>(),
+    choice<StochasticOptions, kSchemes, averaging>(kScheme),
+    choice<StochasticOptions, kRules, rule>(kSampling),
+    number<StochasticOptions, 1, kMostBatch, eye_batch>(kBatch),
+    choice<StochasticOptions, kProjections, projection>(kProjection),
+    number<StochasticOptions, kLeastHemicube, kMostHemicube, eye_hemicube>(kHemicube),
+};
+
+constexpr OptionInfo kGlossyOptions[] = {
+    seed_option<GlossyOptions>(),
+    choice<GlossyOptions, kSchemes, scheme>(kScheme),
+    choice<GlossyOptions, kRules, rule>(kSampling),
+    number<GlossyOptions, 1, kMostGlossyBatch, eye_batch>(kBatch),
+    choice<GlossyOptions, kProjections, projection>(kProjection),
+    number<GlossyOptions, kLeastHemicube, kMostHemicube, eye_hemicube>(kHemicube),
+};
+
+constexpr OptionInfo kDirectionsOptions[] = {
+    seed_option<DirectionsOptions>(),
+    choice<DirectionsOptions, kSchemes, averaging>(kScheme),
+    choice<DirectionsOptions, kRules, rule>(kSampling),
+    number<DirectionsOptions, 1, kMostDirectionBatch, batch>(kBatch),
+    choice<DirectionsOptions, kLayers, layers>(
+        {"layers", "list|peel|stochastic",
+         "What is kept of surfaces behind one another: all of them, at once (list) or one after "
+         "another (peel), or one a pixel by chance (stochastic)"}),
+    choice<DirectionsOptions, kLookups, lookups>(
+        {"lookups", "1|3|5", "Side of the square of pixels looked up among stochastic layers",
+         "layers", "stochastic"}),
+    number<DirectionsOptions, 1u, kMostSlabs, slabs, Zero::automatic>(
+        {"slabs", "auto|N",
+         "Slabs that each direction is cut into, so that fewer surfaces compete for a pixel of "
+         "stochastic layers; auto: as many as the overdraw asks for",
+         "layers", "stochastic"}),
+    number<DirectionsOptions, kLeastMap, kMostMap, map_side, Zero::automatic>(
+        {"map-side", "auto|N", "Side of a direction's maps in pixels; auto: as suits the lumels"}),
+};
+
+constexpr OptionInfo kProgressiveOptions[] = {
+    seed_option<ProgressiveOptions>(),
+    number<ProgressiveOptions, 1, kMostPatchBatch, eye_batch>(kBatch),
+    choice<ProgressiveOptions, kProjections, projection>(kProjection),
+    number<ProgressiveOptions, kLeastHemicube, kMostHemicube, eye_hemicube>(kHemicube),
+};
+
+constexpr OptionInfo kGatherOptions[] = {
+    seed_option<GatherOptions>(),
+    choice<GatherOptions, kRules, rule>(kSampling),
+    number<GatherOptions, 1, kMostHemicubes, batch>(kBatch),
+    number<GatherOptions, kLeastHemicube, kMostHemicube, hemicube>(kHemicube),
+};
+
+constexpr OptionInfo kMatrixOptions[] = {
+    seed_option<MatrixOptions>(),
+    number<MatrixOptions, 1, kMostPatchBatch, patch_batch>(kBatch),
+    choice<MatrixOptions, kProjections, patch_projection>(kProjection),
+    number<MatrixOptions, kLeastHemicube, kMostHemicube, patch_hemicube>(kHemicube),
+    number<MatrixOptions, kFewestPatches, kMostPatches, patches>(
+        {"patches", "N", "Patches that exchange light, at most"}),
+    number<MatrixOptions, 1u, kMostReflections, bounces, Zero::all>(
+        {"bounces", "all|K", "Reflections that count"}),
+};
+
+template <class Options>
+MethodOptions defaults()
+{
+    return Options{};
+}
+
+template <class Method, class Options>
+std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& options)
+{
+    const auto& own = std::get<Options>(options.method);
+    if constexpr (std::is_same_v<Method, GlossyIllumination>)
+        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known,
+                                        in.particles);
+    else if constexpr (std::is_same_v<Method, GlobalDirections>)
+        return std::make_unique<Method>(in.device, in.world, in.lumels, own, in.known);
+    else if constexpr (std::is_same_v<Method, GatherRadiosity>)
+        return std::make_unique<Method>(in.device, in.world, in.lumels, own, options.target_error);
+    else if constexpr (std::is_same_v<Method, ProgressiveRadiosity>)
+        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own);
+    else
+        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known);
+}
+
+template <class Method, class Options>
+std::uint64_t bytes_of(const SolveSize& size, const MethodOptions& options)
+{
+    return Method::device_bytes(size, std::get<Options>(options));
+}
+
+constexpr float kUsualRadius = NearFieldOptions{}.radius;
+/// Glossy multiplies by the near field in every iteration, and what close pairs exchange loses its
+/// lobes: few pairs are better.
+constexpr float kGlossyRadius = 3.0f;
+/// Patches shoot from few points, so more of what is close to them is found exactly.
+constexpr float kPatchRadius = 6.0f;
+/// Along global directions no pair is too close, nor is any to a hemicube of its own.
+constexpr float kNoNearField = 0.0f;
+
+constexpr MethodInfo kMethods[] = {
+    {.id = "stochastic",
+     .title = "Stochastic radiosity by perspective ray bundles",
+     .paper = "[BJ04], [BSS05]",
+     .advice = "the default: any scene with diffuse surfaces and emissive lights",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kUsualRadius,
+     .near_surroundings = false,
+     .can_keep_sources = false,
+     .defaults = defaults<StochasticOptions>,
+     .options = kStochasticOptions,
+     .make = make<StochasticRadiosity, StochasticOptions>,
+     .device_bytes = bytes_of<StochasticRadiosity, StochasticOptions>},
+    {.id = "glossy",
+     .title = "Stochastic glossy global illumination",
+     .paper = "[BSS05], [NNS99]",
+     .advice = "light that metals and polished surfaces pass on; noisier than the default",
+     .materials = MaterialModel::glossy,
+     .near_radius = kGlossyRadius,
+     .near_surroundings = false,
+     .can_keep_sources = false,
+     .defaults = defaults<GlossyOptions>,
+     .options = kGlossyOptions,
+     .make = make<GlossyIllumination, GlossyOptions>,
+     .device_bytes = bytes_of<GlossyIllumination, GlossyOptions>},
+    {.id = "directions",
+     .title = "Global directions with stochastic depth buffering",
+     .paper = "[TN11]",
+     .advice = "open scenes of diffuse surfaces with few small emissive lights",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kNoNearField,
+     .near_surroundings = false,
+     .can_keep_sources = false,
+     .defaults = defaults<DirectionsOptions>,
+     .options = kDirectionsOptions,
+     .make = make<GlobalDirections, DirectionsOptions>,
+     .device_bytes = bytes_of<GlobalDirections, DirectionsOptions>},
+    {.id = "progressive",
+     .title = "Progressive refinement radiosity",
+     .paper = "[CCWG88], [Hoef13]",
+     .advice = "small scenes of diffuse surfaces; what is corrected when things move",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kPatchRadius,
+     .near_surroundings = false,
+     .can_keep_sources = false,
+     .defaults = defaults<ProgressiveOptions>,
+     .options = kProgressiveOptions,
+     .make = make<ProgressiveRadiosity, ProgressiveOptions>,
+     .device_bytes = bytes_of<ProgressiveRadiosity, ProgressiveOptions>},
+    {.id = "gather",
+     .title = "Gather radiosity by hemicubes on every lumel",
+     .paper = "[CG85], [Hoef13]",
+     .advice = "a reference for the others, which shares nothing with them: slow; --hemicube 64 is "
+               "enough",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kNoNearField,
+     .near_surroundings = false,
+     .can_keep_sources = false,
+     .defaults = defaults<GatherOptions>,
+     .options = kGatherOptions,
+     .make = make<GatherRadiosity, GatherOptions>,
+     .device_bytes = bytes_of<GatherRadiosity, GatherOptions>},
+    {.id = "matrix",
+     .title = "Form-factor matrices of all reflections",
+     .paper = "[SF17]",
+     .advice = "one scene under many lights: lumel relight answers at once; small indirect detail "
+               "is lost",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kPatchRadius,
+     .near_surroundings = true,
+     .can_keep_sources = true,
+     .defaults = defaults<MatrixOptions>,
+     .options = kMatrixOptions,
+     .make = make<MatrixRadiosity, MatrixOptions>,
+     .device_bytes = bytes_of<MatrixRadiosity, MatrixOptions>},
+};
+static_assert(std::size(kMethods) == std::variant_size_v<MethodOptions>);
+
+bool has_near_field(const MethodOptions& method)
+{
+    return method_of(method).near_radius > kNoNearField && !is_papers(method);
+}
+
+std::string listed(const std::vector<const MethodInfo*>& methods)
+{
+    std::string list;
+    for (const MethodInfo* method : methods)
+        list += (list.empty() ? "" : ", ") + std::string(method->id);
+    return list;
+}
+
+/// The methods that read an option.
+std::vector<const MethodInfo*> readers_of(std::string_view name)
+{
+    std::vector<const MethodInfo*> readers;
+    for (const MethodInfo& method : kMethods)
+        if (method.option(name))
+            readers.push_back(&method);
+    return readers;
+}
+
+/// Throws for an option that does nothing beside the others.
+void check_used(const MethodInfo& method, const OptionInfo& option, const MethodOptions& options)
+{
+    if (option.with && method.option(option.with)->get(options) != option.with_value)
+        throw Error(ErrorKind::input, std::string("--") + option.name,
+                    std::string("does nothing without --") + option.with + " " + option.with_value);
+}
+
+}  // namespace
+
+const OptionInfo* MethodInfo::option(std::string_view name) const
+{
+    for (const OptionInfo& info : options)
+        if (name == info.name)
+            return &info;
+    return nullptr;
+}
+
+std::span<const MethodInfo> methods()
+{
+    return kMethods;
+}
+
+const MethodInfo& method_of(std::string_view id)
+{
+    std::vector<const MethodInfo*> known;
+    for (const MethodInfo& info : kMethods) {
+        if (id == info.id)
+            return info;
+        known.push_back(&info);
+    }
+    throw Error(ErrorKind::input, "--solver " + std::string(id),
+                "no such method; there are: " + listed(known));
+}
+
+const MethodInfo& method_of(const MethodOptions& options)
+{
+    return *std::find_if(std::begin(kMethods), std::end(kMethods), [&](const MethodInfo& method) {
+        return method.defaults().index() == options.index();
+    });
+}
+
+std::vector<SharedOption> options_of_methods()
+{
+    std::vector<SharedOption> all;
+    for (const MethodInfo& method : kMethods)
+        for (const OptionInfo& option : method.options)
+            if (std::none_of(all.begin(), all.end(), [&](const SharedOption& known) {
+                    return std::string_view(known.info->name) == option.name;
+                }))
+                all.push_back({&option, readers_of(option.name)});
+    return all;
+}
+
+MethodOptions method_options(std::string_view id, const std::map<std::string, std::string>& given)
+{
+    const MethodInfo& method = method_of(id);
+    MethodOptions options = method.defaults();
+    for (const auto& [name, value] : given) {
+        const OptionInfo* option = method.option(name);
+        if (!option)
+            throw Error(ErrorKind::input, "--" + name,
+                        "is not read by --solver " + std::string(id) + "; it belongs to --solver " +
+                            listed(readers_of(name)));
+        if (!option->set(options, value))
+            throw Error(ErrorKind::input, "--" + name + " " + value,
+                        "must be " + option->range() + " with the method " + std::string(id));
+    }
+    for (const auto& [name, value] : given)
+        check_used(method, *method.option(name), options);
+    return options;
+}
+
+bool set_option(MethodOptions& method, std::string_view name, const std::string& value)
+{
+    const OptionInfo* option = method_of(method).option(name);
+    return option && option->set(method, value);
+}
+
+bool gathers_sky(const MethodOptions& method)
+{
+    const auto* directions = std::get_if<DirectionsOptions>(&method);
+    return directions && directions->iteration.scheme == Scheme::paper && directions->sky;
+}
+
+NearFieldOptions near_field_options(const SolverOptions& options)
+{
+    // The table's noise does not fall with the number of shots, so its samples follow the target.
+    // The default serves 2 %; how much of an error is the table's was not measured alone.
+    constexpr int kSamples = 16, kMostSamples = 144;
+    constexpr double kTarget = 0.02, kUsualShots = 2048.0;
+    double finer = 1.0;
+    if (options.target_error > 0.0)
+        finer = kTarget / options.target_error;
+    else if (options.max_shots > 0)
+        finer = double(options.max_shots) / kUsualShots;
+    const MethodInfo& method = method_of(options.method);
+    NearFieldOptions near;
+    near.samples = int(std::clamp(kSamples * finer, double(kSamples), double(kMostSamples)));
+    near.centre = rule_of(options.method) == SampleRule::centre;
+    near.seed = seed_of(options.method);
+    near.radius = method.near_radius;
+    near.surroundings = method.near_surroundings;
+    return near;
+}
+
+NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                         const SolverOptions& options, float radius)
+{
+    if (!has_near_field(options.method))
+        return {};
+    NearFieldOptions near = near_field_options(options);
+    if (radius > 0.0f)
+        near.radius = radius;
+    return build_near_field(scene, rays, lumels, near);
+}
+
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options)
+{
+    return has_near_field(options.method)
+               ? count_near_pairs(scene, rays, lumels, near_field_options(options))
+               : 0;
+}
+
+std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options)
+{
+    return method_of(options.method).device_bytes(size, options.method);
+}
+
+std::unique_ptr<Solver> make_solver(const SolverInputs& inputs, const SolverOptions& options)
+{
+    return method_of(options.method).make(inputs, options);
+}
+
+}  // namespace lumel

@@ -1,0 +1,109 @@
+// What a bake shows of itself: --verbose and --dump.
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "images/image_files.h"
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+std::vector<std::string> small_bake(const std::string& folder, const std::vector<std::string>& more)
+{
+    std::vector<std::string> arguments = {"bake", own_scene("cornell-box.gltf"),
+                                          folder, "--size",
+                                          "32",   "--shots",
+                                          "128",  "--preview-width",
+                                          "0"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--verbose", "--json"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    const auto report = nlohmann::json::parse(bake.out, nullptr, false);
+    ASSERT_FALSE(report.is_discarded()) << bake.out;
+    for (const auto& stage : report["time"]["stages"]) {
+        const std::string name = stage["name"];
+        EXPECT_TRUE(has(bake.err, "s  " + name + ": begins\n")) << name << "\n" << bake.err;
+        EXPECT_TRUE(has(bake.err, "s  " + name + ": took ")) << name << "\n" << bake.err;
+    }
+    for (const std::string size : {"charts", "lumels"})
+        EXPECT_TRUE(has(bake.err, report["sizes"][size].dump() + " " + size)) << bake.err;
+    EXPECT_TRUE(has(bake.err, "close pairs take ")) << bake.err;
+    EXPECT_TRUE(has(bake.err, "128 shooters in 8 iterations")) << bake.err;
+    EXPECT_TRUE(has(bake.err, " MiB of world/world.cpp:")) << bake.err;
+    EXPECT_TRUE(has(bake.err, "solving: \"receive\" took ")) << bake.err;
+    EXPECT_TRUE(has(bake.err, " MiB at most, on the device ")) << bake.err;
+}
+
+TEST(Verbose, ChangesNothingElse)
+{
+    const Workplace place;
+    const Outcome plain = run_lumel(small_bake(place.path("plain"), {}));
+    const Outcome verbose = run_lumel(small_bake(place.path("verbose"), {"--verbose"}));
+    EXPECT_EQ(plain.err, "");
+    EXPECT_EQ(std::count(verbose.out.begin(), verbose.out.end(), '\n'), 1) << verbose.out;
+    EXPECT_EQ(bytes_of(place.path("plain/lightmap.exr")),
+              bytes_of(place.path("verbose/lightmap.exr")));
+}
+
+TEST(Dump, ShowsWhatTheBakeWorkedWith)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(
+        small_bake(place.path("out"), {"--hemicube", "64", "--dump", place.path("inside")}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+
+    // The lamp looks down into a box of 0.56 m a side.
+    const Image hemicube = read_exr(place.path("inside/hemicube.exr"));
+    EXPECT_EQ(hemicube.width, 128);
+    EXPECT_EQ(hemicube.height, 96);
+    const float* below = hemicube.at(32, 32);
+    EXPECT_GT(below[0], 0.1f);
+    EXPECT_LT(below[0], 0.6f);
+
+    const Image lightmap = read_exr(place.path("out/lightmap.exr"));
+    const Image near = read_exr(place.path("inside/near.exr"));
+    const Image power = read_exr(place.path("inside/power.exr"));
+    ASSERT_EQ(near.values.size(), lightmap.values.size());
+    ASSERT_EQ(power.values.size(), lightmap.values.size());
+    float most_near = 0.0f;
+    for (std::size_t i = 0; i < lightmap.values.size(); i += 4) {
+        EXPECT_EQ(near.values[i + 3], lightmap.values[i + 3]);  // coverage
+        EXPECT_EQ(power.values[i + 3], lightmap.values[i + 3]);
+        EXPECT_GE(power.values[i], 0.0f);
+        most_near = std::max(most_near, near.values[i]);
+    }
+    EXPECT_GT(most_near, 0.1f);  // in the box's edges
+    EXPECT_LE(most_near, 1.0f);
+
+    for (const std::string name : {"hemicube", "illumination-1", "illumination-2", "near", "power"})
+        EXPECT_EQ(bytes_of(place.path("inside/" + name + ".png")).substr(1, 3), "PNG") << name;
+}
+
+TEST(Dump, IsThereForPicturesToo)
+{
+    const Workplace place;
+    const Outcome render =
+        run_lumel({"render", own_scene("glossy-cornell-box.gltf"), place.path("a.png"), "--size",
+                   "32", "--width", "32", "--shots", "64", "--eye-shots", "64", "--projection",
+                   "hemisphere", "--hemicube", "32", "--dump", place.path("inside")});
+    ASSERT_EQ(render.code, 0) << render.err;
+    EXPECT_EQ(read_exr(place.path("inside/hemisphere.exr")).width, 64);
+    EXPECT_EQ(read_exr(place.path("inside/power.exr")).width, 32);
+}
+
+}  // namespace
+}  // namespace lumel::test
