@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bake/prepare.h"
 #include "lights/direct_light.h"
+#include "prepare/prepare.h"
 #include "solve/methods.h"
 
 namespace lumel::bench {

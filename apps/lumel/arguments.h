@@ -7,6 +7,7 @@
 
 #include "bake/bake.h"
 #include "bake/play.h"
+#include "bake/reference.h"
 #include "bake/relight.h"
 #include "bake/render.h"
 #include "bake/update.h"

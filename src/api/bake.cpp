@@ -82,18 +82,19 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
                                              ? solve_sources(device, setting, options, stages)
                                              : solve_light(device, setting, options, stages);
     const SolverState solved = solution->solver->state();
-    const Prepared& world = setting.world;
+    const Prepared& prepared = setting.prepared;
     Baked baked;
     baked.interrupted = stages.stopped();
     stages.begin("finishing");
-    baked.map = map_of(finish_map(world.scene, world.atlas, world.lumels, solution->irradiance));
-    baked.surfaces = surfaces_of(world.scene, world.atlas);
-    baked.texels_per_metre = world.atlas.texels_per_metre;
+    baked.map =
+        map_of(finish_map(prepared.scene, prepared.atlas, prepared.lumels, solution->irradiance));
+    baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
+    baked.texels_per_metre = prepared.atlas.texels_per_metre;
     baked.error = solved.error;
     baked.shots = solved.shots;
     if (solution->relightable)
-        baked.relightable = std::make_shared<Relightable>(std::move(*solution->relightable),
-                                                          world.scene, world.atlas, world.lumels);
+        baked.relightable = std::make_shared<Relightable>(
+            std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels);
     device.check_validation();
     baked.notes = log.messages();
     baked.seconds = stages.seconds();

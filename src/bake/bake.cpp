@@ -42,7 +42,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     if (dump) {
         stages.begin("dumping");
         write_dump(*dump, device,
-                   {setting.world, setting.resident, setting.near, solution->irradiance},
+                   {setting.prepared, setting.world, setting.near, solution->irradiance},
                    options.solver);
     }
 
@@ -75,31 +75,6 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
         write_relightable(output.path(kMatrixFile), *solution->relightable);
     return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
-}
-
-BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
-                           const BakeOptions& options, const ReferenceOptions& reference,
-                           MaterialModel materials, const ProgressFunction& progress)
-{
-    Stages stages(progress);
-    stages.begin("reading");
-    Scene scene = read_scene(scene_path, materials, options.lights);
-    OutputFolder output(folder);
-    stages.begin("charts");
-    const Prepared world(std::move(scene), options.atlas);
-    tell_user(world);
-    note_sizes(world, stages);
-
-    stages.begin("path tracing");
-    bool stopped = false;
-    const std::vector<glm::vec3> irradiance = reference_irradiance(
-        world.scene, world.rays, world.lumels, reference, [&](double fraction) {
-            stopped = !stages.tell(fraction, std::uint64_t(fraction * reference.samples_per_lumel));
-            return !stopped;
-        });
-
-    stages.begin("finishing");
-    return write_reference(output, options, reference, world, irradiance, stopped, stages);
 }
 
 }  // namespace lumel

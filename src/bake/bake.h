@@ -8,8 +8,8 @@
 #include "atlas/atlas.h"
 #include "directional/directional.h"
 #include "lights/direct_light.h"
-#include "reference/reference.h"
 #include "scene/light_options.h"
+#include "scene/parts.h"
 #include "solve/options.h"
 
 namespace lumel {
@@ -53,12 +53,6 @@ struct BakeSummary {
 /// scene-baked.glb, preview.png and report.json into `folder`. Throws Error.
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress = {});
-
-/// lumel reference: the same atlas by path tracing on the CPU: lightmap.exr, lightmap.png,
-/// report.json. `materials`: what is read of them, as the solver to compare with does.
-BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
-                           const BakeOptions& options, const ReferenceOptions& reference,
-                           MaterialModel materials, const ProgressFunction& progress = {});
 
 /// lumel info: what is in the scene and what a bake would take, as text or JSON.
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json);

@@ -7,9 +7,9 @@
 
 #include "bake/bake.h"
 #include "bake/lighting.h"
-#include "bake/prepare.h"
 #include "bake/sources.h"
 #include "gpu/device.h"
+#include "prepare/prepare.h"
 #include "relight/relight_solver.h"
 #include "solve/methods.h"
 #include "world/occluders.h"

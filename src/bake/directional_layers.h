@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bake/prepare.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "prepare/prepare.h"
 
 namespace lumel {
 

@@ -9,6 +9,7 @@
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "record/origin.h"
 #include "solve/methods.h"
 #include "visibility/eye_views.h"
 #include "visibility/illumination_maps.h"
@@ -33,7 +34,7 @@ void write(const OutputFolder& folder, const Picture& picture)
     write_exr(folder.path(picture.name + ".exr"), picture.numbers, Precision::float32,
               {{"quantity", picture.quantity},
                {"unit", picture.unit},
-               {"software", "lumel " LUMEL_VERSION}});
+               {"software", "lumel " + lumel_version()}});
     write_png(folder.path(picture.name + ".png"),
               tone_map(picture.look.values.empty() ? picture.numbers : picture.look));
 }

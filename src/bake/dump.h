@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "bake/prepare.h"
 #include "nearfield/near_field.h"
 #include "output/folder.h"
+#include "prepare/prepare.h"
 #include "solve/solver.h"
 #include "world/world.h"
 

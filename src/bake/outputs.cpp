@@ -3,14 +3,15 @@
 #include <numbers>
 
 #include "bake/directional_layers.h"
+#include "bake/reference.h"
 #include "bake/report.h"
-#include "bake/solution_file.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "output/gltf_write.h"
 #include "preview/preview.h"
 #include "record/origin.h"
+#include "update/solution_file.h"
 #include "json/json_file.h"
 
 namespace lumel {

@@ -5,15 +5,17 @@
 #include <vector>
 
 #include "bake/bake.h"
-#include "bake/prepare.h"
 #include "bake/stages.h"
 #include "gpu/device.h"
 #include "images/image_files.h"
 #include "output/folder.h"
+#include "prepare/prepare.h"
 #include "record/report.h"
 #include "solve/solver.h"
 
 namespace lumel {
+
+struct ReferenceOptions;
 
 /// What a solve has come to.
 struct Results {

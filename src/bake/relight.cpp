@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "bake/outputs.h"
-#include "bake/solution_file.h"
 #include "bake/stages.h"
 #include "bake/states_file.h"
 #include "core/usage.h"
@@ -12,6 +11,7 @@
 #include "record/bake_record.h"
 #include "record/origin.h"
 #include "relight/matrix_file.h"
+#include "update/solution_file.h"
 #include "json/json_file.h"
 
 namespace lumel {

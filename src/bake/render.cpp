@@ -7,6 +7,7 @@
 
 #include "bake/dump.h"
 #include "bake/lighting.h"
+#include "bake/reference.h"
 #include "bake/report.h"
 #include "bake/setting.h"
 #include "finish/finish.h"
@@ -16,7 +17,6 @@
 #include "picture/picture.h"
 #include "preview/view.h"
 #include "record/origin.h"
-#include "reference/reference_image.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
 #include "json/json_file.h"
@@ -158,13 +158,8 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
     tell_warnings(scene);
     const RayScene rays(scene);
     const View view = view_for(scene, rays, options);
-    stages.begin("path tracing");
-    const ReferenceImageOptions reference{.width = options.width,
-                                          .height = options.height,
-                                          .samples_per_pixel = options.paths,
-                                          .seed = seed_of(options.bake.solver.method)};
-    Image image = reference_image(scene, rays, view, reference,
-                                  [&](double fraction) { return stages.tell(fraction); });
+    Image image = path_traced_picture(scene, rays, view, {options.width, options.height},
+                                      options.paths, seed_of(options.bake.solver.method), stages);
     stages.end();
     return {std::move(image), path_traced_report(options, scene, stages)};
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "bake/reference.h"
 #include "core/usage.h"
 #include "record/light_settings.h"
 #include "record/origin.h"

@@ -9,6 +9,8 @@
 
 namespace lumel {
 
+struct ReferenceOptions;
+
 /// What a bake is. exposure: of lightmap.png.
 BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
                      float exposure);

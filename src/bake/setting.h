@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "bake/bake.h"
-#include "bake/prepare.h"
 #include "bake/stages.h"
 #include "lobes/lobe_particles.h"
+#include "prepare/prepare.h"
 #include "solve/solver.h"
 
 namespace lumel {

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "bake/correction.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
 #include "bake/report.h"
@@ -15,6 +14,7 @@
 #include "record/light_settings.h"
 #include "relight/matrix_file.h"
 #include "solve/methods.h"
+#include "update/correction.h"
 #include "json/json_file.h"
 
 namespace lumel {
@@ -80,7 +80,11 @@ std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution
                                    BakeRecord& baked, const UpdateOptions& options, UpdateRow& row,
                                    std::optional<gpu::Device>& device, Stages& stages)
 {
-    Correction correction(edit, solution, baked, stages);
+    Correction correction(
+        edit, solution, baked,
+        {.begin = [&](const char* stage) { stages.begin(stage); },
+         .follow = [&](double fraction,
+                       std::uint64_t particles) { return stages.tell(fraction, particles); }});
     std::vector<glm::vec3> lights;
     if (row.relit)
         lights = change_of_lights(*device, edit, baked, stages);

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "bake/solution_file.h"
 #include "bake/stages.h"
 #include "bake/why_picture.h"
 #include "core/luminance.h"
@@ -18,6 +17,7 @@
 #include "record/light_settings.h"
 #include "relight/senders.h"
 #include "solve/methods.h"
+#include "update/solution_file.h"
 #include "json/json_file.h"
 
 namespace lumel {

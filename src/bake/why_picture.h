@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "bake/prepare.h"
 #include "core/image.h"
 #include "gpu/device.h"
+#include "prepare/prepare.h"
 
 namespace lumel {
 

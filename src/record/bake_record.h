@@ -12,7 +12,7 @@
 #include "record/report.h"
 #include "scene/light_options.h"
 #include "scene/parts.h"
-#include "solve/solver.h"
+#include "solve/options.h"
 
 namespace lumel {
 

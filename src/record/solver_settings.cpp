@@ -49,7 +49,8 @@ SolverOptions solver_options_of(const JsonView& settings)
 {
     SolverOptions options;
     std::string id;
-    FieldReader(settings)("method", id);
+    const FieldReader field(settings);
+    field("method", id);
     try {
         options.method = method_of(id).defaults();
     } catch (const Error& error) {

@@ -4,9 +4,9 @@
 #include <array>
 #include <string>
 
+#include "atlas/sample_rule.h"
 #include "directional/directional.h"
 #include "scene/parts.h"
-#include "solve/solver.h"
 #include "json/json_view.h"
 
 namespace lumel {
@@ -22,17 +22,8 @@ template <class Value>
 inline constexpr std::array<Word<Value>, 0> kWords{};
 
 template <>
-inline constexpr std::array<Word<Scheme>, 2> kWords<Scheme> = {
-    {{"phased", Scheme::phased}, {"paper", Scheme::paper}}};
-template <>
 inline constexpr std::array<Word<SampleRule>, 2> kWords<SampleRule> = {
     {{"area", SampleRule::area}, {"centre", SampleRule::centre}}};
-template <>
-inline constexpr std::array<Word<Projection>, 2> kWords<Projection> = {
-    {{"hemicube", Projection::hemicube}, {"hemisphere", Projection::hemisphere}}};
-template <>
-inline constexpr std::array<Word<Layers>, 3> kWords<Layers> = {
-    {{"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}}};
 template <>
 inline constexpr std::array<Word<Directional>, 3> kWords<Directional> = {
     {{"none", Directional::none}, {"sh1", Directional::sh1}, {"sh2", Directional::sh2}}};

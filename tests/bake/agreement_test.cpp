@@ -194,26 +194,38 @@ TEST(CentreRule, AgreesWithAReferenceOfTheSameRule)
     EXPECT_LE(support::lumel_error(world.lumels, solved.irradiance, truth, everywhere).rmse, 0.04);
 }
 
+/// The methods that see by hemicubes or by hemispheres.
+std::vector<const char*> projectors()
+{
+    std::vector<const char*> found;
+    for (const MethodInfo& method : methods())
+        if (method.option("projection"))
+            found.push_back(method.id);
+    return found;
+}
+
+class EveryProjector : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(By, EveryProjector, testing::ValuesIn(projectors()),
+                         [](const auto& test) { return std::string(test.param); });
+
 // The two differ in which pixels stand at the edges of shadows, and so in the shooters drawn, to
 // which the glossy solver's noise is sensitive: with 4096 its level scatters by half a per cent.
-TEST(Projections, HemispheresGiveTheAnswerOfHemicubes)
+TEST_P(EveryProjector, GivesByHemispheresTheAnswerOfHemicubes)
 {
-    for (const MethodInfo& method : methods()) {
-        if (!method.option("projection"))  // has no other
-            continue;
-        const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
-                             AtlasOptions{.size = 64});
-        const bool glossy = method.materials == MaterialModel::glossy;
-        SolverOptions options{
-            .method = method.defaults(), .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
-        const Solved cubes = support::solve_scene(world, options);
-        ASSERT_TRUE(set_option(options.method, "projection", "hemisphere"));
-        const Solved spheres = support::solve_scene(world, options);
-        const LumelError apart =
-            support::lumel_error(world.lumels, spheres.irradiance, cubes.irradiance, everywhere);
-        EXPECT_LE(apart.rmse, glossy ? 0.07 : 0.02);
-        EXPECT_LE(std::abs(apart.bias), 0.003) << method.id;
-    }
+    const MethodInfo& method = method_of(GetParam());
+    const Prepared world(read_gltf(support::scene_path("cornell-box"), method.materials),
+                         AtlasOptions{.size = 64});
+    const bool glossy = method.materials == MaterialModel::glossy;
+    SolverOptions options{
+        .method = method.defaults(), .max_shots = glossy ? 16384u : 4096u, .target_error = 0.0};
+    const Solved cubes = support::solve_scene(world, options);
+    ASSERT_TRUE(set_option(options.method, "projection", "hemisphere"));
+    const Solved spheres = support::solve_scene(world, options);
+    const LumelError apart =
+        support::lumel_error(world.lumels, spheres.irradiance, cubes.irradiance, everywhere);
+    EXPECT_LE(apart.rmse, glossy ? 0.07 : 0.02);
+    EXPECT_LE(std::abs(apart.bias), 0.003);
 }
 
 /// Two rooms with a door between them, and their reference, made once for all tests.

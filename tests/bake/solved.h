@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "../support/source_folder.h"
-#include "bake/prepare.h"
 #include "finish/finish.h"
+#include "prepare/prepare.h"
 #include "reference/metrics.h"
 #include "solve/methods.h"
 

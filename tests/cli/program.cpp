@@ -69,8 +69,8 @@ void collect(int out, int err, Outcome& outcome, const std::function<void()>& on
 
 [[noreturn]] void become_lumel(std::vector<std::string> arguments, int out, int err)
 {
-    arguments.insert(arguments.begin(), LUMEL_PROGRAM);
-    std::vector<char*> values;
+    std::string program = LUMEL_PROGRAM;
+    std::vector<char*> values = {program.data()};
     for (std::string& argument : arguments)
         values.push_back(argument.data());
     values.push_back(nullptr);

@@ -129,7 +129,9 @@ TEST(Files, DataUrisAreDecoded)
 TEST(Files, MessagesQuoteNoControlCharacters)
 {
     const TempFolder folder;
-    const std::string error = error_of_file(write_gltf(folder, "a\nb" + std::string(5000, 'x')));
+    std::string long_name = "a\nb";
+    long_name.append(5000, 'x');
+    const std::string error = error_of_file(write_gltf(folder, long_name));
     EXPECT_EQ(error.find('\n'), std::string::npos);
     EXPECT_LT(error.size(), 1000u);
 }

@@ -1,4 +1,4 @@
-#include "bake/solution_file.h"
+#include "update/solution_file.h"
 
 #include "core/error.h"
 #include "images/image_files.h"

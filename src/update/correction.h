@@ -1,21 +1,29 @@
 #pragma once
 // The light of a bake, corrected for an edited scene. See correction.cpp for the equations.
 
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
-#include "bake/edited_scene.h"
-#include "bake/stages.h"
 #include "nearfield/hit_lumels.h"
 #include "update/carried_light.h"
+#include "update/edited_scene.h"
 
 namespace lumel {
 
+/// Who follows a correction.
+struct CorrectionWatch {
+    std::function<void(const char* stage)> begin;  ///< a stage begins
+    /// How far the stage is, 0…1, and particles so far; false: it is to stop.
+    std::function<bool(double fraction, std::uint64_t particles)> follow;
+};
+
 class Correction {
 public:
-    /// All must outlive this.
+    /// All but `watch` must outlive this.
     Correction(const EditedScene& edit, const StoredSolution& solution, const BakeRecord& baked,
-               Stages& stages);
+               CorrectionWatch watch);
 
     /// Emission that came, went or changed, and what is reflected otherwise of `lights`, D' - D [N]
     /// or empty, as a part of all that is sent.
@@ -38,7 +46,7 @@ private:
 
     const EditedScene& edit_;
     const BakeRecord& baked_;
-    Stages& stages_;
+    CorrectionWatch watch_;
     HitLumels hits_before_, hits_now_;
     std::vector<Asked> asked_;       ///< [N now]
     std::vector<glm::vec3> before_;  ///< H [N before]

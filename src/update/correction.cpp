@@ -9,12 +9,11 @@
 //
 // The error of the bake stays; R and X are as large as the change, and so is their noise.
 
-#include "bake/correction.h"
+#include "update/correction.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "bake/lighting.h"
 #include "core/luminance.h"
 #include "nearfield/world_lumels.h"
 #include "shooting/lumel_arrays.h"
@@ -49,10 +48,10 @@ double mean_light(const Lumels& lumels, const std::vector<glm::vec3>& irradiance
 }  // namespace
 
 Correction::Correction(const EditedScene& edit, const StoredSolution& solution,
-                       const BakeRecord& baked, Stages& stages)
+                       const BakeRecord& baked, CorrectionWatch watch)
     : edit_(edit),
       baked_(baked),
-      stages_(stages),
+      watch_(std::move(watch)),
       hits_before_(edit.before.scene, edit.before.atlas, edit.before.lumels),
       hits_now_(edit.now.scene, edit.now.atlas, edit.now.lumels)
 {
@@ -103,7 +102,7 @@ void Correction::look_first(UpdateRow& row)
     std::replace(asked.begin(), asked.end(), Asked::difference, Asked::nothing);
     if (std::find(asked.begin(), asked.end(), Asked::all) == asked.end())
         return;
-    stages_.begin("first look");
+    watch_.begin("first look");
     const TwoEstimates light = gather(asked, {.whole = kFirstLook}, row);
     for (std::size_t i = 0; i < asked.size(); ++i)
         if (asked[i] == Asked::all)
@@ -113,7 +112,7 @@ void Correction::look_first(UpdateRow& row)
 /// Of all lumels, once more and more finely where it is needed for an error of `residual`.
 TwoEstimates Correction::gather_until(double residual, UpdateRow& row)
 {
-    stages_.begin("gathering");
+    watch_.begin("gathering");
     TwoEstimates light = gather(asked_, {}, row);
     const double most = residual * mean_light(edit_.now.lumels, guess_);
     for (std::uint32_t effort = kMoreEffort; effort <= kMostEffort; effort *= kMoreEffort) {
@@ -141,7 +140,7 @@ TwoEstimates Correction::gather(const std::vector<Asked>& asked, ChangedLightOpt
     const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
     ChangedLight light =
         gather_changed_light(before, now, edit_.partner, asked, edit_.balls, options,
-                             [&](double fraction) { stages_.tell(fraction); });
+                             [&](double fraction) { watch_.follow(fraction, 0); });
     row.rays += light.rays;
     return std::move(light.irradiance);
 }
@@ -188,7 +187,7 @@ glm::vec3 Correction::unsent(std::size_t i, const glm::vec3& light, const SentLi
 
 CarriedLight Correction::carry(const std::vector<glm::vec3>& source, double error, UpdateRow& row)
 {
-    stages_.begin("carrying");
+    watch_.begin("carrying");
     const Prepared& is = edit_.now;
     const WorldLumels world(is.scene, is.rays, is.lumels);
     const LightCarrier carrier(is.rays, is.lumels, world, hits_now_);
@@ -196,7 +195,7 @@ CarriedLight Correction::carry(const std::vector<glm::vec3>& source, double erro
         carrier.carry(source, error, std::max(kMostParticles * source.size(), kFewParticles),
                       seed_of(baked_.solver.method), [&](const CarryState& state) {
                           const double part = state.error > 0.0 ? error / state.error : 0.0;
-                          return stages_.tell(std::min(part * part, 1.0), state.particles);
+                          return watch_.follow(std::min(part * part, 1.0), state.particles);
                       });
     row.particles = carried.state.particles;
     return carried;

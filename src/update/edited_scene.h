@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "bake/prepare.h"
-#include "bake/solution_file.h"
+#include "prepare/prepare.h"
 #include "record/bake_record.h"
 #include "update/changed_light.h"
 #include "update/matches.h"
+#include "update/solution_file.h"
 
 namespace lumel {
 

@@ -1,4 +1,4 @@
-#include "bake/edited_scene.h"
+#include "update/edited_scene.h"
 
 #include <algorithm>
 #include <cmath>

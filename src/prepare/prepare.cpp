@@ -1,4 +1,4 @@
-#include "bake/prepare.h"
+#include "prepare/prepare.h"
 
 #include "core/error.h"
 #include "nearfield/buried.h"

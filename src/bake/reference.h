@@ -1,0 +1,26 @@
+#pragma once
+// The truth: the score of `lumel reference` and of `lumel render --paths`.
+
+#include <cstdint>
+#include <string>
+
+#include "bake/bake.h"
+#include "bake/stages.h"
+#include "core/image.h"
+#include "reference/reference.h"
+#include "scene/view.h"
+
+namespace lumel {
+
+/// lumel reference: the same atlas by path tracing on the CPU: lightmap.exr, lightmap.png,
+/// report.json. `materials`: what is read of them, as the solver to compare with does.
+BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
+                           const BakeOptions& options, const ReferenceOptions& reference,
+                           MaterialModel materials, const ProgressFunction& progress = {});
+
+/// A picture of width × height pixels [cd/m²] by this number of paths for each, as the stage "path
+/// tracing".
+Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& view,
+                          glm::ivec2 size, int paths, std::uint32_t seed, Stages& stages);
+
+}  // namespace lumel
