@@ -26,10 +26,10 @@ Json json_of(const OptionInfo& option, const MethodOptions& method)
     return option.is_number && number ? Json(std::int64_t(*number)) : Json(text);
 }
 
-std::string text_of(const JsonView& value)
+/// As OptionInfo::set reads it, which refuses what is neither.
+std::string text_of(const Json& value)
 {
-    return value.json().is_number_integer() ? std::to_string(value.json().get<std::int64_t>())
-                                            : value.string();
+    return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ SolverOptions solver_options_of(const JsonView& settings)
     const JsonView own = settings.get("options");
     for (const OptionInfo& option : method_of(id).options) {
         const JsonView value = own.get(option.name);
-        if (!option.set(options.method, text_of(value)))
+        if (!option.set(options.method, text_of(value.json())))
             value.fail("must be " + option.range());
     }
     each_limit(options, FieldReader(settings.get("limits")));
