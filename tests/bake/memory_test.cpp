@@ -47,14 +47,14 @@ TEST(GraphicsMemory, OfEveryMethodIsAsDescribed)
 
 TEST(GraphicsMemory, OfDirectionalLayersIsAsDescribed)
 {
-    BakeOptions options = small(methods().front());
+    BakeOptions options = small(methods().front().id);
     options.directional = Directional::sh2;
     expect_as_described("cornell-box", options);
 }
 
 TEST(GraphicsMemory, OfSkyAndLampsIsAsDescribed)
 {
-    BakeOptions options = small(methods().front());
+    BakeOptions options = small(methods().front().id);
     set_sky(options.lights, "1,1,1");
     options.sky_directions = 16;
     expect_as_described("cornell-box", options);
