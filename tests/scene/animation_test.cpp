@@ -225,7 +225,7 @@ TEST(Animations, WhatMakesNoSenseIsAnError)
                          "not a unit quaternion at key 0"));
     EXPECT_TRUE(contains(animation_error(moving("scale", {0}, {1, 1, 1}, "SLOW")), "\"SLOW\""));
     EXPECT_TRUE(contains(animation_error(shining(kStrengthPointer, "SCALAR", {0, -1})),
-                         "negative amount at key 1"));
+                         "negative amount of light at key 1"));
     EXPECT_TRUE(contains(
         animation_error(shining("/materials/3/emissiveFactor", "VEC3", {0, 0, 0, 1, 1, 1})),
         "has 1 materials"));

@@ -194,6 +194,6 @@ TEST(Ies, MistakesAreNamedWithTheirLine)
     EXPECT_TRUE(contains(with("3 1 1 2", "2.5 1 1 2"), "line 4: the number of vertical angles"));
     EXPECT_TRUE(contains(with("3 1 1 2", "1e9 1 1 2"), "number of vertical angles"));
     EXPECT_TRUE(contains(with("TILT=NONE\n", ""), "without a line TILT="));
-    EXPECT_TRUE(contains(error_of_text("GIF89a"), "no IES LM-63"));
-    EXPECT_TRUE(contains(error_of_text(""), "no IES LM-63"));
+    EXPECT_TRUE(contains(error_of_text("GIF89a"), "not an IES LM-63"));
+    EXPECT_TRUE(contains(error_of_text(""), "not an IES LM-63"));
 }
