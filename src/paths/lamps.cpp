@@ -50,6 +50,14 @@ Ray draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine, cons
 
 }  // namespace
 
+glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                  float offset, std::uint32_t seed)
+{
+    return std::isinf(lamp.distance)
+               ? rays.passing_out(position, lamp.direction, seed)
+               : rays.passing(position, position + lamp.distance * lamp.direction, offset, seed);
+}
+
 Lamps::Lamps(const Scene& scene) : scene_(&scene)
 {
     for (const PunctualLight& light : scene.lights)

@@ -1,11 +1,14 @@
 #pragma once
-// The punctual lights of a scene as a path tracer samples them. See lamps.cpp for the equations.
+// The punctual lights of a scene as rays on the host sample them, for the truth, `update` and
+// `why`. Bakes find their light on the device (lights/lamps.h), in another way on purpose: the
+// truth judges it. See lamps.cpp for the equations.
 
 #include <cstddef>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "rays/ray_scene.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -16,6 +19,10 @@ struct LampSample {
     float distance = 0.0f;        ///< [m] to its surface; infinite: directional
     glm::vec3 illuminance{0.0f};  ///< estimate [lx] for a plane that faces the direction
 };
+
+/// What of a lamp's light gets through to a point [0…1]. offset: as RayScene::passing takes it.
+glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                  float offset, std::uint32_t seed);
 
 class Lamps {
 public:

@@ -4,6 +4,9 @@
 // [How] J. Howell, A Catalog of Radiation Heat Transfer Configuration Factors; C-11, C-14, C-41,
 //       B-3 and B-4 are its numbers.
 //
+// Only tests and the truth use them, on purpose: solvers find the form factors of polygons by
+// Lambert's edge sum (nearfield/form_factor.cpp), and are judged by these.
+//
 // A uniform plate of emission E lights a point or area of form factor F towards it by H = E F.
 
 namespace lumel {

@@ -128,25 +128,21 @@ glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samp
         total += sum(light);
         offers.push_back({lamp, light, total});
     }
-    const auto passing = [&](const LampSample& lamp) {
-        const std::uint32_t seed = samples.bits(Draw::lamp);
-        return std::isinf(lamp.distance)
-                   ? rays_.passing_out(vertex.position, lamp.direction, seed)
-                   : rays_.passing(vertex.position,
-                                   vertex.position + lamp.distance * lamp.direction, 0.0f, seed);
+    const auto arrives = [&](const LampSample& lamp) {
+        return passing(rays_, vertex.position, lamp, 0.0f, samples.bits(Draw::lamp));
     };
 
     glm::vec3 arriving(0.0f);
     if (offers.size() <= kLampRays) {
         for (const Offer& offer : offers)
-            arriving += passing(offer.lamp) * offer.light;
+            arriving += arrives(offer.lamp) * offer.light;
         return arriving;
     }
     const float step = total / float(kLampRays);
     float mark = samples.point(Draw::lamp_choice).x * step;
     for (const Offer& offer : offers)
         for (; mark < offer.running; mark += step)
-            arriving += passing(offer.lamp) * offer.light * (step / sum(offer.light));
+            arriving += arrives(offer.lamp) * offer.light * (step / sum(offer.light));
     return arriving;
 }
 

@@ -180,13 +180,8 @@ private:
             const float cosine = glm::dot(point.normal, toward.direction);
             if (!(cosine > 0.0f))
                 continue;
-            const std::uint32_t seed = samples.bits(kSeedPair);
             const glm::vec3 passes =
-                std::isinf(toward.distance)
-                    ? rays_.passing_out(point.position, toward.direction, seed)
-                    : rays_.passing(point.position,
-                                    point.position + toward.distance * toward.direction, 0.0f,
-                                    seed);
+                passing(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
             sum += cosine * passes * toward.illuminance;
         }
         return sum / float(kLampPoints);

@@ -420,17 +420,13 @@ glm::vec3 Gatherer::from_lamps(const Receiver& receiver) const
                 !may_be_hidden(receiver, x.position, lamp.direction, lamp.distance))
                 continue;
             const std::uint32_t seed = samples.bits(kSeedPair);
-            const auto passing = [&](const SeenScene& seen) {
+            const auto arrives = [&](const SeenScene& seen) {
                 ++*receiver.rays;
-                return std::isinf(lamp.distance)
-                           ? seen.rays->passing_out(x.position, lamp.direction, seed)
-                           : seen.rays->passing(x.position,
-                                                x.position + lamp.distance * lamp.direction, lift_,
-                                                seed);
+                return passing(*seen.rays, x.position, lamp, lift_, seed);
             };
-            glm::vec3 passed = passing(now_);
+            glm::vec3 passed = arrives(now_);
             if (!receiver.whole)
-                passed -= passing(before_);
+                passed -= arrives(before_);
             sum += passed * lamp.illuminance * cosine;
         }
     }
