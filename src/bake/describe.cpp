@@ -9,6 +9,7 @@
 #include "bake/lighting.h"
 #include "bake/sources.h"
 #include "gpu/device.h"
+#include "gpu/staging.h"
 #include "prepare/prepare.h"
 #include "relight/relight_solver.h"
 #include "solve/methods.h"
@@ -21,9 +22,12 @@ namespace {
 
 /// Bytes on the device, by what takes them. Direct light is gone before the solver is made.
 struct GraphicsMemory {
-    std::uint64_t world = 0, direct_light = 0, solver = 0, directional = 0;
+    std::uint64_t staging = 0, world = 0, direct_light = 0, solver = 0, directional = 0;
 
-    std::uint64_t most() const { return world + std::max(direct_light, solver + directional); }
+    std::uint64_t most() const
+    {
+        return staging + world + std::max(direct_light, solver + directional);
+    }
 };
 
 GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
@@ -33,7 +37,8 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
     const SolveSize size{
         &prepared.lumels,
         near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
-    return {.world = World::device_bytes(prepared.lumels, occluders),
+    return {.staging = gpu::Staging::device_bytes(),
+            .world = World::device_bytes(prepared.lumels, occluders),
             .direct_light = direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
             .solver = keeps_sources_apart(options)
                           ? RelightSolver::device_bytes(
@@ -44,7 +49,8 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
 
 Json json_of(const GraphicsMemory& bytes)
 {
-    return {{"world", bytes.world},
+    return {{"staging", bytes.staging},
+            {"world", bytes.world},
             {"direct_light", bytes.direct_light},
             {"solver", bytes.solver},
             {"directional", bytes.directional}};

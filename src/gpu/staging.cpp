@@ -49,6 +49,11 @@ struct Staging::Slot {
     Buffer memory;
 };
 
+std::uint64_t Staging::device_bytes()
+{
+    return kSlots * kSlotBytes;
+}
+
 Staging::Staging(const Device& device)
 {
     for (auto& slot : slots_)

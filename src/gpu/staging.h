@@ -17,6 +17,9 @@ public:
     explicit Staging(const Device& device);
     ~Staging();
 
+    /// Of all slots.
+    static std::uint64_t device_bytes();
+
     void upload(const void* data, const Buffer& to, std::uint64_t bytes);
     void download(const Buffer& from, void* data, std::uint64_t bytes);
     /// Level 0, tightly packed rows (of blocks); the smaller levels are made of it.
