@@ -100,8 +100,8 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
     baked.error = solved.error;
     baked.shots = solved.shots;
     if (solution->relightable)
-        baked.relightable = std::make_shared<Relightable>(
-            std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels);
+        baked.relightable = std::make_shared<Relightable>(Relightable{
+            std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels});
     device.check_validation();
     baked.notes = log.messages();
     baked.seconds = stages.seconds();

@@ -46,12 +46,13 @@ MaterialModel model_of(Materials materials)
 Scene Scene::load(const std::string& path, Materials materials)
 {
     return translated([&] {
-        return Scene(std::make_unique<SceneImpl>(lumel::read_gltf(path, model_of(materials))));
+        return Scene(
+            std::make_unique<SceneImpl>(SceneImpl{lumel::read_gltf(path, model_of(materials))}));
     });
 }
 
 Scene::Scene(const SceneContent& content)
-    : impl_(translated([&] { return std::make_unique<SceneImpl>(scene_of(content)); }))
+    : impl_(translated([&] { return std::make_unique<SceneImpl>(SceneImpl{scene_of(content)}); }))
 {
 }
 

@@ -34,7 +34,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
 }
 
 Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& view,
-                          glm::ivec2 size, int paths, std::uint32_t seed, Stages& stages)
+                          const glm::ivec2& size, int paths, std::uint32_t seed, Stages& stages)
 {
     stages.begin("path tracing");
     return reference_image(

@@ -21,6 +21,6 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
 /// A picture of width × height pixels [cd/m²] by this number of paths for each, as the stage "path
 /// tracing".
 Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& view,
-                          glm::ivec2 size, int paths, std::uint32_t seed, Stages& stages);
+                          const glm::ivec2& size, int paths, std::uint32_t seed, Stages& stages);
 
 }  // namespace lumel

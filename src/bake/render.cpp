@@ -211,7 +211,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     return {std::move(image), picture_report(options, prepared, device, solver, results, stages)};
 }
 
-Made make(Scene scene, RenderOptions options, Stages& stages)
+Made make(Scene scene, const RenderOptions& options, Stages& stages)
 {
     return options.paths > 0 ? path_trace(scene, options, stages)
                              : shoot(std::move(scene), options, stages);
