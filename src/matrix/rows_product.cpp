@@ -132,7 +132,7 @@ const RowsProduct::ProductKernel& RowsProduct::kernel(std::uint32_t vectors)
 void RowsProduct::record_all(gpu::Commands& commands,
                              const gpu::Kernel<shaders::RowsProductTexture>& kernel,
                              const gpu::Array<float>& x, const gpu::Array<float>& y,
-                             ProductParams params)
+                             const ProductParams& params)
 {
     commands.dispatch(kernel,
                       {.vectors = gpu::packed(x), .result = y, .matrix = {*texture_, sampler_}},

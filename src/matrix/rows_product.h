@@ -65,7 +65,8 @@ private:
     ProductKernel make_kernel(std::uint32_t vectors) const;
     const ProductKernel& kernel(std::uint32_t vectors);
     void record_all(gpu::Commands& commands, const gpu::Kernel<shaders::RowsProductTexture>& kernel,
-                    const gpu::Array<float>& x, const gpu::Array<float>& y, ProductParams params);
+                    const gpu::Array<float>& x, const gpu::Array<float>& y,
+                    const ProductParams& params);
     template <class Shader>
     void record_all(gpu::Commands& commands, const gpu::Kernel<Shader>& kernel,
                     const gpu::Array<float>& x, const gpu::Array<float>& y, ProductParams params);
