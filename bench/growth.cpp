@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "bench/stopwatch.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -17,6 +17,7 @@
 #include "reference/metrics.h"
 #include "reference/reference.h"
 #include "shooting/lumel_arrays.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

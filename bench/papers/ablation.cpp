@@ -18,6 +18,7 @@
 #include "preview/view.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
+#include "solve/solver.h"
 #include "solve/stochastic.h"
 
 namespace lumel::bench {

@@ -19,6 +19,7 @@
 #include "images/image_files.h"
 #include "preview/preview.h"
 #include "reference/metrics.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

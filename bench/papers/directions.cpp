@@ -15,6 +15,7 @@
 #include "preview/preview.h"
 #include "reference/metrics.h"
 #include "scene/clear_sky.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -13,6 +13,7 @@
 #include "bench/stopwatch.h"
 #include "reference/metrics.h"
 #include "reference/reference.h"
+#include "solve/solver.h"
 #include "transport/patches.h"
 
 namespace lumel::bench {

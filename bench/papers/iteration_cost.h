@@ -3,6 +3,7 @@
 
 #include "gpu/device.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 

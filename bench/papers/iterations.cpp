@@ -10,6 +10,7 @@
 #include "bench/cut.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

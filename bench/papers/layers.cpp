@@ -13,6 +13,7 @@
 #include "paths/samples.h"
 #include "scene/light_options.h"
 #include "solve/slabs.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -15,6 +15,7 @@
 #include "bench/stopwatch.h"
 #include "shooting/lumel_arrays.h"
 #include "shooting/power_pyramid.h"
+#include "solve/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -13,6 +13,7 @@
 #include "core/log.h"
 #include "finish/finish.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel::v0 {
 namespace {

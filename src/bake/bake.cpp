@@ -13,6 +13,7 @@
 #include "output/folder.h"
 #include "relight/matrix_file.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel {
 

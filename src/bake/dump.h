@@ -6,7 +6,7 @@
 #include "nearfield/near_field.h"
 #include "output/folder.h"
 #include "prepare/prepare.h"
-#include "solve/solver.h"
+#include "solve/options.h"
 #include "world/world.h"
 
 namespace lumel {

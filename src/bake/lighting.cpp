@@ -2,6 +2,7 @@
 
 #include "shooting/lumel_arrays.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel {
 namespace {

@@ -11,9 +11,10 @@
 #include "output/folder.h"
 #include "prepare/prepare.h"
 #include "record/report.h"
-#include "solve/solver.h"
 
 namespace lumel {
+
+class Solver;
 
 struct ReferenceOptions;
 

@@ -7,6 +7,7 @@
 
 #include "core/log.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel {
 namespace {

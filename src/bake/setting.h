@@ -8,9 +8,10 @@
 #include "bake/stages.h"
 #include "lobes/lobe_particles.h"
 #include "prepare/prepare.h"
-#include "solve/solver.h"
 
 namespace lumel {
+
+class Solver;
 
 /// Says what the scene's reader had to say.
 void tell_warnings(const Scene& scene);

@@ -10,6 +10,7 @@
 #include "solve/glossy.h"
 #include "solve/matrix.h"
 #include "solve/progressive.h"
+#include "solve/solver.h"
 #include "solve/stochastic.h"
 
 namespace lumel {

@@ -13,12 +13,12 @@
 #include "nearfield/near_field.h"
 #include "nearfield/solve_size.h"
 #include "solve/options.h"
-#include "solve/solver.h"
 #include "world/world.h"
 
 namespace lumel {
 
 class LobeParticles;
+class Solver;
 
 /// An option that a method reads, as text and in its struct.
 struct OptionInfo {

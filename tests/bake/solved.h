@@ -11,6 +11,7 @@
 #include "prepare/prepare.h"
 #include "reference/metrics.h"
 #include "solve/methods.h"
+#include "solve/solver.h"
 
 namespace lumel::support {
 
