@@ -1,17 +1,6 @@
 #include "solve/options.h"
 
 namespace lumel {
-namespace {
-
-template <class... Cases>
-struct Overloaded : Cases... {
-    using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
-
-}  // namespace
-
 SampleRule rule_of(const MethodOptions& method)
 {
     return std::visit(
@@ -27,26 +16,26 @@ SampleRule rule_of(const MethodOptions& method)
 ViewOptions views_of(const MethodOptions& method)
 {
     return std::visit(
-        Overloaded{[](const MatrixOptions& options) { return options.transport.views; },
-                   [](const auto& options) {
-                       if constexpr (requires { options.views; })
-                           return options.views;
-                       else
-                           return ViewOptions{};
-                   }},
+        [](const auto& options) {
+            if constexpr (requires { options.transport; })
+                return options.transport.views;
+            else if constexpr (requires { options.views; })
+                return options.views;
+            else
+                return ViewOptions{};
+        },
         method);
 }
 
 int batch_of(const MethodOptions& method)
 {
     return std::visit(
-        Overloaded{[](const MatrixOptions& options) { return options.transport.views.batch; },
-                   [](const auto& options) {
-                       if constexpr (requires { options.views; })
-                           return options.views.batch;
-                       else
-                           return options.batch;
-                   }},
+        [&](const auto& options) {
+            if constexpr (requires { options.batch; })
+                return options.batch;
+            else
+                return views_of(method).batch;
+        },
         method);
 }
 
