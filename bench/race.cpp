@@ -89,7 +89,7 @@ std::vector<Row> race_path_tracer(const Settings& settings, const Prepared& worl
 std::vector<glm::vec3> light_of(const Settings& settings, const gpu::Device& device,
                                 const World& world, const Prepared& prepared)
 {
-    if (!has_lights(prepared.scene))
+    if (!has_lights(prepared.scene) || method_of(settings.given.id).finds_lights)
         return {};
     return direct_light(device, world, prepared.scene, prepared.lumels,
                         direct_light_options(solver_of(settings), settings.sky_directions))
@@ -107,8 +107,14 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         Settings few = settings;
         few.sky_directions = 2;
         light_of(few, device, warm, world);
+        const HostScene host{world.scene, world.rays, world.atlas};
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
-        const auto solver = make_solver({device, warm, world.lumels, none}, options);
+        const auto solver = make_solver({.device = device,
+                                         .world = warm,
+                                         .lumels = world.lumels,
+                                         .near = none,
+                                         .host = &host},
+                                        options);
         for (int i = 0; i < 8; ++i)
             solver->step();
         solver->irradiance();
@@ -125,12 +131,14 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const double before = watch.cpu;
     const std::vector<glm::vec3> direct = light_of(settings, device, gpu_world, world);
     const std::optional<Lumels> lit = shining(world.lumels, direct);
+    const HostScene host{world.scene, world.rays, world.atlas};
     const std::optional<LobeParticles> particles = particles_for(world, options);
     const auto solver = make_solver({.device = device,
                                      .world = gpu_world,
                                      .lumels = lit ? *lit : world.lumels,
                                      .near = near,
-                                     .particles = particles ? &*particles : nullptr},
+                                     .particles = particles ? &*particles : nullptr,
+                                     .host = &host},
                                     options);
     watch.stop();
     fmt::print("# sky and lamps {:.2f} cpu-s\n", watch.cpu - before);

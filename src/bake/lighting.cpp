@@ -17,8 +17,11 @@ Lumels dark(Lumels lumels)
 
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
-                              std::span<const glm::vec3> known, Stages& stages)
+                              std::span<const glm::vec3> known, Stages& stages,
+                              Parts parts = Parts::all)
 {
+    const Prepared& prepared = setting.prepared;
+    const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
     auto solution = std::make_unique<Solution>();
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
@@ -27,7 +30,9 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                                     .lumels = lumels,
                                     .near = setting.near,
                                     .known = known,
-                                    .particles = setting.carriers()},
+                                    .particles = setting.carriers(),
+                                    .host = &host,
+                                    .parts = parts},
                                    options);
     solution->run = solve_in_stage(*solution->solver, options, stages);
     solution->irradiance = solution->solver->irradiance();
@@ -40,6 +45,8 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
                                       const std::vector<glm::vec3>& direct, Stages& stages)
 {
     const Lumels& lumels = setting.prepared.lumels;
+    if (method_of(options.solver.method).finds_lights)
+        return run(device, setting, options.solver, {}, {}, stages, options.parts);
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), direct, stages);
@@ -81,7 +88,7 @@ DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages)
 {
-    if (!has_lights(setting.prepared.scene))
+    if (!has_lights(setting.prepared.scene) || method_of(options.solver.method).finds_lights)
         return {};
     stages.begin("sky and lamps");
     DirectLight light =

@@ -10,6 +10,8 @@ struct SolverState {
     std::uint64_t shots = 0;       ///< shooters so far
     std::uint64_t iterations = 0;  ///< steps so far
     double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
+    /// The same of lumels below a third of the mean, relative to their own; < 0: not known.
+    double dark_error = -1.0;
 };
 
 }  // namespace lumel

@@ -8,6 +8,7 @@
 #include "solve/directions.h"
 #include "solve/gather.h"
 #include "solve/glossy.h"
+#include "solve/links.h"
 #include "solve/matrix.h"
 #include "solve/progressive.h"
 #include "solve/solver.h"
@@ -229,6 +230,11 @@ constexpr OptionInfo seed_option()
     return number<Options, 0u, kMostSeed, seed>(kSeed);
 }
 
+constexpr OptionInfo kLinksOptions[] = {
+    seed_option<LinksOptions>(),
+    choice<LinksOptions, kRules, rule>(kSampling),
+};
+
 constexpr OptionInfo kStochasticOptions[] = {
     seed_option<StochasticOptions>(),
     choice<StochasticOptions, kSchemes, averaging>(kScheme),
@@ -304,7 +310,9 @@ template <class Method, class Options>
 std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& options)
 {
     const auto& own = std::get<Options>(options.method);
-    if constexpr (std::is_same_v<Method, GlossyIllumination>)
+    if constexpr (std::is_same_v<Method, LinkRadiosity>)
+        return std::make_unique<Method>(*in.host, in.lumels, own, options.target_error, in.parts);
+    else if constexpr (std::is_same_v<Method, GlossyIllumination>)
         return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known,
                                         in.particles);
     else if constexpr (std::is_same_v<Method, GlobalDirections>)
@@ -333,6 +341,19 @@ constexpr float kPatchRadius = 6.0f;
 constexpr float kNoNearField = 0.0f;
 
 constexpr MethodInfo kMethods[] = {
+    {.id = "links",
+     .title = "Gathering over links that are traced once",
+     .paper = "",
+     .advice = "any scene with diffuse surfaces, buildings above all",
+     .materials = MaterialModel::diffuse,
+     .near_radius = kNoNearField,
+     .near_surroundings = false,
+     .finds_lights = true,
+     .can_keep_sources = false,
+     .defaults = defaults<LinksOptions>,
+     .options = kLinksOptions,
+     .make = make<LinkRadiosity, LinksOptions>,
+     .device_bytes = bytes_of<LinkRadiosity, LinksOptions>},
     {.id = "stochastic",
      .title = "Stochastic radiosity by perspective ray bundles",
      .paper = "[BJ04], [BSS05]",
@@ -340,6 +361,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kUsualRadius,
      .near_surroundings = false,
+     .finds_lights = false,
      .can_keep_sources = false,
      .defaults = defaults<StochasticOptions>,
      .options = kStochasticOptions,
@@ -352,6 +374,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::glossy,
      .near_radius = kGlossyRadius,
      .near_surroundings = false,
+     .finds_lights = false,
      .can_keep_sources = false,
      .defaults = defaults<GlossyOptions>,
      .options = kGlossyOptions,
@@ -364,6 +387,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
+     .finds_lights = false,
      .can_keep_sources = false,
      .defaults = defaults<DirectionsOptions>,
      .options = kDirectionsOptions,
@@ -377,6 +401,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = false,
+     .finds_lights = false,
      .can_keep_sources = false,
      .defaults = defaults<ProgressiveOptions>,
      .options = kProgressiveOptions,
@@ -389,6 +414,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
+     .finds_lights = false,
      .can_keep_sources = false,
      .defaults = defaults<GatherOptions>,
      .options = kGatherOptions,
@@ -402,6 +428,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = true,
+     .finds_lights = false,
      .can_keep_sources = true,
      .defaults = defaults<MatrixOptions>,
      .options = kMatrixOptions,

@@ -12,6 +12,7 @@
 
 #include "nearfield/near_field.h"
 #include "nearfield/solve_size.h"
+#include "scene/parts.h"
 #include "solve/options.h"
 #include "world/world.h"
 
@@ -37,6 +38,13 @@ struct OptionInfo {
     bool (*set)(MethodOptions& method, const std::string& value);
 };
 
+/// A scene for methods that trace rays on the host.
+struct HostScene {
+    const Scene& scene;
+    const RayScene& rays;
+    const Atlas& atlas;
+};
+
 /// What a method works on. All must outlive it.
 struct SolverInputs {
     const gpu::Device& device;
@@ -47,6 +55,8 @@ struct SolverInputs {
     /// is a part of both, but the noise of what is known is not in it.
     std::span<const glm::vec3> known = {};
     const LobeParticles* particles = nullptr;  ///< see GlossyIllumination
+    const HostScene* host = nullptr;           ///< only for links, and only while it is made
+    Parts parts = Parts::all;                  ///< what methods that find lights return
 };
 
 /// A method of the table: what --solver takes.
@@ -58,6 +68,7 @@ struct MethodInfo {
     MaterialModel materials;  ///< what it reads of them
     float near_radius;        ///< NearFieldOptions::radius that suits it; 0: it has no near field
     bool near_surroundings;   ///< NearFieldOptions::surroundings
+    bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
     bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight
     MethodOptions (*defaults)();
     std::span<const OptionInfo> options;

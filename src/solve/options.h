@@ -12,6 +12,11 @@
 
 namespace lumel {
 
+struct LinksOptions {
+    std::uint32_t seed = 1;
+    SampleRule rule = SampleRule::area;
+};
+
 struct StochasticOptions {
     std::uint32_t seed = 1;
     ViewOptions views;
@@ -61,7 +66,7 @@ struct MatrixOptions {
     TransportOptions transport;
 };
 
-using MethodOptions = std::variant<StochasticOptions, GlossyOptions, DirectionsOptions,
+using MethodOptions = std::variant<LinksOptions, StochasticOptions, GlossyOptions, DirectionsOptions,
                                    ProgressiveOptions, GatherOptions, MatrixOptions>;
 
 /// A method, and when to stop.

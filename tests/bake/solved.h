@@ -51,7 +51,13 @@ inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels
 {
     const Resident resident(scene, rays, lumels, options, atlas);
     const auto& [near, device, world] = resident;
-    const auto solver = make_solver({device, world, lumels, near}, options);
+    const HostScene host{scene, rays, atlas ? *atlas : Atlas{}};
+    const auto solver = make_solver({.device = device,
+                                     .world = world,
+                                     .lumels = lumels,
+                                     .near = near,
+                                     .host = atlas ? &host : nullptr},
+                                    options);
     EXPECT_TRUE(solve(*solver, options));
     Solved solved{solver->irradiance(), solver->state()};
     EXPECT_EQ(device.validation_messages(), "");

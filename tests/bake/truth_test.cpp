@@ -11,7 +11,8 @@ using support::LumelError;
 using support::Solved;
 
 /// Solvers that are held to the same truths.
-const auto kEverySolver = testing::Values("stochastic", "progressive", "gather", "matrix");
+const auto kEverySolver =
+    testing::Values("links", "stochastic", "progressive", "gather", "matrix");
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 
@@ -253,7 +254,8 @@ INSTANTIATE_TEST_SUITE_P(By, SealedBox,
 
 INSTANTIATE_TEST_SUITE_P(ByHemicubes, SealedBox,
                          testing::Values(Seen{"gather", Projection::hemicube},
-                                         Seen{"matrix", Projection::hemicube}),
+                                         Seen{"matrix", Projection::hemicube},
+                                         Seen{"links", Projection::hemicube}),
                          seen_name);
 
 class PatchworkSphere : public testing::TestWithParam<const char*> {};

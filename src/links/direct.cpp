@@ -1,0 +1,344 @@
+// The light of a source at a lumel is that of the source as if nothing were between, where that is
+// known exactly, times the visible share, weighted by what comes along each ray:
+//
+//     D = ⟨open⟩ · Σ V f / Σ f,        else  D = ⟨V f⟩.
+//
+// So lumels that see all of a source, or nothing of it, have no noise. Random numbers of the two
+// halves are independent.
+
+#include "links/direct.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/luminance.h"
+#include "core/parallel.h"
+#include "paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels of one block of work, and blocks of one step.
+constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
+/// Rays of one half for each source: of all lumels, and of those that see a part of a source. Small
+/// sources have sharp shadows.
+constexpr std::uint32_t kFewRays = 8, kManyRays = 32, kFewToSmall = 16, kManyToSmall = 32;
+/// Sources with less than this share of the light guessed for a lumel share their rays.
+constexpr float kOwnRays = 1.0f / 16.0f;
+/// The light of a lumel's cells is kept if it differs by more than this share of the brightest, and
+/// that is more than this share of the mean of all lumels.
+constexpr float kDiffers = 0.25f, kCounts = 0.01f;
+
+/// Times that the many rays are doubled, at most.
+constexpr std::uint32_t kMostRefined = 8;
+/// Halves that differ by more than this share of their mean are uncertain.
+constexpr float kUncertain = 0.02f;
+
+/// Dimension pairs of a ray's random numbers.
+constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
+
+}  // namespace
+
+/// What the rays to one source tell, of a lumel or of a cell.
+struct DirectFinder::Sums {
+    glm::vec3 open{0.0f};   ///< Σ of what is known exactly
+    glm::vec3 passed{0.0f};  ///< Σ V f
+    float offered = 0.0f;    ///< Σ f by luminance
+    glm::vec3 seen{0.0f};    ///< Σ V f by luminance of f
+    std::uint32_t rays = 0, free = 0, hidden = 0;
+    bool exact = true;
+
+    void add(const SourceSample& sample, const glm::vec3& passing)
+    {
+        const float offer = float(luminance(sample.irradiance));
+        ++rays;
+        if (sample.open)
+            open += *sample.open;
+        else
+            exact = false;
+        passed += passing * sample.irradiance;
+        offered += offer;
+        seen += passing * offer;
+        if (offer > 0.0f)
+            ++(passing == glm::vec3(0.0f) ? hidden : free);
+    }
+    glm::vec3 light() const
+    {
+        if (rays == 0)
+            return glm::vec3(0.0f);
+        if (!exact)
+            return passed / float(rays);
+        return offered > 0.0f ? open / float(rays) * (seen / offered) : glm::vec3(0.0f);
+    }
+};
+
+struct DirectFinder::Found {
+    glm::vec3 half[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    OfCells cells{};
+    std::uint32_t seen = 0;
+    bool uncertain = false;
+    std::uint64_t rays = 0;
+};
+
+DirectFinder::DirectFinder(const LinkScene& place, const LightSources& sources,
+                           const RayStarts& starts, const std::vector<std::uint32_t>& order,
+                           std::uint32_t seed)
+    : place_(place),
+      sources_(sources),
+      starts_(starts),
+      order_(order),
+      seed_(seed),
+      half_{std::vector<glm::vec3>(order.size()), std::vector<glm::vec3>(order.size())},
+      seen_(order.size()),
+      uncertain_(order.size()),
+      varying_(order.size(), kSame),
+      blocks_((order.size() + kBlock - 1) / kBlock)
+{
+}
+
+/// Sources that send much have rays of their own; `rest`: running sums over all sources of what the
+/// others might send, empty if there are none.
+void DirectFinder::share_out_rays(const glm::vec3& at, float size, std::vector<std::uint32_t>& own,
+                                  std::vector<float>& rest) const
+{
+    own.clear();
+    rest.resize(sources_.count());
+    float total = 0.0f;
+    for (std::uint32_t s = 0; s < sources_.count(); ++s)
+        total += rest[s] = sources_.guess(s, at, size);
+    float sum = 0.0f;
+    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
+        if (rest[s] >= kOwnRays * total) {
+            own.push_back(s);
+            rest[s] = 0.0f;
+        }
+        rest[s] = sum += rest[s];
+    }
+    if (!(sum > 0.0f))
+        rest.clear();
+}
+
+/// Looks at a point of a source; factor: times its light, where it stands for others too.
+DirectFinder::Looked DirectFinder::look(const RayStart& start, std::size_t source, float factor,
+                                        const glm::vec2& at, std::uint32_t seed) const
+{
+    Looked looked{sources_.sample(source, start, at)};
+    SourceSample& sample = looked.sample;
+    if (factor != 1.0f) {
+        sample.irradiance *= factor;
+        sample.open.reset();
+    }
+    if (sample.irradiance == glm::vec3(0.0f))
+        return looked;
+    looked.passing =
+        std::isinf(sample.distance)
+            ? place_.rays.passing_out(start.position, sample.direction, seed)
+            : place_.rays.passing(start.position,
+                                  start.position + sample.distance * sample.direction,
+                                  place_.rays.lift(), seed);
+    return looked;
+}
+
+DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
+{
+    Found found;
+    const Lumel& lumel = place_.lumels.lumels[i];
+    if (lumel.flags & kLumelBuried)
+        return found;
+    std::vector<std::uint32_t> own;
+    std::vector<float> rest;
+    const RayStart middle = starts_.start(i, glm::vec2(0.5f));
+    share_out_rays(middle.position, lumel.size, own, rest);
+
+    bool exact = true;
+    const std::size_t groups = own.size() + (rest.empty() ? 0 : 1);
+    for (std::size_t g = 0; g < groups; ++g) {
+        const bool alone = g < own.size();
+        const bool small = alone && sources_.is_small(own[g]);
+        const std::uint32_t rays = (many ? (small ? kManyToSmall : kManyRays) << level_
+                                         : (small ? kFewToSmall : kFewRays));
+        std::array<Sums, kCells> of_cells;
+        Sums of_both;
+        for (std::uint32_t h = 0; h < 2; ++h) {
+            Sums sums;
+            const std::uint32_t stream = PathSamples::hash(
+                PathSamples::hash(seed_, 2 * i + h), std::uint32_t(g) + (many ? 0x8000u << level_ : 0));
+            for (std::uint32_t k = 0; k < rays; ++k) {
+                const PathSamples samples(stream, k);
+                const RayStart start = starts_.start(i, samples.stratified(kStartPair));
+                std::uint32_t source = alone ? own[g] : 0;
+                float factor = 1.0f;
+                if (!alone) {
+                    const float mark = samples.stratified(kChoicePair).x * rest.back();
+                    source = std::uint32_t(std::upper_bound(rest.begin(), rest.end(), mark) -
+                                           rest.begin());
+                    source = std::min(source, std::uint32_t(rest.size() - 1));
+                    const float below = source > 0 ? rest[source - 1] : 0.0f;
+                    if (!(rest[source] > below))
+                        continue;
+                    factor = rest.back() / (rest[source] - below);
+                }
+                const Looked looked = look(start, source, factor, samples.stratified(kSourcePair),
+                                           samples.bits(kSourcePair));
+                sums.add(looked.sample, looked.passing);
+                of_both.add(looked.sample, looked.passing);
+                of_cells[start.cell].add(looked.sample, looked.passing);
+            }
+            found.half[h] += sums.light();
+        }
+        found.rays += of_both.free + of_both.hidden;
+        found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
+        if (of_both.free > 0)
+            found.seen |= 1u << (alone ? own[g] % 32 : 31);
+        exact = exact && of_both.exact;
+        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+            found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
+    }
+    const glm::vec3 mean = 0.5f * (found.half[0] + found.half[1]);
+    // A ray for a cell tells something only if it tells all.
+    if (!many && !exact)
+        found.cells.fill(mean);
+    if (std::abs(luminance(found.half[0]) - luminance(found.half[1])) >
+        double(kUncertain) * luminance(mean))
+        found.uncertain = true;
+    return found;
+}
+
+bool DirectFinder::step()
+{
+    const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;
+    if (first_pass_ && sources_.count() == 0)
+        return false;
+    const std::size_t last_block = std::min(done_ + kBlocksPerStep, blocks_.size());
+    parallel_for(last_block - done_, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t b = done_ + first; b < done_ + last; ++b) {
+            Block& block = blocks_[b];
+            for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, list.size()); ++k) {
+                const std::uint32_t i = list[k];
+                const Found found = find(i, !first_pass_);
+                half_[0][i] = found.half[0];
+                half_[1][i] = found.half[1];
+                block.rays += found.rays;
+                if (first_pass_) {
+                    seen_[i] = found.seen;
+                    uncertain_[i] = found.uncertain;
+                }
+                const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
+                    return luminance(one) < luminance(other);
+                };
+                const auto [least, most] =
+                    std::minmax_element(found.cells.begin(), found.cells.end(), by_light);
+                if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
+                    block.lumel.push_back(i);
+                    block.cells.push_back(found.cells);
+                }
+            }
+        }
+    });
+    done_ = last_block;
+    if (done_ < blocks_.size())
+        return true;
+
+    // The pass ends.
+    if (first_pass_)
+        mark_uncertain_hidden();
+    keep_cells();
+    const bool more = first_pass_ && !many_.empty();
+    first_pass_ = false;
+    if (more) {
+        blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
+        done_ = 0;
+    }
+    return more;
+}
+
+bool DirectFinder::refine()
+{
+    if (many_.empty() || level_ == kMostRefined)
+        return false;
+    ++level_;
+    blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
+    done_ = 0;
+    return true;
+}
+
+double DirectFinder::fraction() const
+{
+    return blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
+}
+
+/// Lumels that see a part of a source, those whose halves differ, and those that see other sources
+/// than a neighbour on their chart: few rays miss thin shadows.
+void DirectFinder::mark_uncertain_hidden()
+{
+    const std::vector<std::uint32_t> by_side = lumels_by_side(place_.lumels);
+    const int width = place_.lumels.width, height = place_.lumels.height;
+    std::vector<char> needs = uncertain_;
+    parallel_for(place_.lumels.lumels.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Lumel& lumel = place_.lumels.lumels[i];
+            const int x = int(lumel.texel) % width, y = int(lumel.texel) / width;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height)
+                        continue;
+                    const std::size_t texel = std::size_t(y + dy) * std::size_t(width) +
+                                              std::size_t(x + dx);
+                    const std::uint32_t other =
+                        by_side[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
+                    if (other == kNoLumel || place_.lumels.lumels[other].chart != lumel.chart)
+                        continue;
+                    if (uncertain_[other] || seen_[other] != seen_[i])
+                        needs[i] = 1;
+                }
+        }
+    });
+    // Charts may be small: neighbours in space, as far as the order has them.
+    for (std::size_t o = 0; o + 1 < order_.size(); ++o) {
+        const std::uint32_t i = order_[o], j = order_[o + 1];
+        if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
+            needs[i] = needs[j] = 1;
+    }
+    for (const std::uint32_t i : order_)
+        if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried))
+            many_.push_back(i);
+}
+
+/// Takes over what the blocks of a pass found of cells.
+void DirectFinder::keep_cells()
+{
+    double mean = 0.0;
+    for (std::size_t i = 0; i < half_[0].size(); ++i)
+        mean += luminance(this->mean(i));
+    mean /= double(std::max<std::size_t>(half_[0].size(), 1));
+    std::vector<char> again(first_pass_ ? 0 : half_[0].size(), 0);
+    if (!first_pass_)
+        for (const std::uint32_t i : many_)
+            again[i] = 1;
+
+    std::vector<OfCells> kept;
+    std::vector<std::uint32_t> index(varying_.size(), kSame);
+    const auto keep = [&](std::uint32_t i, const OfCells& cells) {
+        double most = 0.0;
+        for (const glm::vec3& cell : cells)
+            most = std::max(most, luminance(cell));
+        if (most <= double(kCounts) * mean)
+            return;
+        index[i] = std::uint32_t(kept.size());
+        kept.push_back(cells);
+    };
+    if (!first_pass_)
+        for (std::uint32_t i = 0; i < varying_.size(); ++i)
+            if (varying_[i] != kSame && !again[i])
+                keep(i, cells_[varying_[i]]);
+    for (Block& block : blocks_) {
+        for (std::size_t k = 0; k < block.lumel.size(); ++k)
+            keep(block.lumel[k], block.cells[k]);
+        rays_ += block.rays;
+        block = {};
+    }
+    cells_ = std::move(kept);
+    varying_ = std::move(index);
+}
+
+}  // namespace lumel

@@ -1,0 +1,44 @@
+#pragma once
+// Where rays leave a lumel.
+
+#include "links/cells.h"
+
+namespace lumel {
+
+/// A point just off a lumel, to look from.
+struct RayStart {
+    glm::vec3 position;   ///< [m] world, lifted
+    glm::vec3 normal;     ///< unit, interpolated
+    glm::vec3 geometric;  ///< unit, of the surface; rays below it meet the lumel itself
+    std::uint32_t cell;   ///< of the lumel
+
+    /// Cosine at the surface of a direction that light may come from; 0 for others.
+    float cosine(const glm::vec3& direction) const
+    {
+        const float cosine = glm::dot(normal, direction);
+        return cosine > 0.0f && glm::dot(geometric, direction) > 0.0f ? cosine : 0.0f;
+    }
+};
+
+class RayStarts {
+public:
+    /// What is given must outlive it. centre: all rays leave from the lumel's centre.
+    RayStarts(const WorldLumels& world, const Cells& cells, float lift, bool centre)
+        : world_(&world),
+          cells_(&cells),
+          lift_(lift),
+          centre_(centre)
+    {
+    }
+
+    /// `at` in the unit square, evenly by area.
+    RayStart start(std::size_t i, const glm::vec2& at) const;
+
+private:
+    const WorldLumels* world_;
+    const Cells* cells_;
+    float lift_;  ///< [m]
+    bool centre_;
+};
+
+}  // namespace lumel

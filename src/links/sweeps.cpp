@@ -1,0 +1,284 @@
+#include "links/sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <glm/gtc/packing.hpp>
+
+#include "core/error.h"
+#include "core/frame.h"
+#include "core/parallel.h"
+
+namespace lumel {
+namespace {
+
+/// The scene is cut into this many cells a side for the groups.
+constexpr int kGroupCells = 4;
+/// Sweeps before groups are made.
+constexpr int kPlainSweeps = 10;
+/// What is left to come may be this share of a part's own light, in the mean of squares; parts
+/// darker than kDarkest of the mean count as if they had that.
+constexpr double kStill = 1e-3, kDarkest = 1e-4;
+constexpr int kMostSweeps = 10'000;
+/// Parts of one task.
+constexpr std::size_t kGrain = 4096;
+/// A pivot this small: all that a group sends comes back to it.
+constexpr double kSingular = 1e-7;
+
+using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
+
+/// What a sweep changed, in each block of lumels.
+struct Change {
+    double squares = 0.0;
+    std::size_t count = 0;
+};
+
+}  // namespace
+
+/// Corrects the level of groups after a sweep x → y of what parts send: with K_ab the share of what
+/// group a receives that comes from b, times ρ, and r_a the mean change of a, the change still to
+/// come is (1 - K)⁻¹ K r.
+class LinkSolver::Groups {
+public:
+    Groups(const LinkSolver& solver, const Gathered& gathered)
+        : solver_(solver),
+          size_(solver.group_count_)
+    {
+        const std::size_t cells = std::size_t(size_) * size_;
+        for (int c = 0; c < 3; ++c)
+            inverse_[c].assign(cells, 0.0);
+        area_.assign(size_, 0.0);
+        albedo_.assign(size_, glm::dvec3(0.0));
+        for_each_part([&](std::uint32_t p, double area, const glm::vec3& albedo) {
+            area_[solver.group_[p]] += area;
+            albedo_[solver.group_[p]] += area * glm::dvec3(albedo);
+        });
+        for (std::uint32_t g = 0; g < size_; ++g)
+            albedo_[g] /= std::max(area_[g], 1e-30);
+        count_links(gathered);
+        for (int c = 0; c < 3; ++c)
+            invert(inverse_[c]);
+    }
+
+    /// Adds the change still to come to `now`; before: what it was before the sweep.
+    void correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
+    {
+        std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), rest(size_, glm::dvec3(0.0));
+        for_each_part([&](std::uint32_t p, double area, const glm::vec3&) {
+            change[solver_.group_[p]] += area * glm::dvec3(now[p] - before[p]);
+        });
+        for (std::uint32_t g = 0; g < size_; ++g)
+            change[g] /= std::max(area_[g], 1e-30);
+        // (1 - K)⁻¹ K r = (1 - K)⁻¹ r - r.
+        for (std::uint32_t a = 0; a < size_; ++a)
+            for (int c = 0; c < 3; ++c) {
+                double sum = -change[a][c];
+                for (std::uint32_t b = 0; b < size_; ++b)
+                    sum += inverse_[c][std::size_t(a) * size_ + b] * change[b][c];
+                rest[a][c] = sum;
+            }
+        for_each_part([&](std::uint32_t p, double, const glm::vec3& albedo) {
+            const std::uint32_t g = solver_.group_[p];
+            for (int c = 0; c < 3; ++c)
+                if (albedo_[g][c] > 0.0)
+                    now[p][c] = std::max(
+                        now[p][c] + float(rest[g][c] * double(albedo[c]) / albedo_[g][c]), 0.0f);
+        });
+    }
+
+private:
+    template <class Visit>
+    void for_each_part(const Visit& visit) const
+    {
+        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
+        for (std::uint32_t i = 0; i < lumels.size(); ++i) {
+            const std::uint32_t first = solver_.parts_.first(i), end = solver_.parts_.end(i);
+            for (std::uint32_t p = first; p < end; ++p)
+                visit(p, double(lumels[i].area) / double(end - first), lumels[i].albedo);
+        }
+    }
+
+    /// 1 - K.
+    void count_links(const Gathered& gathered)
+    {
+        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
+        for (const std::vector<LinkBlock>& blocks : gathered.rounds)
+            for (std::size_t b = 0; b < blocks.size(); ++b) {
+                std::size_t row = 0;
+                const std::size_t end = std::min((b + 1) * kLinkBlock, solver_.order_.size());
+                for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+                    const std::uint32_t i = solver_.order_[o];
+                    const std::uint32_t first = solver_.parts_.first(i), last = solver_.parts_.end(i);
+                    for (std::uint32_t p = first; p < last; ++p, ++row) {
+                        if (gathered.rays[p] == 0)
+                            continue;
+                        const std::uint32_t a = solver_.group_[p];
+                        const double share = double(lumels[i].area) / double(last - first) /
+                                             std::max(area_[a], 1e-30) / double(gathered.rays[p]);
+                        const LinkBlock& block = blocks[b];
+                        const auto add = [&](std::uint32_t target, const glm::vec3& weight) {
+                            const std::size_t cell =
+                                std::size_t(a) * size_ + solver_.group_[target];
+                            for (int c = 0; c < 3; ++c)
+                                inverse_[c][cell] -=
+                                    share * double(lumels[i].albedo[c] * weight[c]);
+                        };
+                        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+                            add(block.target[k], glm::vec3(1.0f));
+                        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1];
+                             ++k)
+                            add(block.weak[k].part, glm::unpackF3x9_E1x5(block.weak[k].weight));
+                    }
+                }
+            }
+        for (std::uint32_t g = 0; g < size_; ++g)
+            for (int c = 0; c < 3; ++c)
+                inverse_[c][std::size_t(g) * size_ + g] += 1.0;
+    }
+
+    /// In place, by Gauss-Jordan with the diagonal as pivots: 1 - K is diagonally dominant.
+    void invert(std::vector<double>& m) const
+    {
+        const std::size_t n = size_;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double pivot = m[k * n + k];
+            if (!(pivot > kSingular))
+                throw Error(ErrorKind::input, "albedo 1",
+                            "in a closed room: light that is nowhere absorbed grows without "
+                            "bound; make some surface darker");
+            m[k * n + k] = 1.0;
+            for (std::size_t j = 0; j < n; ++j)
+                m[k * n + j] /= pivot;
+            parallel_for(n, 16, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    const double factor = m[i * n + k];
+                    if (i == k || factor == 0.0)
+                        continue;
+                    m[i * n + k] = 0.0;
+                    for (std::size_t j = 0; j < n; ++j)
+                        m[i * n + j] -= factor * m[k * n + j];
+                }
+            });
+        }
+    }
+
+    const LinkSolver& solver_;
+    std::uint32_t size_;
+    std::vector<double> inverse_[3];  ///< [groups][groups] (1 - K)⁻¹ of each channel
+    std::vector<double> area_;        ///< [groups] [m²]
+    std::vector<glm::dvec3> albedo_;  ///< [groups] mean
+};
+
+LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const LumelParts& parts,
+                       const std::vector<std::uint32_t>& order)
+    : lumels_(lumels),
+      parts_(parts),
+      order_(order),
+      group_(parts.count())
+{
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        low = glm::min(low, world[i].centre);
+        high = glm::max(high, world[i].centre);
+    }
+    const glm::vec3 scale =
+        float(kGroupCells) / glm::max(high - low, glm::vec3(1e-6f * glm::distance(low, high)));
+    std::map<int, std::uint32_t> number;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const glm::ivec3 cell = glm::clamp(glm::ivec3((world[i].centre - low) * scale), 0,
+                                           kGroupCells - 1);
+        const int key =
+            ((cell.z * kGroupCells + cell.y) * kGroupCells + cell.x) * 6 + cube_side(world[i].normal);
+        const auto [at, is_new] = number.try_emplace(key, std::uint32_t(number.size()));
+        std::fill(group_.begin() + parts.first(i), group_.begin() + parts.end(i), at->second);
+    }
+    group_count_ = std::uint32_t(number.size());
+}
+
+void LinkSolver::solve(const Gathered& gathered, std::vector<glm::vec3>& received) const
+{
+    const std::vector<Lumel>& lumels = lumels_.lumels;
+    const std::size_t parts = parts_.count(), blocks = (order_.size() + kLinkBlock - 1) / kLinkBlock;
+    received.resize(parts, glm::vec3(0.0f));
+    std::vector<Reflected> sent(parts), next(parts);
+    const auto each_part = [&](const auto& body) {
+        parallel_for(parts, kGrain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t p = first; p < last; ++p)
+                body(p, lumels[parts_.lumel(p)]);
+        });
+    };
+    each_part([&](std::size_t p, const Lumel& lumel) {
+        sent[p] = glm::vec4(lumel.albedo * received[p], 0.0f);
+    });
+    std::optional<Groups> groups;
+    std::vector<Change> changes(blocks);
+    double before = 0.0, floor = 0.0;
+    for (sweeps_ = 1; sweeps_ <= kMostSweeps; ++sweeps_) {
+        parallel_for(blocks, 4, [&](std::size_t first_block, std::size_t last_block) {
+            for (std::size_t b = first_block; b < last_block; ++b) {
+                Change& change = changes[b] = {};
+                std::size_t row = 0;
+                const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
+                for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+                    const std::uint32_t i = order_[o];
+                    glm::vec3 of_all(0.0f);
+                    std::uint32_t rays = 0;
+                    for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
+                        glm::vec4 sum = glm::vec4(gathered.reflected[p] + gathered.sky[p], 0.0f);
+                        for (const std::vector<LinkBlock>& round : gathered.rounds) {
+                            const LinkBlock& block = round[b];
+                            for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+                                sum += sent[block.target[k]];
+                            for (std::uint32_t k = block.first_weak[row];
+                                 k < block.first_weak[row + 1]; ++k)
+                                sum += sent[block.weak[k].part] *
+                                       glm::vec4(glm::unpackF3x9_E1x5(block.weak[k].weight), 0.0f);
+                        }
+                        of_all += glm::vec3(sum);
+                        rays += gathered.rays[p];
+                        if (gathered.rays[p] > 0)
+                            received[p] = glm::vec3(sum) / float(gathered.rays[p]);
+                    }
+                    for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
+                        // A part without a ray takes the lumel's mean.
+                        if (gathered.rays[p] == 0)
+                            received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
+                        next[p] = glm::vec4(lumels[i].albedo * received[p], 0.0f);
+                        const double now = double(next[p].x + next[p].y + next[p].z);
+                        const double was = double(sent[p].x + sent[p].y + sent[p].z);
+                        if (now > 0.0) {
+                            const double relative = (now - was) / (now + floor);
+                            change.squares += relative * relative;
+                            ++change.count;
+                        }
+                    }
+                }
+            }
+        });
+        Change all;
+        for (const Change& change : changes) {
+            all.squares += change.squares;
+            all.count += change.count;
+        }
+        if (groups)
+            groups->correct(sent, next);
+        sent.swap(next);
+        const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
+        // Changes that shrink by a factor q leave q / (1 - q) of the last to come.
+        const double factor = before > 0.0 ? std::min(size / before, 1.0 - 1e-6) : 1.0 - 1e-6;
+        before = size;
+        if (size == 0.0 || (sweeps_ > 1 && size * factor / (1.0 - factor) < kStill))
+            return;
+        if (sweeps_ == 1) {
+            double mean = 0.0;
+            for (const Reflected& value : sent)
+                mean += double(value.x + value.y + value.z);
+            floor = kDarkest * mean / double(parts);
+        }
+        if (sweeps_ == kPlainSweeps)
+            groups.emplace(*this, gathered);
+    }
+}
+
+}  // namespace lumel

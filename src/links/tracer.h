@@ -1,0 +1,92 @@
+#pragma once
+// Links: what each part of a lumel meets along rays spread by the cosine. Each ray is traced once,
+// and the part that it meets is kept; all further bounces go over what is kept.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "links/cells.h"
+#include "links/direct.h"
+#include "paths/samples.h"
+
+namespace lumel {
+
+/// A ray that met a part after it had passed glass or had been reflected on its way.
+struct WeakLink {
+    std::uint32_t part;
+    std::uint32_t weight;  ///< what is left of it, RGB9E5
+};
+
+/// Links of the parts of some lumels.
+struct LinkBlock {
+    std::vector<std::uint32_t> first;       ///< [parts + 1] into target
+    std::vector<std::uint32_t> target;      ///< parts
+    std::vector<std::uint32_t> first_weak;  ///< [parts + 1] into weak
+    std::vector<WeakLink> weak;
+};
+
+/// Lumels of one block.
+inline constexpr std::size_t kLinkBlock = 256;
+
+/// What one of two independent sets of rays has found so far.
+struct Gathered {
+    explicit Gathered(std::size_t parts)
+        : reflected(parts, glm::vec3(0.0f)),
+          sky(parts, glm::vec3(0.0f)),
+          rays(parts, 0)
+    {
+    }
+
+    std::vector<std::vector<LinkBlock>> rounds;  ///< [rounds][blocks]
+    std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of the direct light that they met [lx]
+    std::vector<glm::vec3> sky;        ///< [P] Σ over rays of the sky's light [lx]
+    std::vector<std::uint32_t> rays;   ///< [P] that count
+};
+
+/// Follows rays from lumels until they meet a part.
+class LinkTracer {
+public:
+    /// What is given must outlive it. `order` [N]: of lumels, in which blocks take them.
+    LinkTracer(const LinkScene& place, const LightSources& sources, const WorldLumels& world,
+               const RayStarts& starts, const Cells& cells, const LumelParts& parts,
+               const DirectFinder& direct, const std::vector<std::uint32_t>& order,
+               std::uint32_t seed);
+
+    std::size_t blocks() const { return (order_.size() + kLinkBlock - 1) / kLinkBlock; }
+
+    /// Traces `rays` rays, a power of two, from each lumel of blocks [first, last) into the last
+    /// round of `into`. stream: of random numbers.
+    void trace(std::size_t first, std::size_t last, std::uint32_t rays, std::uint32_t stream,
+               Gathered& into) const;
+
+    std::uint64_t traced(std::size_t rays) const { return order_.size() * rays; }
+
+private:
+    struct Way;
+    enum class Met { part, sky, nothing, lost };
+
+    Met follow(std::uint32_t lumel, const RayStart& start, const glm::vec3& direction,
+               const PathSamples& samples, Way& way) const;
+    std::uint32_t lumel_near(const RayHit& hit) const;
+    bool seen_cell(std::uint32_t lumel, const glm::vec3& position, std::uint32_t seed,
+                   std::uint32_t& cell) const;
+    void trace_block(std::size_t block, std::uint32_t rays, std::uint32_t stream,
+                     Gathered& into) const;
+
+    const LinkScene place_;
+    const LightSources& sources_;
+    const WorldLumels& world_;
+    const RayStarts& starts_;
+    const Cells& cells_;
+    const LumelParts& parts_;
+    const DirectFinder& direct_;
+    const std::vector<std::uint32_t>& order_;
+    HitLumels hits_;
+    std::vector<std::uint32_t> by_side_;  ///< [texels][2]
+    std::uint32_t seed_;
+    float lift_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,291 @@
+// Radiosity over links: all light that a lumel receives is direct light D, which rays to points on
+// light sources find, and what rays spread by the cosine bring. Each of these is traced once. The
+// part of a lumel that it meets is kept, a link of four bytes, and
+//
+//     H = D + X,    X_p = (1/n_p) Σ_k ρ (D + X)[target_pk]  + sky,
+//
+// is solved over the links, sweep by sweep, for all bounces at once (links/sweeps.cpp). The cost
+// grows with the number of lumels, as there is no shooter whose light falls off with the square of
+// the distance.
+//
+// Two solutions share nothing random: each has its own links, and direct light is found in two
+// halves. The result is their mean, and their difference is the error that is stated.
+//
+// A lumel is too coarse where light changes within it: it has a grid of cells for direct light, and
+// parts, each with an X of its own, where geometry cuts it (links/cells.h).
+
+#include "solve/links.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "atlas/morton.h"
+#include "core/frame.h"
+#include "paths/samples.h"
+#include "core/luminance.h"
+#include "solve/methods.h"
+
+namespace lumel {
+namespace {
+
+/// Rays of a lumel in each half of the first round; powers of two, which stratify best.
+constexpr std::uint32_t kFirstRays = 16;
+/// Blocks of links that one step traces at the first round's number of rays.
+constexpr std::size_t kBlocksPerStep = 64;
+/// Direct light is found better if its noise is more than this share of the error asked for; and
+/// alone, without more links, if it is more than this share of all noise.
+constexpr double kMostOfDirect = 0.5, kRestOfLinks = 0.8;
+/// Lumels that are darker than this share of the mean are dark.
+constexpr double kDark = 1.0 / 3.0;
+/// Key of the lumels' order: cells of the scene along each axis, within which lumels are sorted by
+/// the side that they face.
+constexpr double kOrderCells = 32.0;
+/// Random streams: of parts, of direct light, and of links of either half.
+constexpr std::uint32_t kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
+
+/// Lumels such that neighbours in space that face alike come together: their rays meet the same
+/// things.
+std::vector<std::uint32_t> order_in_space(const WorldLumels& world)
+{
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        low = glm::min(low, world[i].centre);
+        high = glm::max(high, world[i].centre);
+    }
+    const double side = std::max(double(glm::distance(low, high)), 1e-30);
+    struct Key {
+        std::uint64_t cell, side, fine;
+        std::uint32_t lumel;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::vector<Key> keys(world.size());
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const glm::dvec3 at = glm::dvec3(world[i].centre - low) / side;
+        keys[i] = {morton_code(glm::floor(at * kOrderCells) / kOrderCells),
+                   std::uint64_t(cube_side(world[i].normal)), morton_code(at), std::uint32_t(i)};
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::uint32_t> order(world.size());
+    std::transform(keys.begin(), keys.end(), order.begin(),
+                   [](const Key& key) { return key.lumel; });
+    return order;
+}
+
+std::vector<char> buried(const Lumels& lumels)
+{
+    std::vector<char> result(lumels.lumels.size());
+    std::transform(lumels.lumels.begin(), lumels.lumels.end(), result.begin(),
+                   [](const Lumel& lumel) { return (lumel.flags & kLumelBuried) != 0; });
+    return result;
+}
+
+/// Adds the time that something takes to a stage [ms].
+class Clock {
+public:
+    explicit Clock(double& sum) : sum_(sum) {}
+    ~Clock()
+    {
+        sum_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+                    .count();
+    }
+    Clock(const Clock&) = delete;
+    Clock& operator=(const Clock&) = delete;
+
+private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
+                             const LinksOptions& options, double target_error, Parts parts)
+    : options_(options),
+      target_error_(target_error),
+      parts_wanted_(parts),
+      lumels_(lumels),
+      surfaces_(host.scene),
+      place_{host.scene, surfaces_, host.rays, host.atlas, lumels},
+      world_(host.scene, host.rays, lumels),
+      cells_(world_),
+      starts_(world_, cells_, host.rays.lift(), options.rule == SampleRule::centre),
+      sources_(host.scene, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
+      order_(order_in_space(world_))
+{
+}
+
+LinkRadiosity::~LinkRadiosity() = default;
+
+void LinkRadiosity::step()
+{
+    switch (stage_) {
+    case Stage::begin: {
+        const Clock clock(times_["parts of lumels"]);
+        cut();
+        stage_ = Stage::direct;
+        break;
+    }
+    case Stage::direct: {
+        const Clock clock(times_["direct light"]);
+        if (direct_->step())
+            break;
+        if (refines_alone_) {
+            refines_alone_ = false;
+            estimate();
+            go_on();
+        } else {
+            begin_round();
+        }
+        break;
+    }
+    case Stage::links: {
+        const Clock clock(times_["links"]);
+        const std::size_t count =
+            std::max<std::size_t>(kBlocksPerStep * kFirstRays / rays_, std::size_t(1));
+        const std::size_t last = std::min(traced_ + count, tracer_->blocks());
+        for (std::uint32_t h = 0; h < 2; ++h)
+            tracer_->trace(traced_, last, rays_, kLinkStream + 2 * round_ + h, *gathered_[h]);
+        traced_ = last;
+        if (traced_ == tracer_->blocks())
+            stage_ = Stage::solve;
+        break;
+    }
+    case Stage::solve: {
+        const Clock clock(times_["sweeps"]);
+        end_round();
+        break;
+    }
+    }
+    ++state_.iterations;
+}
+
+void LinkRadiosity::cut()
+{
+    parts_.emplace(world_, cells_, place_.rays, buried(lumels_),
+                   PathSamples::hash(options_.seed, kPartStream));
+    direct_.emplace(place_, sources_, starts_, order_,
+                    PathSamples::hash(options_.seed, kDirectStream));
+    tracer_.emplace(place_, sources_, world_, starts_, cells_, *parts_, *direct_, order_,
+                    options_.seed);
+    solver_.emplace(lumels_, world_, *parts_, order_);
+    for (std::optional<Gathered>& half : gathered_)
+        half.emplace(parts_->count());
+}
+
+/// As many rays as the error still asks for, twice to thrice what there are at most.
+void LinkRadiosity::begin_round()
+{
+    rays_ = kFirstRays;
+    if (state_.shots > 0) {
+        const double so_far = double(state_.shots) / 2.0;
+        double more = so_far;
+        if (target_error_ > 0.0) {
+            const double ratio = state_.error / target_error_;
+            more = std::clamp(so_far * (ratio * ratio - 1.0), double(kFirstRays), 2.0 * so_far);
+        }
+        rays_ = std::bit_ceil(std::uint32_t(std::ceil(more)));
+    }
+    traced_ = 0;
+    stage_ = Stage::links;
+    for (std::optional<Gathered>& half : gathered_)
+        half->rounds.emplace_back(tracer_->blocks());
+}
+
+void LinkRadiosity::end_round()
+{
+    for (int h = 0; h < 2; ++h)
+        solver_->solve(*gathered_[h], received_[std::size_t(h)]);
+    state_.shots += 2 * std::uint64_t(rays_);
+    ++round_;
+    estimate();
+    go_on();
+}
+
+/// What comes next: better direct light, more links, or both.
+void LinkRadiosity::go_on()
+{
+    const bool wanted = target_error_ > 0.0;
+    if (wanted && state_.error > target_error_ && direct_error_ > kMostOfDirect * target_error_ &&
+        direct_->refine()) {
+        refines_alone_ = direct_error_ > kRestOfLinks * state_.error;
+        stage_ = Stage::direct;
+    } else if (!(wanted && state_.error <= target_error_)) {
+        begin_round();
+    }
+}
+
+/// Of one half [lx].
+glm::vec3 LinkRadiosity::light(std::size_t i, int half, Parts parts) const
+{
+    glm::vec3 indirect(0.0f), sky(0.0f);
+    std::uint32_t rays = 0;
+    const Gathered& gathered = *gathered_[half];
+    const std::vector<glm::vec3>& received = received_[std::size_t(half)];
+    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+        rays += gathered.rays[p];
+        sky += gathered.sky[p];
+        if (!received.empty())
+            indirect += float(gathered.rays[p]) * received[p];
+    }
+    const float share = rays > 0 ? 1.0f / float(rays) : 0.0f;
+    const glm::vec3 direct = direct_->half(half)[i];
+    if (parts == Parts::direct)
+        return direct + share * sky;
+    if (parts == Parts::indirect)
+        return share * (indirect - sky);
+    return direct + share * indirect;
+}
+
+/// The difference of two independent halves has four times the variance of their mean.
+void LinkRadiosity::estimate()
+{
+    std::vector<glm::vec3> mean;
+    std::vector<double> square, of_direct;
+    for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
+        if (lumels_.lumels[i].flags & kLumelBuried)
+            continue;
+        const glm::vec3 a = light(i, 0, parts_wanted_), b = light(i, 1, parts_wanted_);
+        const glm::vec3 d = 0.5f * (a - b);
+        const glm::vec3 direct = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
+        mean.push_back(0.5f * (a + b));
+        square.push_back(double(glm::dot(d, d)));
+        of_direct.push_back(double(glm::dot(direct, direct)));
+    }
+    const auto brightness = [](const glm::vec3& light) {
+        return double(light.r + light.g + light.b);
+    };
+    double sum = 0.0;
+    for (const glm::vec3& light : mean)
+        sum += brightness(light);
+    const double count = double(mean.size());
+    // √(Σ d² / 3n) / (Σ H / 3n)
+    const auto relative = [](double squares, double lights, double n) {
+        return lights > 0.0 ? std::sqrt(3.0 * n * squares) / lights : 0.0;
+    };
+    state_.error = relative(std::accumulate(square.begin(), square.end(), 0.0), sum, count);
+    direct_error_ =
+        relative(std::accumulate(of_direct.begin(), of_direct.end(), 0.0), sum, count);
+    double dark_squares = 0.0, dark_sum = 0.0, dark_count = 0.0;
+    for (std::size_t k = 0; k < mean.size(); ++k)
+        if (brightness(mean[k]) < kDark * sum / count) {
+            dark_squares += square[k];
+            dark_sum += brightness(mean[k]);
+            dark_count += 1.0;
+        }
+    state_.dark_error = relative(dark_squares, dark_sum, dark_count);
+}
+
+std::vector<glm::vec3> LinkRadiosity::irradiance()
+{
+    std::vector<glm::vec3> result(lumels_.lumels.size(), glm::vec3(0.0f));
+    if (direct_)
+        for (std::size_t i = 0; i < result.size(); ++i)
+            result[i] =
+                0.5f * (light(i, 0, parts_wanted_) + light(i, 1, parts_wanted_));
+    return result;
+}
+
+}  // namespace lumel

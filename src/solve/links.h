@@ -1,0 +1,77 @@
+#pragma once
+// Light gathered over links: rays that are traced once, and kept. See links.cpp.
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "links/direct.h"
+#include "links/sweeps.h"
+#include "links/tracer.h"
+#include "nearfield/solve_size.h"
+#include "scene/parts.h"
+#include "solve/options.h"
+#include "solve/solver.h"
+
+namespace lumel {
+
+struct HostScene;
+
+/// Finds the light of all sources itself, skies and lamps too. Works on the host; a step is a part
+/// of a second of it.
+class LinkRadiosity final : public Solver {
+public:
+    /// What is given must outlive it. parts: of the light that irradiance() has.
+    LinkRadiosity(const HostScene& host, const Lumels& lumels, const LinksOptions& options,
+                  double target_error, Parts parts);
+    ~LinkRadiosity() override;
+
+    /// Bytes on the device: none. On the host it takes host_bytes.
+    static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
+
+    /// Rays of a lumel count as shots.
+    void step() override;
+    SolverState state() const override { return state_; }
+    std::vector<glm::vec3> irradiance() override;
+    const gpu::StageTimes& times() const override { return times_; }
+    double longest_submission() const override { return 0.0; }
+
+private:
+    enum class Stage { begin, direct, links, solve };
+
+    struct Scratch;
+    void cut();
+    void begin_round();
+    void end_round();
+    void go_on();
+    glm::vec3 light(std::size_t lumel, int half, Parts parts) const;
+    void estimate();
+
+    const LinksOptions options_;
+    const double target_error_;
+    const Parts parts_wanted_;
+    const Lumels& lumels_;
+    Surfaces surfaces_;
+    LinkScene place_;
+    WorldLumels world_;
+    Cells cells_;
+    RayStarts starts_;
+    LightSources sources_;
+    std::vector<std::uint32_t> order_;  ///< [N] lumels, neighbours in space together
+    std::optional<LumelParts> parts_;
+    std::optional<DirectFinder> direct_;
+    std::optional<LinkTracer> tracer_;
+    std::optional<LinkSolver> solver_;
+    std::optional<Gathered> gathered_[2];           ///< independent of each other
+    std::array<std::vector<glm::vec3>, 2> received_;  ///< [P] [lx] beside direct light
+    Stage stage_ = Stage::begin;
+    std::uint32_t round_ = 0;      ///< that is traced
+    std::uint32_t rays_ = 0;       ///< of each lumel in it, in each half
+    std::size_t traced_ = 0;       ///< blocks of it
+    bool refines_alone_ = false;   ///< direct light is found better, no links are traced
+    double direct_error_ = 0.0;    ///< share of direct light's noise in the error
+    SolverState state_;
+    gpu::StageTimes times_;
+};
+
+}  // namespace lumel
