@@ -160,8 +160,8 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
     }
 }
 
-void LinkTracer::trace_block(std::size_t b, std::uint32_t rays, std::uint32_t stream,
-                             Gathered& into) const
+void LinkTracer::trace_block(std::size_t b, const std::vector<std::uint16_t>& rays,
+                             std::uint32_t stream, Gathered& into) const
 {
     LinkBlock& block = into.rounds.back()[b];
     block.first.push_back(0);
@@ -174,7 +174,7 @@ void LinkTracer::trace_block(std::size_t b, std::uint32_t rays, std::uint32_t st
         const std::uint32_t first = parts_.first(i), parts = parts_.end(i) - first;
         const bool buried = (place_.lumels.lumels[i].flags & kLumelBuried) != 0;
         const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, stream), i);
-        for (std::uint32_t k = 0; k < (buried ? 0 : rays); ++k) {
+        for (std::uint32_t k = 0; k < (buried ? 0u : rays[i]); ++k) {
             const PathSamples samples(own, k);
             const RayStart start = starts_.start(i, samples.stratified(kStartPair));
             const std::uint32_t p = parts_.part(i, start.cell) - first;
@@ -207,7 +207,7 @@ void LinkTracer::trace_block(std::size_t b, std::uint32_t rays, std::uint32_t st
     block.weak.shrink_to_fit();
 }
 
-void LinkTracer::trace(std::size_t first, std::size_t last, std::uint32_t rays,
+void LinkTracer::trace(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
                        std::uint32_t stream, Gathered& into) const
 {
     parallel_for(last - first, 1, [&](std::size_t from, std::size_t to) {

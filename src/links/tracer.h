@@ -56,12 +56,10 @@ public:
 
     std::size_t blocks() const { return (order_.size() + kLinkBlock - 1) / kLinkBlock; }
 
-    /// Traces `rays` rays, a power of two, from each lumel of blocks [first, last) into the last
-    /// round of `into`. stream: of random numbers.
-    void trace(std::size_t first, std::size_t last, std::uint32_t rays, std::uint32_t stream,
-               Gathered& into) const;
-
-    std::uint64_t traced(std::size_t rays) const { return order_.size() * rays; }
+    /// Traces rays[i] rays from each lumel i of blocks [first, last) into the last round of `into`;
+    /// powers of two stratify best. stream: of random numbers.
+    void trace(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
+               std::uint32_t stream, Gathered& into) const;
 
 private:
     struct Way;
@@ -72,8 +70,8 @@ private:
     std::uint32_t lumel_near(const RayHit& hit) const;
     bool seen_cell(std::uint32_t lumel, const glm::vec3& position, std::uint32_t seed,
                    std::uint32_t& cell) const;
-    void trace_block(std::size_t block, std::uint32_t rays, std::uint32_t stream,
-                     Gathered& into) const;
+    void trace_block(std::size_t block, const std::vector<std::uint16_t>& rays,
+                     std::uint32_t stream, Gathered& into) const;
 
     const LinkScene place_;
     const LightSources& sources_;

@@ -32,9 +32,18 @@ namespace lumel {
 namespace {
 
 /// Rays of a lumel in each half of the first round; powers of two, which stratify best.
-constexpr std::uint32_t kFirstRays = 16;
+constexpr std::uint32_t kFirstRays = 8;
+/// A later round has at least this share of the rays so far, and so many rays of a lumel at most.
+constexpr double kLeastMore = 0.25, kMostMore = 3.0;
+/// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
+constexpr double kAdaptiveGain = 0.6;
+constexpr std::uint32_t kMostRays = 4096;
+/// Share of its rays that go to all lumels alike; neighbours on either side, in the order of lumels,
+/// from which the deviation of one is guessed.
+constexpr double kEvenShare = 0.25;
+constexpr std::size_t kNeighbours = 4;
 /// Blocks of links that one step traces at the first round's number of rays.
-constexpr std::size_t kBlocksPerStep = 64;
+constexpr std::size_t kBlocksPerStep = 128;
 /// Direct light is found better if its noise is more than this share of the error asked for; and
 /// alone, without more links, if it is more than this share of all noise.
 constexpr double kMostOfDirect = 0.5, kRestOfLinks = 0.8;
@@ -144,7 +153,7 @@ void LinkRadiosity::step()
     case Stage::links: {
         const Clock clock(times_["links"]);
         const std::size_t count =
-            std::max<std::size_t>(kBlocksPerStep * kFirstRays / rays_, std::size_t(1));
+            std::max(std::size_t(double(kBlocksPerStep * kFirstRays) / mean_rays_), std::size_t(1));
         const std::size_t last = std::min(traced_ + count, tracer_->blocks());
         for (std::uint32_t h = 0; h < 2; ++h)
             tracer_->trace(traced_, last, rays_, kLinkStream + 2 * round_ + h, *gathered_[h]);
@@ -175,30 +184,66 @@ void LinkRadiosity::cut()
         half.emplace(parts_->count());
 }
 
-/// As many rays as the error still asks for, twice to thrice what there are at most.
+/// As many rays as the error still asks for, within limits.
 void LinkRadiosity::begin_round()
 {
-    rays_ = kFirstRays;
+    mean_rays_ = kFirstRays;
     if (state_.shots > 0) {
         const double so_far = double(state_.shots) / 2.0;
         double more = so_far;
         if (target_error_ > 0.0) {
             const double ratio = state_.error / target_error_;
-            more = std::clamp(so_far * (ratio * ratio - 1.0), double(kFirstRays), 2.0 * so_far);
+            more = std::clamp(kAdaptiveGain * so_far * (ratio * ratio - 1.0), kLeastMore * so_far,
+                              kMostMore * so_far);
         }
-        rays_ = std::bit_ceil(std::uint32_t(std::ceil(more)));
+        mean_rays_ = std::min(more, double(kMostRays));
     }
+    share_out_rays();
     traced_ = 0;
     stage_ = Stage::links;
     for (std::optional<Gathered>& half : gathered_)
         half->rounds.emplace_back(tracer_->blocks());
 }
 
+/// The sum of variances is least if rays are in proportion to deviations. These are guessed from the
+/// halves of a lumel and of its neighbours in space; a part of the rays goes to all alike, since
+/// what has not met any light yet looks quiet.
+void LinkRadiosity::share_out_rays()
+{
+    rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
+    if (state_.shots == 0)
+        return;
+    const std::size_t count = order_.size();
+    std::vector<double> running(count + 1, 0.0), deviation(count);
+    for (std::size_t o = 0; o < count; ++o) {
+        const glm::vec3 d = indirect(order_[o], 0) - indirect(order_[o], 1);
+        running[o + 1] = running[o] + double(glm::dot(d, d));
+    }
+    double mean = 0.0, lit = 0.0;
+    for (std::size_t o = 0; o < count; ++o) {
+        const std::size_t first = o - std::min(o, kNeighbours);
+        const std::size_t last = std::min(o + kNeighbours + 1, count);
+        deviation[o] = std::sqrt((running[last] - running[first]) / double(last - first));
+        if (!(lumels_.lumels[order_[o]].flags & kLumelBuried)) {
+            mean += deviation[o];
+            lit += 1.0;
+        }
+    }
+    mean /= std::max(lit, 1.0);
+    if (!(mean > 0.0))
+        return;
+    for (std::size_t o = 0; o < count; ++o) {
+        const double share = kEvenShare + (1.0 - kEvenShare) * deviation[o] / mean;
+        rays_[order_[o]] =
+            std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMostRays)));
+    }
+}
+
 void LinkRadiosity::end_round()
 {
     for (int h = 0; h < 2; ++h)
         solver_->solve(*gathered_[h], received_[std::size_t(h)]);
-    state_.shots += 2 * std::uint64_t(rays_);
+    state_.shots += 2 * std::uint64_t(std::llround(mean_rays_));
     ++round_;
     estimate();
     go_on();
@@ -215,6 +260,18 @@ void LinkRadiosity::go_on()
     } else if (!(wanted && state_.error <= target_error_)) {
         begin_round();
     }
+}
+
+/// All that rays brought to a lumel in one half [lx].
+glm::vec3 LinkRadiosity::indirect(std::size_t i, int half) const
+{
+    glm::vec3 sum(0.0f);
+    std::uint32_t rays = 0;
+    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+        rays += gathered_[half]->rays[p];
+        sum += float(gathered_[half]->rays[p]) * received_[std::size_t(half)][p];
+    }
+    return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
 }
 
 /// Of one half [lx].

@@ -42,8 +42,10 @@ private:
     struct Scratch;
     void cut();
     void begin_round();
+    void share_out_rays();
     void end_round();
     void go_on();
+    glm::vec3 indirect(std::size_t lumel, int half) const;
     glm::vec3 light(std::size_t lumel, int half, Parts parts) const;
     void estimate();
 
@@ -66,7 +68,8 @@ private:
     std::array<std::vector<glm::vec3>, 2> received_;  ///< [P] [lx] beside direct light
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;      ///< that is traced
-    std::uint32_t rays_ = 0;       ///< of each lumel in it, in each half
+    double mean_rays_ = 0.0;       ///< of a lumel in it, in each half
+    std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
     std::size_t traced_ = 0;       ///< blocks of it
     bool refines_alone_ = false;   ///< direct light is found better, no links are traced
     double direct_error_ = 0.0;    ///< share of direct light's noise in the error
