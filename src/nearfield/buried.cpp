@@ -47,39 +47,54 @@ struct Look {
     const Lumels& lumels;
 };
 
-/// True if every ray of a point is shut in.
-bool is_hidden(const Look& look, std::size_t i, const LumelPoint& point)
-{
-    for (std::uint32_t d = 0; d < kDirections; ++d) {
-        glm::vec2 st = sobol_pair(d, hash_two(std::uint32_t(i), 1));
-        st.x *= 1.0f - kLeastCosine * kLeastCosine;  // the squared sine
-        if (!is_shut_in(look.scene, look.rays, look.world[i], point,
-                        direction_about(point.normal, st)))
-            return false;
-    }
-    return true;
-}
+/// Tells whether points of one lumel are hidden. The direction that got away last is tried first:
+/// it often does so again.
+class HiddenPoints {
+public:
+    HiddenPoints(const Look& look, std::size_t i) : look_(look), lumel_(i) {}
 
-/// The same for a place on one of its pieces, in the world.
-bool is_hidden(const Look& look, std::size_t i, const Piece& piece, const glm::vec2& uv)
-{
-    return is_hidden(look, i,
-                     {piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal});
-}
+    /// True if every ray of a point is shut in.
+    bool operator()(const LumelPoint& point)
+    {
+        for (std::uint32_t k = 0; k < kDirections; ++k) {
+            const std::uint32_t d = k == 0 ? last_ : k <= last_ ? k - 1 : k;
+            glm::vec2 st = sobol_pair(d, hash_two(std::uint32_t(lumel_), 1));
+            st.x *= 1.0f - kLeastCosine * kLeastCosine;  // the squared sine
+            if (!is_shut_in(look_.scene, look_.rays, look_.world[lumel_], point,
+                            direction_about(point.normal, st))) {
+                last_ = d;
+                return false;
+            }
+        }
+        return true;
+    }
+
+    /// The same for a place on one of its pieces, in the world.
+    bool operator()(const Piece& piece, const glm::vec2& uv)
+    {
+        return (*this)({piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal});
+    }
+
+private:
+    const Look& look_;
+    std::size_t lumel_;
+    std::uint32_t last_ = 0;
+};
 
 /// True if all of some first points of the lumel are open: points near the corners of its pieces,
 /// where a neighbour would begin to cover it, and points all over.
 bool looks_open(const Look& look, std::size_t i)
 {
+    HiddenPoints is_hidden(look, i);
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
         for (const glm::vec2& uv : {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
                                     glm::vec2(kInset, 1.0f - 2.0f * kInset),
                                     glm::vec2(piece.parallelogram ? 1.0f - kInset : 0.5f - kInset)})
-            if (is_hidden(look, i, piece, uv))
+            if (is_hidden(piece, uv))
                 return false;
     for (std::uint32_t k = 0; k < kFirstPoints; ++k)
-        if (is_hidden(look, i, look.world.point_on(i, sobol_pair(k, 0))))
+        if (is_hidden(look.world.point_on(i, sobol_pair(k, 0))))
             return false;
     return true;
 }
@@ -88,56 +103,74 @@ bool looks_open(const Look& look, std::size_t i)
 class Strips {
 public:
     Strips(const Look& look, std::size_t i, std::uint32_t index, int count)
-        : look_(look),
-          lumel_(i),
+        : is_hidden_(look, i),
           piece_(look.lumels.pieces[look.lumels.lumels[i].first_piece + index]),
           in_world_(look.world.pieces(look.world[i])[index]),
-          count_(count),
-          swapped_(changes(true) > changes(false))
+          count_(count)
     {
+        // Strips should run where the piece changes most. In a parallelogram both grids have the
+        // same places.
+        const Grid straight = grid(false);
+        Grid turned = straight;
+        if (piece_.parallelogram)
+            for (int line = 0; line < count_; ++line)
+                for (int k = 0; k < count_; ++k)
+                    turned[at(line, k)] = straight[at(k, line)];
+        else
+            turned = grid(true);
+        swapped_ = changes(turned) > changes(straight);
+        open_ = swapped_ ? turned : straight;
     }
 
     /// Appends the open part of each strip, in the lumel's frame.
-    void append_open_parts(std::vector<Piece>& parts) const
+    void append_open_parts(std::vector<Piece>& parts)
     {
         const float step = 1.0f / float(count_);
         for (int strip = 0; strip < count_; ++strip) {
             const float low = step * float(strip), middle = low + 0.5f * step;
-            for (const auto& [begin, end] : open_runs(middle))
+            for (const auto& [begin, end] : open_runs(strip, middle))
                 append_run(low, step, begin, end, parts);
         }
     }
 
 private:
-    bool is_open(float along, float across, bool swapped) const
+    /// [lines][places along a line] whether a place is open.
+    using Grid = std::array<bool, std::size_t(kStrips) * kStrips>;
+    static std::size_t at(int line, int k) { return std::size_t(line * kStrips + k); }
+
+    bool is_open(float along, float across, bool swapped)
     {
-        return !is_hidden(look_, lumel_, in_world_,
-                          swapped ? glm::vec2(across, along) : glm::vec2(along, across));
+        return !is_hidden_(in_world_,
+                           swapped ? glm::vec2(across, along) : glm::vec2(along, across));
     }
 
     /// Length of the piece along its strips, at a place across them.
     float length_at(float across) const { return piece_.parallelogram ? 1.0f : 1.0f - across; }
 
-    /// How often it changes between open and hidden along lines of one direction: strips should
-    /// run where it changes most.
-    int changes(bool swapped) const
+    Grid grid(bool swapped)
     {
-        int changes = 0;
+        Grid open{};
         for (int line = 0; line < count_; ++line) {
             const float across = (float(line) + 0.5f) / float(count_);
-            bool before = false;
-            for (int k = 0; k < count_; ++k) {
-                const float along = length_at(across) * (float(k) + 0.5f) / float(count_);
-                const bool open = is_open(along, across, swapped);
-                changes += k > 0 && open != before;
-                before = open;
-            }
+            for (int k = 0; k < count_; ++k)
+                open[at(line, k)] = is_open(
+                    length_at(across) * (float(k) + 0.5f) / float(count_), across, swapped);
         }
+        return open;
+    }
+
+    /// How often a grid changes between open and hidden along its lines.
+    int changes(const Grid& open) const
+    {
+        int changes = 0;
+        for (int line = 0; line < count_; ++line)
+            for (int k = 1; k < count_; ++k)
+                changes += open[at(line, k)] != open[at(line, k - 1)];
         return changes;
     }
 
     /// Where a strip changes between an open and a hidden place, by bisection.
-    float edge_between(float open, float hidden, float across) const
+    float edge_between(float open, float hidden, float across)
     {
         for (int step = 0; step < kBisections; ++step) {
             const float middle = 0.5f * (open + hidden);
@@ -147,7 +180,7 @@ private:
     }
 
     /// Open stretches of the line through a strip's middle.
-    std::vector<std::pair<float, float>> open_runs(float across) const
+    std::vector<std::pair<float, float>> open_runs(int strip, float across)
     {
         const float length = length_at(across), step = length / float(count_);
         std::vector<std::pair<float, float>> runs;
@@ -155,14 +188,15 @@ private:
         bool was_open = is_open(before, across, swapped_);
         float begin = 0.0f;
         for (int k = 0; k <= count_; ++k) {
-            const float at = k < count_ ? (float(k) + 0.5f) * step : length - kInset * step;
-            const bool open = is_open(at, across, swapped_);
+            const float place = k < count_ ? (float(k) + 0.5f) * step : length - kInset * step;
+            const bool open =
+                k < count_ ? open_[at(strip, k)] : is_open(place, across, swapped_);
             if (open && !was_open)
-                begin = edge_between(at, before, across);
+                begin = edge_between(place, before, across);
             else if (!open && was_open)
-                runs.emplace_back(begin, edge_between(before, at, across));
+                runs.emplace_back(begin, edge_between(before, place, across));
             was_open = open;
-            before = at;
+            before = place;
         }
         if (was_open)
             runs.emplace_back(begin, length);
@@ -191,12 +225,12 @@ private:
                 parallelogram ? 1u : 0u};
     }
 
-    const Look& look_;
-    std::size_t lumel_;
+    HiddenPoints is_hidden_;
     const Piece& piece_;
     const Piece& in_world_;
-    int count_;
-    bool swapped_;
+    int count_;  ///< ≤ kStrips
+    bool swapped_ = false;
+    Grid open_{};
 };
 
 float local_area(const Piece& piece)
