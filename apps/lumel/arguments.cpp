@@ -210,7 +210,7 @@ void add_talk_options(CLI::App& app, Talk& talk)
 void add_stop_options(CLI::App& app, SolverOptions& solver)
 {
     app.option_defaults()->group(kStopGroup);
-    auto* shots = app.add_option("--shots", solver.max_shots, "Stop after this many shooters")
+    auto* shots = app.add_option("--shots", solver.max_shots, "Stop after this many shooters; of links: rays of each lumel")
                       ->type_name("N")
                       ->check(whole(1, kMostShots));
     auto* time = app.add_option("--time", solver.max_seconds, "Stop after solving for this time")
@@ -223,8 +223,13 @@ void add_stop_options(CLI::App& app, SolverOptions& solver)
         ->default_str(
             fmt::format("{:g}, or none with --shots or --time", 100.0 * solver.target_error))
         ->check(positive());
-    app.callback([&solver, shots, time, error] {
-        if (error->empty() && !(shots->empty() && time->empty()))
+    auto* dark = app.add_option_function<double>(
+        "--dark-error", [&solver](double percent) { solver.target_dark_error = percent / 100.0; },
+        "Stop at this estimated error of the lumels below a third of the mean, as a part of their "
+        "own light (only links)");
+    dark->type_name("PERCENT")->default_str("none")->check(positive());
+    app.callback([&solver, shots, time, error, dark] {
+        if (error->empty() && !(shots->empty() && time->empty() && dark->empty()))
             solver.target_error = 0.0;
     });
 }
@@ -233,7 +238,7 @@ void add_sky_directions_option(CLI::App& app, BakeOptions& options)
 {
     app.option_defaults()->group(kLightGroup);
     app.add_option("--sky-directions", options.sky_directions,
-                   "Directions from which the light of the sky is gathered")
+                   "Directions from which the light of the sky is gathered (not by links)")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(2, kMostDirections));
@@ -668,6 +673,7 @@ Arguments parse_arguments(int count, char** values)
 
     if (bake_command.parsed()) {
         bake.options.solver.method = bake_method.options();
+        check_limits(bake.options.solver);
         return bake;
     }
     if (update_command.parsed())
@@ -678,6 +684,7 @@ Arguments parse_arguments(int count, char** values)
         return why;
     if (render_command.parsed()) {
         render.options.bake.solver.method = render_method.options();
+        check_limits(render.options.bake.solver);
         return render;
     }
     if (play_command.parsed()) {
@@ -688,6 +695,7 @@ Arguments parse_arguments(int count, char** values)
         return reference;
     if (info_command.parsed()) {
         info.options.solver.method = info_method.options();
+        check_limits(info.options.solver);
         return info;
     }
     if (compare_command.parsed())

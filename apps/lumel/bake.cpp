@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "long_work.h"
+#include "solve/methods.h"
 
 namespace lumel {
 
@@ -12,11 +13,14 @@ int run(const BakeArguments& arguments)
     const auto work = [&](const ProgressFunction& progress) {
         const BakeSummary summary =
             bake(arguments.scene, arguments.folder, arguments.options, progress);
-        const std::string error =
-            summary.error < 0.0 ? ""
-                                : fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
+        std::string error;
+        if (summary.error >= 0.0)
+            error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
+        if (summary.dark_error >= 0.0)
+            error += fmt::format(" (of dark places {:.2g} %)", 100.0 * summary.dark_error);
         return Conclusion{summary.report,
-                          fmt::format("{}: {} shots in {:.1f} s{}", arguments.folder, summary.shots,
+                          fmt::format("{}: {} {} in {:.1f} s{}", arguments.folder, summary.shots,
+                                      method_of(arguments.options.solver.method).shots,
                                       summary.seconds, error),
                           summary.interrupted};
     };

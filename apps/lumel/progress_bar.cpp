@@ -50,6 +50,8 @@ std::string progress_line(const BakeProgress& progress, int batch, int width)
         figures += fmt::format("  {:.3g} iterations/s  {} shots",
                                static_cast<double>(progress.shots) / progress.seconds / batch,
                                progress.shots);
+    else if (progress.shots > 0)
+        figures += fmt::format("  {} rays per lumel", progress.shots);
     if (progress.error >= 0.0)
         figures += fmt::format("  error {:.2f} %", 100.0 * progress.error);
     if (fraction > 0.0 && fraction < 1.0 && progress.seconds > kSteadyAfter)

@@ -313,9 +313,9 @@ enum class Parts {
 
 struct BakeSettings {
     AtlasSettings atlas;
-    /// As `lumel methods` lists them: "stochastic", "glossy", "directions", "progressive",
+    /// As `lumel methods` lists them: "links", "stochastic", "glossy", "directions", "progressive",
     /// "gather", "matrix".
-    std::string method = "stochastic";
+    std::string method = "links";
     /// Of the method, by their names on the command line: {{"patches", "512"}}.
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;

@@ -39,7 +39,9 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
         near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
     return {.staging = gpu::Staging::device_bytes(),
             .world = World::device_bytes(prepared.lumels, occluders),
-            .direct_light = direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+            .direct_light = method_of(options.solver.method).finds_lights
+                                ? 0
+                                : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
             .solver = keeps_sources_apart(options)
                           ? RelightSolver::device_bytes(
                                 size, std::get<MatrixOptions>(options.solver.method))

@@ -82,7 +82,7 @@ DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t
             .batch = std::uint32_t(views.batch),
             .projection = views.projection,
             .hemicube = std::uint32_t(views.hemicube),
-            .shots = directional_shots(solver_shots)};
+            .shots = directional_shots(batch_of(options.solver.method) > 0 ? solver_shots : 0)};
 }
 
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,

@@ -86,7 +86,12 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
     const Json report = to_json(bake_report(record, prepared, device, solver, results, stages));
     write_json(folder.path(kReportFile), report);
     folder.commit();
-    return {results.shots, results.error, stages.seconds(), results.interrupted, json_text(report)};
+    return {.shots = results.shots,
+            .error = results.error,
+            .dark_error = results.dark_error,
+            .seconds = stages.seconds(),
+            .interrupted = results.interrupted,
+            .report = json_text(report)};
 }
 
 BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
@@ -102,8 +107,10 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
     const Json report = to_json(facts);
     write_json(folder.path(kReportFile), report);
     folder.commit();
-    return {std::uint64_t(reference.samples_per_lumel), -1.0, stages.seconds(), stopped,
-            json_text(report)};
+    return {.shots = std::uint64_t(reference.samples_per_lumel),
+            .seconds = stages.seconds(),
+            .interrupted = stopped,
+            .report = json_text(report)};
 }
 
 }  // namespace lumel

@@ -62,7 +62,7 @@ void check_shapes(const Scene& start, const Animation& animation,
         for (const std::uint32_t i : movers) {
             const Instance& instance = start.instances[i];
             const double time = time_of(options, frame);
-            const glm::mat4 place = transform_at(animation, instance.node, time);
+            const glm::mat4 place = place_in(start, animation, instance.node, time);
             const std::string at =
                 fmt::format("{}: \"{}\" at {:.3g} s", start.path, instance.name, time);
             if (!is_rigid(instance.transform, place))

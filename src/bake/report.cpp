@@ -93,6 +93,7 @@ void add_solution(Report& report, const gpu::Device& device, const Solver& solve
     report.shots = results.shots;
     report.iterations = results.iterations;
     report.estimated_error = results.error;
+    report.estimated_dark_error = results.dark_error;
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
     report.form_factors = results.form_factors;
@@ -138,6 +139,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .shots = results.shots,
                       .iterations = results.iterations,
                       .error = results.error,
+                      .dark_error = results.dark_error,
                       .interrupted = results.interrupted,
                       .exposure = exposure,
                       .files = kBakedFiles};

@@ -20,11 +20,15 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         fraction = std::max(fraction, double(state.shots) / double(limits.max_shots));
     if (limits.max_seconds > 0.0)
         fraction = std::max(fraction, seconds / limits.max_seconds);
-    if (limits.target_error > 0.0 && state.error > 0.0) {
-        // For the bar only: how fast the error falls with shots, between random and ideal.
-        constexpr double kSlope = 0.65;
-        fraction = std::max(fraction, std::pow(limits.target_error / state.error, 1.0 / kSlope));
-    }
+    // For the bar only: how fast the error falls with shots, between random and ideal.
+    constexpr double kSlope = 0.65;
+    double error = 1.0;
+    if (limits.target_error > 0.0 && state.error > 0.0)
+        error = std::min(error, limits.target_error / state.error);
+    if (limits.target_dark_error > 0.0 && state.dark_error > 0.0)
+        error = std::min(error, limits.target_dark_error / state.dark_error);
+    if (error < 1.0)
+        fraction = std::max(fraction, std::pow(error, 1.0 / kSlope));
     return std::min(fraction, 1.0);
 }
 
@@ -38,6 +42,8 @@ NearField near_field_of(const Prepared& prepared, const SolverOptions& options, 
 {
     tell_user(prepared);
     note_sizes(prepared, stages);
+    if (!has_near_field(options.method))
+        return {};
     stages.begin("near field");
     NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
     stages.note(fmt::format(
@@ -56,16 +62,22 @@ const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
 /// Estimates of the error as they come, each after twice the shooters of the one before.
 class ErrorNotes {
 public:
+    explicit ErrorNotes(const SolverOptions& options) : shots_(method_of(options.method).shots) {}
+
     void add(const SolverState& state, Stages& stages)
     {
         if (state.error < 0.0 || state.shots < next_)
             return;
-        stages.note(
-            fmt::format("{} shooters, estimated error {:.3f} %", state.shots, 100.0 * state.error));
+        std::string note =
+            fmt::format("{} {}, estimated error {:.3f} %", state.shots, shots_, 100.0 * state.error);
+        if (state.dark_error >= 0.0)
+            note += fmt::format(", of dark lumels {:.2f} %", 100.0 * state.dark_error);
+        stages.note(note);
         next_ = 2 * state.shots;
     }
 
 private:
+    const char* shots_;
     std::uint64_t next_ = 0;
 };
 
@@ -100,7 +112,7 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
     stages.begin("solving");
     stages.note_arrays();
     SolveRun run;
-    ErrorNotes errors;
+    ErrorNotes errors(options);
     run.finished = solve(solver, options, [&](const SolverState& state) {
         errors.add(state, stages);
         const double seconds = stages.stage_seconds();
@@ -108,8 +120,8 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
             run.curve.push_back({state.shots, seconds, state.error});
         return stages.tell(solved_fraction(options, state, seconds), state.shots, state.error);
     });
-    stages.note(fmt::format("{} shooters in {} iterations", solver.state().shots,
-                            solver.state().iterations));
+    stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
+                            method_of(options.method).shots, solver.state().iterations));
     stages.note_times(solver.times());
     return run;
 }

@@ -13,6 +13,7 @@
 #include "record/bake_record.h"
 #include "record/light_settings.h"
 #include "relight/matrix_file.h"
+#include "scene/origin.h"
 #include "solve/methods.h"
 #include "update/correction.h"
 #include "json/json_file.h"
@@ -124,6 +125,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     Scene before = read_scene((std::filesystem::path(folder) / kSceneFile).string(),
                               MaterialModel::diffuse, baked.lights);
     Scene now = read_scene(scene_path, MaterialModel::diffuse, options.lights);
+    set_origin(now, before.origin);
     OutputFolder output(folder);
 
     stages.begin("charts");

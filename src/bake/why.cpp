@@ -96,7 +96,7 @@ WhyRow row_of(const Scene& scene, const Sender& sender, double whole)
         row.name = scene.lights[sender.index].name;
     }
     if (sender.distance > 0.0f)
-        row.place = sender.place;
+        row.place = glm::dvec3(sender.place) + scene.origin;
     return row;
 }
 
@@ -148,7 +148,8 @@ WhySummary summary_of(const Prepared& prepared, std::uint32_t lumel, const Sende
     const Lumel& there = prepared.lumels.lumels[lumel];
     const Instance& instance = prepared.scene.instances[there.instance];
     WhySummary summary{.instance = instance.name,
-                       .place = instance.transform * glm::vec4(there.position, 1.0f),
+                       .place = glm::dvec3(instance.transform * glm::vec4(there.position, 1.0f)) +
+                                prepared.scene.origin,
                        .found = senders.light};
     const double whole = luminance(senders.light);
     for (const Sender& sender : senders.list)

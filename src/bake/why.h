@@ -23,7 +23,7 @@ struct WhyRow {
     double share = 0.0;              ///< of all the luminance that arrives, 0…1
     std::string name;                ///< of the instance or the lamp, or "sky"
     std::string material;            ///< empty: no surface
-    std::optional<glm::vec3> place;  ///< in the world [m]; none: infinitely far away
+    std::optional<glm::dvec3> place;  ///< in the world [m]; none: infinitely far away
     double distance = 0.0;           ///< [m]
     glm::vec3 light{0.0f};           ///< that arrives [lx]
 };
@@ -31,7 +31,7 @@ struct WhyRow {
 struct WhySummary {
     std::string instance;                                 ///< that the lumel belongs to
     glm::ivec2 texel{0};                                  ///< of the lumel
-    glm::vec3 place{0.0f};                                ///< in the world [m]
+    glm::dvec3 place{0.0};                                ///< in the world [m]
     glm::vec3 solved{0.0f};                               ///< H of the bake [lx]
     glm::vec3 found{0.0f};                                ///< Σ light of the rows [lx]
     std::vector<WhyRow> rows;                             ///< most light first; shares add up to 1

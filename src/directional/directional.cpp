@@ -29,6 +29,8 @@ namespace {
 
 /// Shooters, whatever the solve took, and before a stop is heeded.
 constexpr std::uint64_t kFewestShots = 1024, kMostShots = 4096, kShotsBeforeStop = 256;
+/// Shooters where the solve had none.
+constexpr std::uint64_t kUsualShots = 2048;
 
 /// B = E + ρH [N]; what is buried sends nothing.
 std::vector<glm::vec3> radiosity_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
@@ -227,7 +229,7 @@ std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions&
 
 std::uint64_t directional_shots(std::uint64_t solver_shots)
 {
-    return std::clamp(solver_shots, kFewestShots, kMostShots);
+    return solver_shots > 0 ? std::clamp(solver_shots, kFewestShots, kMostShots) : kUsualShots;
 }
 
 std::vector<glm::vec3> world_normals(const Scene& scene, const Lumels& lumels)

@@ -39,7 +39,7 @@ struct DirectionalLight {
 /// wanted.
 std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions& options);
 
-/// As many shooters as suit a solution that took `solver_shots`.
+/// As many shooters as suit a solution that took `solver_shots`; 0: as suit one without shooters.
 std::uint64_t directional_shots(std::uint64_t solver_shots);
 
 /// Unit shading normals of the lumels [N], in the world.

@@ -29,10 +29,16 @@ constexpr float kOwnRays = 1.0f / 16.0f;
 /// that is more than this share of the mean of all lumels.
 constexpr float kDiffers = 0.25f, kCounts = 0.01f;
 
+/// Neighbours in the order of lumels, on either side, that should see the same sources.
+constexpr std::size_t kNeighbours = 4;
 /// Times that the many rays are doubled, at most.
 constexpr std::uint32_t kMostRefined = 8;
-/// Halves that differ by more than this share of their mean are uncertain.
-constexpr float kUncertain = 0.02f;
+/// Halves that differ by more than this share of their mean, and of that of all lumels, are
+/// uncertain.
+constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
+
+/// Sources that a point beside the lumels asks for light, at most.
+constexpr std::uint32_t kMostAsked = 2;
 
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
@@ -139,6 +145,39 @@ DirectFinder::Looked DirectFinder::look(const RayStart& start, std::size_t sourc
     return looked;
 }
 
+glm::vec3 DirectFinder::ask(const RayStart& start, float size, std::uint32_t seed) const
+{
+    const auto place_on = [&](std::uint32_t k) {
+        const std::uint32_t own = PathSamples::hash(seed, k);
+        return glm::vec2(PathSamples::to_unit(own), PathSamples::to_unit(PathSamples::hash(own, 1)));
+    };
+    glm::vec3 light(0.0f);
+    const auto add = [&](std::size_t source, float factor, std::uint32_t k) {
+        const Looked looked = look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k));
+        light += looked.passing * looked.sample.irradiance;
+    };
+    const auto count = std::uint32_t(sources_.count());
+    if (count <= kMostAsked) {
+        for (std::uint32_t s = 0; s < count; ++s)
+            add(s, 1.0f, s);
+        return light;
+    }
+    // Some, by what they may send.
+    std::vector<float> running(count);
+    float sum = 0.0f;
+    for (std::uint32_t s = 0; s < count; ++s)
+        running[s] = sum += sources_.guess(s, start.position, size);
+    for (std::uint32_t k = 0; k < kMostAsked; ++k) {
+        const float mark = (place_on(count + k).x + float(k)) / float(kMostAsked) * sum;
+        const auto found = std::upper_bound(running.begin(), running.end() - 1, mark);
+        const std::size_t source = std::size_t(found - running.begin());
+        const float own = running[source] - (source > 0 ? running[source - 1] : 0.0f);
+        if (own > 0.0f)
+            add(source, sum / (own * float(kMostAsked)), k);
+    }
+    return light;
+}
+
 DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
 {
     Found found;
@@ -198,9 +237,6 @@ DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
     // A ray for a cell tells something only if it tells all.
     if (!many && !exact)
         found.cells.fill(mean);
-    if (std::abs(luminance(found.half[0]) - luminance(found.half[1])) >
-        double(kUncertain) * luminance(mean))
-        found.uncertain = true;
     return found;
 }
 
@@ -219,10 +255,9 @@ bool DirectFinder::step()
                 half_[0][i] = found.half[0];
                 half_[1][i] = found.half[1];
                 block.rays += found.rays;
-                if (first_pass_) {
+                if (first_pass_)
                     seen_[i] = found.seen;
-                    uncertain_[i] = found.uncertain;
-                }
+                uncertain_[i] = found.uncertain;
                 const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
                     return luminance(one) < luminance(other);
                 };
@@ -254,6 +289,10 @@ bool DirectFinder::step()
 
 bool DirectFinder::refine()
 {
+    const double mean = mean_of_all();
+    // What sees a part of a source stays: to drop those whose halves agree by chance would state too
+    // small an error.
+    std::erase_if(many_, [&](std::uint32_t i) { return !uncertain_[i] && !differs(i, mean); });
     if (many_.empty() || level_ == kMostRefined)
         return false;
     ++level_;
@@ -262,9 +301,29 @@ bool DirectFinder::refine()
     return true;
 }
 
+std::uint64_t DirectFinder::rays_to_refine() const
+{
+    return std::uint64_t(many_.size()) * (2 * kManyRays << (level_ + 1));
+}
+
 double DirectFinder::fraction() const
 {
     return blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
+}
+
+double DirectFinder::mean_of_all() const
+{
+    double mean = 0.0;
+    for (std::size_t i = 0; i < half_[0].size(); ++i)
+        mean += luminance(this->mean(i));
+    return mean / double(std::max<std::size_t>(half_[0].size(), 1));
+}
+
+/// Do the halves differ by more than counts?
+bool DirectFinder::differs(std::size_t i, double mean) const
+{
+    const double apart = std::abs(luminance(half_[0][i]) - luminance(half_[1][i]));
+    return apart > kUncertain * luminance(this->mean(i)) && apart > kUncertainOfAll * mean;
 }
 
 /// Lumels that see a part of a source, those whose halves differ, and those that see other sources
@@ -274,6 +333,10 @@ void DirectFinder::mark_uncertain_hidden()
     const std::vector<std::uint32_t> by_side = lumels_by_side(place_.lumels);
     const int width = place_.lumels.width, height = place_.lumels.height;
     std::vector<char> needs = uncertain_;
+    const double mean = mean_of_all();
+    for (std::size_t i = 0; i < needs.size(); ++i)
+        if (differs(i, mean))
+            needs[i] = 1;
     parallel_for(place_.lumels.lumels.size(), 4096, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const Lumel& lumel = place_.lumels.lumels[i];
@@ -294,11 +357,12 @@ void DirectFinder::mark_uncertain_hidden()
         }
     });
     // Charts may be small: neighbours in space, as far as the order has them.
-    for (std::size_t o = 0; o + 1 < order_.size(); ++o) {
-        const std::uint32_t i = order_[o], j = order_[o + 1];
-        if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
-            needs[i] = needs[j] = 1;
-    }
+    for (std::size_t o = 0; o < order_.size(); ++o)
+        for (std::size_t n = o + 1; n < std::min(o + 1 + kNeighbours, order_.size()); ++n) {
+            const std::uint32_t i = order_[o], j = order_[n];
+            if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
+                needs[i] = needs[j] = 1;
+        }
     for (const std::uint32_t i : order_)
         if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried))
             many_.push_back(i);
@@ -307,10 +371,7 @@ void DirectFinder::mark_uncertain_hidden()
 /// Takes over what the blocks of a pass found of cells.
 void DirectFinder::keep_cells()
 {
-    double mean = 0.0;
-    for (std::size_t i = 0; i < half_[0].size(); ++i)
-        mean += luminance(this->mean(i));
-    mean /= double(std::max<std::size_t>(half_[0].size(), 1));
+    const double mean = mean_of_all();
     std::vector<char> again(first_pass_ ? 0 : half_[0].size(), 0);
     if (!first_pass_)
         for (const std::uint32_t i : many_)

@@ -35,6 +35,8 @@ public:
     /// Finds the light anew where it is uncertain, by twice as many rays: steps are left again.
     /// False, and nothing is left, if it is uncertain nowhere, or finer than is sensible.
     bool refine();
+    /// Rays to one source that refine() would take, at most.
+    std::uint64_t rays_to_refine() const;
 
     /// Two independent estimates [2][N] [lx].
     const std::vector<glm::vec3>& half(int h) const { return half_[h]; }
@@ -49,6 +51,8 @@ public:
         const std::uint32_t index = varying_[lumel];
         return index == kSame ? mean(lumel) : cells_[index][cell];
     }
+    /// At a point that may be anywhere, by a ray or two [lx]. size: of the lumel there.
+    glm::vec3 ask(const RayStart& start, float size, std::uint32_t seed) const;
     std::uint64_t rays() const { return rays_; }  ///< so far
 
 private:
@@ -72,6 +76,8 @@ private:
     Looked look(const RayStart& start, std::size_t source, float factor, const glm::vec2& at,
                 std::uint32_t seed) const;
     Found find(std::uint32_t lumel, bool many) const;
+    double mean_of_all() const;
+    bool differs(std::size_t lumel, double mean) const;
     void keep_cells();
     void mark_uncertain_hidden();
 

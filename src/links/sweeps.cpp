@@ -20,7 +20,11 @@ constexpr int kPlainSweeps = 10;
 /// What is left to come may be this share of a part's own light, in the mean of squares; parts
 /// darker than kDarkest of the mean count as if they had that.
 constexpr double kStill = 1e-3, kDarkest = 1e-4;
-constexpr int kMostSweeps = 10'000;
+constexpr int kMostSweeps = 2000;
+/// A correction changes a group by this factor at most.
+constexpr double kMostFactor = 64.0;
+/// Of a group [m²], where one has none.
+constexpr double kLeastArea = 1e-30;
 /// Parts of one task.
 constexpr std::size_t kGrain = 4096;
 /// A pivot this small: all that a group sends comes back to it.
@@ -38,7 +42,8 @@ struct Change {
 
 /// Corrects the level of groups after a sweep x → y of what parts send: with K_ab the share of what
 /// group a receives that comes from b, times ρ, and r_a the mean change of a, the change still to
-/// come is (1 - K)⁻¹ K r.
+/// come is (1 - K)⁻¹ K r in the mean of a. Parts get it in proportion to what they send, so that
+/// none comes into dark cavities, which would keep it long.
 class LinkSolver::Groups {
 public:
     Groups(const LinkSolver& solver, const Gathered& gathered)
@@ -49,42 +54,48 @@ public:
         for (int c = 0; c < 3; ++c)
             inverse_[c].assign(cells, 0.0);
         area_.assign(size_, 0.0);
-        albedo_.assign(size_, glm::dvec3(0.0));
-        for_each_part([&](std::uint32_t p, double area, const glm::vec3& albedo) {
-            area_[solver.group_[p]] += area;
-            albedo_[solver.group_[p]] += area * glm::dvec3(albedo);
-        });
-        for (std::uint32_t g = 0; g < size_; ++g)
-            albedo_[g] /= std::max(area_[g], 1e-30);
+        for_each_part(
+            [&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
         count_links(gathered);
         for (int c = 0; c < 3; ++c)
             invert(inverse_[c]);
     }
 
-    /// Adds the change still to come to `now`; before: what it was before the sweep.
-    void correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
+    /// Adds the change still to come to `now`; before: what it was before the sweep. Returns that
+    /// change as a part of what groups send: root of the mean square, by what they send.
+    double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
     {
-        std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), rest(size_, glm::dvec3(0.0));
-        for_each_part([&](std::uint32_t p, double area, const glm::vec3&) {
+        std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
+        for_each_part([&](std::uint32_t p, double area) {
             change[solver_.group_[p]] += area * glm::dvec3(now[p] - before[p]);
+            mean[solver_.group_[p]] += area * glm::dvec3(now[p]);
         });
-        for (std::uint32_t g = 0; g < size_; ++g)
-            change[g] /= std::max(area_[g], 1e-30);
+        for (std::uint32_t g = 0; g < size_; ++g) {
+            change[g] /= std::max(area_[g], kLeastArea);
+            mean[g] /= std::max(area_[g], kLeastArea);
+        }
         // (1 - K)⁻¹ K r = (1 - K)⁻¹ r - r.
         for (std::uint32_t a = 0; a < size_; ++a)
             for (int c = 0; c < 3; ++c) {
                 double sum = -change[a][c];
                 for (std::uint32_t b = 0; b < size_; ++b)
                     sum += inverse_[c][std::size_t(a) * size_ + b] * change[b][c];
-                rest[a][c] = sum;
+                factor[a][c] =
+                    mean[a][c] > 0.0
+                        ? std::clamp(1.0 + sum / mean[a][c], 1.0 / kMostFactor, kMostFactor)
+                        : 1.0;
             }
-        for_each_part([&](std::uint32_t p, double, const glm::vec3& albedo) {
-            const std::uint32_t g = solver_.group_[p];
-            for (int c = 0; c < 3; ++c)
-                if (albedo_[g][c] > 0.0)
-                    now[p][c] = std::max(
-                        now[p][c] + float(rest[g][c] * double(albedo[c]) / albedo_[g][c]), 0.0f);
+        for_each_part([&](std::uint32_t p, double) {
+            now[p] *= glm::vec4(factor[solver_.group_[p]], 0.0);
         });
+        double squares = 0.0, sent = 0.0;
+        for (std::uint32_t g = 0; g < size_; ++g)
+            for (int c = 0; c < 3; ++c) {
+                const double weight = area_[g] * mean[g][c];
+                squares += weight * (factor[g][c] - 1.0) * (factor[g][c] - 1.0);
+                sent += weight;
+            }
+        return sent > 0.0 ? std::sqrt(squares / sent) : 0.0;
     }
 
 private:
@@ -95,7 +106,7 @@ private:
         for (std::uint32_t i = 0; i < lumels.size(); ++i) {
             const std::uint32_t first = solver_.parts_.first(i), end = solver_.parts_.end(i);
             for (std::uint32_t p = first; p < end; ++p)
-                visit(p, double(lumels[i].area) / double(end - first), lumels[i].albedo);
+                visit(p, double(lumels[i].area) / double(end - first));
         }
     }
 
@@ -115,7 +126,7 @@ private:
                             continue;
                         const std::uint32_t a = solver_.group_[p];
                         const double share = double(lumels[i].area) / double(last - first) /
-                                             std::max(area_[a], 1e-30) / double(gathered.rays[p]);
+                                             std::max(area_[a], kLeastArea) / double(gathered.rays[p]);
                         const LinkBlock& block = blocks[b];
                         const auto add = [&](std::uint32_t target, const glm::vec3& weight) {
                             const std::size_t cell =
@@ -167,7 +178,6 @@ private:
     std::uint32_t size_;
     std::vector<double> inverse_[3];  ///< [groups][groups] (1 - K)⁻¹ of each channel
     std::vector<double> area_;        ///< [groups] [m²]
-    std::vector<glm::dvec3> albedo_;  ///< [groups] mean
 };
 
 LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const LumelParts& parts,
@@ -261,14 +271,14 @@ void LinkSolver::solve(const Gathered& gathered, std::vector<glm::vec3>& receive
             all.squares += change.squares;
             all.count += change.count;
         }
-        if (groups)
-            groups->correct(sent, next);
-        sent.swap(next);
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
         // Changes that shrink by a factor q leave q / (1 - q) of the last to come.
         const double factor = before > 0.0 ? std::min(size / before, 1.0 - 1e-6) : 1.0 - 1e-6;
+        const double to_come =
+            groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
+        sent.swap(next);
         before = size;
-        if (size == 0.0 || (sweeps_ > 1 && size * factor / (1.0 - factor) < kStill))
+        if (size == 0.0 || (sweeps_ > 1 && to_come < kStill))
             return;
         if (sweeps_ == 1) {
             double mean = 0.0;

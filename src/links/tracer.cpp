@@ -17,7 +17,8 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more
-/// before it looks anything up: so near, one radiosity of a part is too coarse.
+/// before it looks anything up, and direct light is looked for there: so near, neither the cells of a
+/// lumel nor its parts are fine enough.
 constexpr float kTooNear = 0.25f;
 /// Reflections on the way, at most.
 constexpr int kMostReflections = 4;
@@ -39,6 +40,14 @@ struct LinkTracer::Way {
     glm::vec3 sky{0.0f};        ///< [lx]
     std::uint32_t part = 0;
 };
+
+bool Gathered::is_closed() const
+{
+    return std::none_of(rounds.begin(), rounds.end(), [](const std::vector<LinkBlock>& blocks) {
+        return std::any_of(blocks.begin(), blocks.end(),
+                           [](const LinkBlock& block) { return block.loses; });
+    });
+}
 
 LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
                        const WorldLumels& world, const RayStarts& starts, const Cells& cells,
@@ -124,7 +133,7 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
     float size = world_[i].size;
     for (int reflections = 0;; ++reflections) {
         const std::uint32_t pair = kFirstReflection + std::uint32_t(reflections) * kPerReflection;
-        const std::uint32_t seed = samples.bits(reflections == 0 ? kPassPair : pair + 1);
+        const std::uint32_t seed = samples.bits(reflections == 0 ? kPassPair : pair);
         RayHit hit;
         const bool met = place_.rays.closest(origin, direction, 0.0f, kFar, seed, hit);
         way.weight *= hit.tint;
@@ -142,11 +151,12 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
         const Lumel& lumel = place_.lumels.lumels[j];
         const glm::vec3 position = origin + hit.distance * direction;
         std::uint32_t cell = cells_.cell(j, position);
-        bool too_near = hit.distance < kTooNear * std::max(size, lumel.size) && reflections == 0;
-        if (parts_.is_cut(j) && !seen_cell(j, position, seed, cell))
-            too_near = reflections < kMostReflections;
-        way.reflected += way.weight * lumel.albedo * direct_.at(j, cell);
-        if (!too_near) {
+        const bool can_go_on = reflections < kMostReflections;
+        bool goes_on = can_go_on && hit.distance < kTooNear * std::max(size, lumel.size);
+        if (!goes_on && parts_.is_cut(j) && !seen_cell(j, position, seed, cell))
+            goes_on = can_go_on;
+        if (!goes_on) {
+            way.reflected += way.weight * lumel.albedo * direct_.at(j, cell);
             way.part = parts_.part(j, cell);
             return Met::part;
         }
@@ -155,7 +165,9 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
             return Met::nothing;
         const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
         origin = origin + direction * std::max(0.0f, hit.distance - lift_) + lift_ * normal;
-        direction = frame_about(normal) * by_cosine(samples.random(pair));
+        way.reflected += way.weight * direct_.ask({origin, normal, normal, cell}, lumel.size,
+                                                  samples.bits(pair));
+        direction = frame_about(normal) * by_cosine(samples.random(pair + 1));
         size = lumel.size;
     }
 }
@@ -184,6 +196,7 @@ void LinkTracer::trace_block(std::size_t b, const std::vector<std::uint16_t>& ra
             const Met met = start.cosine(direction) > 0.0f
                                 ? follow(i, start, direction, samples, way)
                                 : Met::nothing;
+            block.loses = block.loses || met != Met::part;
             if (met == Met::lost)
                 continue;
             ++into.rays[first + p];

@@ -25,6 +25,7 @@ struct LinkBlock {
     std::vector<std::uint32_t> target;      ///< parts
     std::vector<std::uint32_t> first_weak;  ///< [parts + 1] into weak
     std::vector<WeakLink> weak;
+    bool loses = false;  ///< some of the rays met no surface that reflects
 };
 
 /// Lumels of one block.
@@ -38,6 +39,9 @@ struct Gathered {
           rays(parts, 0)
     {
     }
+
+    /// Did every ray meet a surface that reflects?
+    bool is_closed() const;
 
     std::vector<std::vector<LinkBlock>> rounds;  ///< [rounds][blocks]
     std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of the direct light that they met [lx]

@@ -77,6 +77,7 @@ Report report_of(const BakeRecord& record)
     report.shots = record.shots;
     report.iterations = record.iterations;
     report.estimated_error = record.error;
+    report.estimated_dark_error = record.dark_error;
     report.interrupted = record.interrupted;
     report.exposure = record.exposure;
     report.files = record.files;
@@ -104,6 +105,8 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     result("interrupted", record.interrupted);
     if (solution.find("estimated_error"))
         result("estimated_error", record.error, kErrors);
+    if (solution.find("estimated_dark_error"))
+        result("estimated_dark_error", record.dark_error, kErrors);
     if (const auto exposure = solution.find("exposure"))
         record.exposure = float(exposure->number(0.0, std::numeric_limits<float>::max()));
     report.each("files",

@@ -83,6 +83,8 @@ Json solution(const Report& report)
         result["directional_shots"] = report.directional_shots;
     if (report.estimated_error >= 0.0)
         result["estimated_error"] = report.estimated_error;
+    if (report.estimated_dark_error >= 0.0)
+        result["estimated_dark_error"] = report.estimated_dark_error;
     if (report.exposure)
         result["exposure"] = shortest(*report.exposure);
     result["convergence"] = curve;

@@ -94,6 +94,7 @@ struct Report {
     std::uint64_t iterations = 0;
     std::uint64_t directional_shots = 0;  ///< 0: no directional layers
     double estimated_error = -1.0;        ///< relative, < 0: not known
+    double estimated_dark_error = -1.0;   ///< of lumels below a third of the mean, of their own
     bool interrupted = false;
     std::optional<float> exposure;  ///< of the map's or the pictures' PNG [1/lx or m²/cd]
     std::vector<ConvergencePoint> convergence;

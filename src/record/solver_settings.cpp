@@ -16,6 +16,7 @@ void each_limit(Options& options, const Visit& visit)
     visit("shots", options.max_shots, kShots);
     visit("seconds", options.max_seconds);
     visit("error", options.target_error);
+    visit("dark_error", options.target_dark_error);
 }
 
 /// Numbers as numbers, words as strings.

@@ -133,14 +133,21 @@ std::vector<std::uint32_t> movers_of(const Animation& animation, const Scene& sc
     return movers;
 }
 
+glm::mat4 place_in(const Scene& scene, const Animation& animation, int node, double time)
+{
+    glm::dmat4 world = transform_at(animation, node, time);
+    world[3] -= glm::dvec4(scene.origin, 0.0);
+    return world;
+}
+
 void pose(Scene& scene, const Animation& animation, double time)
 {
     for (Instance& instance : scene.instances)
         if (is_moved(animation, instance.node))
-            instance.transform = transform_at(animation, instance.node, time);
+            instance.transform = place_in(scene, animation, instance.node, time);
     for (Camera& camera : scene.cameras)
         if (is_moved(animation, camera.node))
-            camera.transform = transform_at(animation, camera.node, time);
+            camera.transform = place_in(scene, animation, camera.node, time);
     for (const AnimatedMaterial& material : animation.materials)
         scene.materials[std::size_t(material.material)].emitted = emitted_at(material, time);
 }

@@ -63,6 +63,9 @@ Animation read_animation(const std::string& path, std::size_t index = 0);
 /// Node to world at a time [s].
 glm::dmat4 transform_at(const Animation& animation, int node, double time);
 
+/// The same from the scene's origin.
+glm::mat4 place_in(const Scene& scene, const Animation& animation, int node, double time);
+
 /// What the material emits at a time [s], never below 0 [cd/m²].
 glm::vec3 emitted_at(const AnimatedMaterial& material, double time);
 

@@ -100,17 +100,26 @@ Box bounds_of(const Mesh& mesh)
     return mesh.primitives.empty() ? Box{} : box;
 }
 
-bool reaches_too_far(const Box& box, const glm::dmat4& world)
+Box placed_box(const Box& box, const glm::dmat4& world)
 {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Box placed{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 point((corner & 1 ? box.high : box.low).x,
                                (corner & 2 ? box.high : box.low).y,
                                (corner & 4 ? box.high : box.low).z, 1.0);
-        const glm::dvec3 reach = glm::abs(glm::dvec3(world * point));
-        if (!(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate)))
-            return true;
+        const glm::dvec3 at(world * point);
+        placed.low = glm::min(placed.low, at);
+        placed.high = glm::max(placed.high, at);
     }
-    return false;
+    return placed;
+}
+
+bool reaches_too_far(const Box& box, const glm::dmat4& world)
+{
+    const Box placed = placed_box(box, world);
+    const glm::dvec3 reach = glm::max(glm::abs(placed.low), glm::abs(placed.high));
+    return !(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate));
 }
 
 }  // namespace lumel

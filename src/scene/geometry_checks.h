@@ -28,6 +28,9 @@ struct Box {
 /// In mesh space; empty for a mesh without primitives.
 Box bounds_of(const Mesh& mesh);
 
+/// Of a box so placed, in the world.
+Box placed_box(const Box& box, const glm::dmat4& world);
+
 /// True if float arithmetic breaks down somewhere in a box so placed.
 bool reaches_too_far(const Box& box, const glm::dmat4& world);
 

@@ -11,12 +11,15 @@
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_sky.h"
+#include "scene/origin.h"
 #include "scene/scene.h"
 #include "scene/scene_hash.h"
 
 namespace lumel {
 
 namespace {
+
+constexpr double kFar = std::numeric_limits<double>::max();
 
 /// Facts gathered while reading, that end in warnings.
 struct Notes {
@@ -67,6 +70,31 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
                                        int(placed.node), glm::mat4(placed.world)});
     }
     scene.dropped_triangles = notes.mesh.zero_area_triangles;
+}
+
+/// Puts a scene that lies far out around 0. Its places are known as doubles yet.
+void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
+{
+    Box whole{glm::dvec3(kFar), glm::dvec3(-kFar)};
+    const auto world_of = [&](const Instance& instance) -> const glm::dmat4& {
+        const auto found = std::lower_bound(
+            nodes.begin(), nodes.end(), std::size_t(instance.node),
+            [](const PlacedNode& placed, std::size_t node) { return placed.node < node; });
+        return found->world;
+    };
+    for (const Instance& instance : scene.instances) {
+        const Box box = placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]),
+                                   world_of(instance));
+        whole.low = glm::min(whole.low, box.low);
+        whole.high = glm::max(whole.high, box.high);
+    }
+    scene.origin = origin_for(whole);
+    if (scene.origin == glm::dvec3(0.0))
+        return;
+    for (PlacedNode& placed : nodes)
+        placed.world[3] -= glm::dvec4(scene.origin, 0.0);
+    for (Instance& instance : scene.instances)
+        instance.transform = world_of(instance);
 }
 
 /// Materials and textures that the primitives name.
@@ -134,11 +162,12 @@ Scene read_scene(const std::string& path, MaterialModel model)
     scene.path = path;
     scene.model = model;
     Notes notes;
-    const std::vector<PlacedNode> nodes = place_nodes(document);
+    std::vector<PlacedNode> nodes = place_nodes(document);
     read_geometry(document, nodes, scene, notes);
     if (scene.instances.empty())
         throw Error(ErrorKind::input, path,
                     "its scene shows no triangles, there is nothing to bake");
+    recentre(scene, nodes);
     const MaterialList looks = read_looks(document, model, scene, notes);
     read_lights_and_cameras(document, nodes, scene);
     scene.sky = read_image_based_light(document);

@@ -7,7 +7,7 @@ namespace lumel {
 
 /// As last read back from the device.
 struct SolverState {
-    std::uint64_t shots = 0;       ///< shooters so far
+    std::uint64_t shots = 0;       ///< shooters so far, or what else MethodInfo::shots names
     std::uint64_t iterations = 0;  ///< steps so far
     double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
     /// The same of lumels below a third of the mean, relative to their own; < 0: not known.

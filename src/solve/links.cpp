@@ -44,11 +44,15 @@ constexpr double kEvenShare = 0.25;
 constexpr std::size_t kNeighbours = 4;
 /// Blocks of links that one step traces at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
-/// Direct light is found better if its noise is more than this share of the error asked for; and
-/// alone, without more links, if it is more than this share of all noise.
+/// Direct light is found better if its noise is more than this share of all; and alone, without
+/// more links, if it is more than that share.
 constexpr double kMostOfDirect = 0.5, kRestOfLinks = 0.8;
+/// Mean albedo of rooms whose level is balanced.
+constexpr double kBrightRoom = 0.95;
 /// Lumels that are darker than this share of the mean are dark.
 constexpr double kDark = 1.0 / 3.0;
+/// None counts as darker than this share of the mean where rays are shared out.
+constexpr double kDarkest = 1e-2;
 /// Key of the lumels' order: cells of the scene along each axis, within which lumels are sorted by
 /// the side that they face.
 constexpr double kOrderCells = 32.0;
@@ -111,9 +115,11 @@ private:
 }  // namespace
 
 LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
-                             const LinksOptions& options, double target_error, Parts parts)
+                             const LinksOptions& options, const SolverOptions& limits,
+                             Parts parts)
     : options_(options),
-      target_error_(target_error),
+      target_error_(limits.target_error),
+      target_dark_error_(limits.target_dark_error),
       parts_wanted_(parts),
       lumels_(lumels),
       surfaces_(host.scene),
@@ -191,8 +197,7 @@ void LinkRadiosity::begin_round()
     if (state_.shots > 0) {
         const double so_far = double(state_.shots) / 2.0;
         double more = so_far;
-        if (target_error_ > 0.0) {
-            const double ratio = state_.error / target_error_;
+        if (const double ratio = missing(); ratio > 0.0) {
             more = std::clamp(kAdaptiveGain * so_far * (ratio * ratio - 1.0), kLeastMore * so_far,
                               kMostMore * so_far);
         }
@@ -205,9 +210,10 @@ void LinkRadiosity::begin_round()
         half->rounds.emplace_back(tracer_->blocks());
 }
 
-/// The sum of variances is least if rays are in proportion to deviations. These are guessed from the
-/// halves of a lumel and of its neighbours in space; a part of the rays goes to all alike, since
-/// what has not met any light yet looks quiet.
+/// The sum of variances is least if rays are in proportion to deviations. That of a lumel is guessed
+/// from the halves of its neighbours in space, not from its own: they are to state the error, and
+/// rays must not follow them. A part of the rays goes to all alike, since what has not met any light
+/// yet looks quiet.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
@@ -215,15 +221,22 @@ void LinkRadiosity::share_out_rays()
         return;
     const std::size_t count = order_.size();
     std::vector<double> running(count + 1, 0.0), deviation(count);
+    const double floor = kDarkest * mean_light_;
     for (std::size_t o = 0; o < count; ++o) {
-        const glm::vec3 d = indirect(order_[o], 0) - indirect(order_[o], 1);
-        running[o + 1] = running[o] + double(glm::dot(d, d));
+        const glm::vec3 a = indirect(order_[o], 0), b = indirect(order_[o], 1), d = a - b;
+        // Where dark lumels count, what they lack counts by their own light, half way.
+        const double weight =
+            target_dark_error_ > 0.0 ? 1.0 / (double(a.r + a.g + a.b + b.r + b.g + b.b) + floor)
+                                     : 1.0;
+        running[o + 1] = running[o] + weight * double(glm::dot(d, d));
     }
     double mean = 0.0, lit = 0.0;
     for (std::size_t o = 0; o < count; ++o) {
         const std::size_t first = o - std::min(o, kNeighbours);
         const std::size_t last = std::min(o + kNeighbours + 1, count);
-        deviation[o] = std::sqrt((running[last] - running[first]) / double(last - first));
+        const double own = running[o + 1] - running[o];
+        deviation[o] = std::sqrt(std::max(running[last] - running[first] - own, 0.0) /
+                                 double(std::max<std::size_t>(last - first - 1, 1)));
         if (!(lumels_.lumels[order_[o]].flags & kLumelBuried)) {
             mean += deviation[o];
             lit += 1.0;
@@ -241,23 +254,67 @@ void LinkRadiosity::share_out_rays()
 
 void LinkRadiosity::end_round()
 {
-    for (int h = 0; h < 2; ++h)
+    for (int h = 0; h < 2; ++h) {
         solver_->solve(*gathered_[h], received_[std::size_t(h)]);
+        balance(h);
+    }
     state_.shots += 2 * std::uint64_t(std::llround(mean_rays_));
     ++round_;
     estimate();
     go_on();
 }
 
+/// In a bright closed room the level of all light has a noise of its own, but what surfaces absorb
+/// is known: all that is sent, Σ A (1 - ρ) (D + X) = Σ A D.
+void LinkRadiosity::balance(int half)
+{
+    if (!gathered_[half]->is_closed())
+        return;
+    glm::dvec3 absorbed(0.0), reflected(0.0);
+    double area = 0.0, albedo = 0.0;
+    for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
+        const Lumel& lumel = lumels_.lumels[i];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        const double a = double(lumel.area);
+        absorbed += a * glm::dvec3((1.0f - lumel.albedo) * indirect(i, half));
+        reflected += a * glm::dvec3(lumel.albedo * direct_->half(half)[i]);
+        area += a;
+        albedo += a * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
+    }
+    if (albedo < kBrightRoom * area)
+        return;
+    glm::vec3 factor(1.0f);
+    for (int c = 0; c < 3; ++c)
+        if (absorbed[c] > 0.0)
+            factor[c] = float(reflected[c] / absorbed[c]);
+    for (glm::vec3& light : received_[std::size_t(half)])
+        light *= factor;
+}
+
+/// How many times larger the error is than the one asked for; 0: none is asked for.
+double LinkRadiosity::missing() const
+{
+    double ratio = 0.0;
+    if (target_error_ > 0.0)
+        ratio = std::max(ratio, state_.error / target_error_);
+    if (target_dark_error_ > 0.0)
+        ratio = std::max(ratio, state_.dark_error / target_dark_error_);
+    return ratio;
+}
+
 /// What comes next: better direct light, more links, or both.
 void LinkRadiosity::go_on()
 {
-    const bool wanted = target_error_ > 0.0;
-    if (wanted && state_.error > target_error_ && direct_error_ > kMostOfDirect * target_error_ &&
-        direct_->refine()) {
-        refines_alone_ = direct_error_ > kRestOfLinks * state_.error;
+    const bool wanted = target_error_ > 0.0 || target_dark_error_ > 0.0;
+    if (wanted && missing() <= 1.0)
+        return;
+    // Better direct light may take as many rays as there are links, no more.
+    const bool affordable = direct_->rays_to_refine() <= state_.shots * order_.size();
+    if (direct_error_ > kMostOfDirect * state_.error && affordable && direct_->refine()) {
+        refines_alone_ = wanted && direct_error_ > kRestOfLinks * state_.error;
         stage_ = Stage::direct;
-    } else if (!(wanted && state_.error <= target_error_)) {
+    } else {
         begin_round();
     }
 }
@@ -317,6 +374,7 @@ void LinkRadiosity::estimate()
     double sum = 0.0;
     for (const glm::vec3& light : mean)
         sum += brightness(light);
+    mean_light_ = sum / double(std::max<std::size_t>(mean.size(), 1));
     const double count = double(mean.size());
     // √(Σ d² / 3n) / (Σ H / 3n)
     const auto relative = [](double squares, double lights, double n) {

@@ -21,9 +21,10 @@ struct HostScene;
 /// of a second of it.
 class LinkRadiosity final : public Solver {
 public:
-    /// What is given must outlive it. parts: of the light that irradiance() has.
+    /// What is given must outlive it. limits: how far rounds should go. parts: of the light that
+    /// irradiance() has.
     LinkRadiosity(const HostScene& host, const Lumels& lumels, const LinksOptions& options,
-                  double target_error, Parts parts);
+                  const SolverOptions& limits, Parts parts);
     ~LinkRadiosity() override;
 
     /// Bytes on the device: none. On the host it takes host_bytes.
@@ -44,13 +45,15 @@ private:
     void begin_round();
     void share_out_rays();
     void end_round();
+    void balance(int half);
     void go_on();
+    double missing() const;
     glm::vec3 indirect(std::size_t lumel, int half) const;
     glm::vec3 light(std::size_t lumel, int half, Parts parts) const;
     void estimate();
 
     const LinksOptions options_;
-    const double target_error_;
+    const double target_error_, target_dark_error_;
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;
@@ -72,6 +75,7 @@ private:
     std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
     std::size_t traced_ = 0;       ///< blocks of it
     bool refines_alone_ = false;   ///< direct light is found better, no links are traced
+    double mean_light_ = 0.0;      ///< of all channels together [lx]
     double direct_error_ = 0.0;    ///< share of direct light's noise in the error
     SolverState state_;
     gpu::StageTimes times_;

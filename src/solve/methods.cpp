@@ -311,7 +311,7 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
 {
     const auto& own = std::get<Options>(options.method);
     if constexpr (std::is_same_v<Method, LinkRadiosity>)
-        return std::make_unique<Method>(*in.host, in.lumels, own, options.target_error, in.parts);
+        return std::make_unique<Method>(*in.host, in.lumels, own, options, in.parts);
     else if constexpr (std::is_same_v<Method, GlossyIllumination>)
         return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known,
                                         in.particles);
@@ -344,11 +344,13 @@ constexpr MethodInfo kMethods[] = {
     {.id = "links",
      .title = "Gathering over links that are traced once",
      .paper = "",
-     .advice = "any scene with diffuse surfaces, buildings above all",
+     .shots = "rays per lumel",
+     .advice = "the default: any scene with diffuse surfaces, buildings above all",
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
      .finds_lights = true,
+     .states_dark_error = true,
      .can_keep_sources = false,
      .defaults = defaults<LinksOptions>,
      .options = kLinksOptions,
@@ -357,11 +359,13 @@ constexpr MethodInfo kMethods[] = {
     {.id = "stochastic",
      .title = "Stochastic radiosity by perspective ray bundles",
      .paper = "[BJ04], [BSS05]",
-     .advice = "the default: any scene with diffuse surfaces and emissive lights",
+     .shots = "shooters",
+     .advice = "small rooms of diffuse surfaces; the method that the others are compared with",
      .materials = MaterialModel::diffuse,
      .near_radius = kUsualRadius,
      .near_surroundings = false,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = false,
      .defaults = defaults<StochasticOptions>,
      .options = kStochasticOptions,
@@ -370,11 +374,13 @@ constexpr MethodInfo kMethods[] = {
     {.id = "glossy",
      .title = "Stochastic glossy global illumination",
      .paper = "[BSS05], [NNS99]",
+     .shots = "shooters",
      .advice = "light that metals and polished surfaces pass on; noisier than the default",
      .materials = MaterialModel::glossy,
      .near_radius = kGlossyRadius,
      .near_surroundings = false,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = false,
      .defaults = defaults<GlossyOptions>,
      .options = kGlossyOptions,
@@ -383,11 +389,13 @@ constexpr MethodInfo kMethods[] = {
     {.id = "directions",
      .title = "Global directions with stochastic depth buffering",
      .paper = "[TN11]",
+     .shots = "directions",
      .advice = "open scenes of diffuse surfaces with few small emissive lights",
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = false,
      .defaults = defaults<DirectionsOptions>,
      .options = kDirectionsOptions,
@@ -396,12 +404,14 @@ constexpr MethodInfo kMethods[] = {
     {.id = "progressive",
      .title = "Progressive refinement radiosity",
      .paper = "[CCWG88], [Hoef13]",
+     .shots = "shooters",
      .advice =
          "small scenes of diffuse surfaces; the basis of animation, corrected when objects move",
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = false,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = false,
      .defaults = defaults<ProgressiveOptions>,
      .options = kProgressiveOptions,
@@ -410,11 +420,13 @@ constexpr MethodInfo kMethods[] = {
     {.id = "gather",
      .title = "Gather radiosity by hemicubes on every lumel",
      .paper = "[CG85], [Hoef13]",
+     .shots = "hemicubes",
      .advice = "an independent reference for the others; slow, --hemicube 64 is enough",
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = false,
      .defaults = defaults<GatherOptions>,
      .options = kGatherOptions,
@@ -423,12 +435,14 @@ constexpr MethodInfo kMethods[] = {
     {.id = "matrix",
      .title = "Form-factor matrices of all reflections",
      .paper = "[SF17]",
+     .shots = "shooters",
      .advice = "one scene under many lights: lumel relight takes milliseconds; small indirect "
                "detail is lost",
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = true,
      .finds_lights = false,
+     .states_dark_error = false,
      .can_keep_sources = true,
      .defaults = defaults<MatrixOptions>,
      .options = kMatrixOptions,
@@ -436,11 +450,6 @@ constexpr MethodInfo kMethods[] = {
      .device_bytes = bytes_of<MatrixRadiosity, MatrixOptions>},
 };
 static_assert(std::size(kMethods) == std::variant_size_v<MethodOptions>);
-
-bool has_near_field(const MethodOptions& method)
-{
-    return method_of(method).near_radius > kNoNearField && !is_papers(method);
-}
 
 std::string listed(const std::vector<const MethodInfo*>& methods)
 {
@@ -533,10 +542,24 @@ MethodOptions method_options(std::string_view id, const std::map<std::string, st
     return options;
 }
 
+void check_limits(const SolverOptions& options)
+{
+    const MethodInfo& method = method_of(options.method);
+    if (options.target_dark_error > 0.0 && !method.states_dark_error)
+        throw Error(ErrorKind::input, "--dark-error",
+                    std::string("is not known to --solver ") + method.id +
+                        ", which does not state the error of dark places");
+}
+
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value)
 {
     const OptionInfo* option = method_of(method).option(name);
     return option && option->set(method, value);
+}
+
+bool has_near_field(const MethodOptions& method)
+{
+    return method_of(method).near_radius > kNoNearField && !is_papers(method);
 }
 
 bool gathers_sky(const MethodOptions& method)

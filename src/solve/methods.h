@@ -64,11 +64,13 @@ struct MethodInfo {
     const char* id;
     const char* title;
     const char* paper;        ///< keys of docs/references.md
+    const char* shots;        ///< what SolverState::shots counts: "shooters"
     const char* advice;       ///< when to use it
     MaterialModel materials;  ///< what it reads of them
     float near_radius;        ///< NearFieldOptions::radius that suits it; 0: it has no near field
     bool near_surroundings;   ///< NearFieldOptions::surroundings
     bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
+    bool states_dark_error;   ///< SolverState::dark_error
     bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight
     MethodOptions (*defaults)();
     std::span<const OptionInfo> options;
@@ -108,11 +110,17 @@ struct GivenMethod {
     MethodOptions options() const { return method_options(id, values); }
 };
 
+/// Throws Error{input} for a limit that the method knows nothing of.
+void check_limits(const SolverOptions& options);
+
 /// Sets an option if the method reads it; returns whether it does.
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value);
 
 /// Does the solver find the sky's light itself, so that it is not to be among the emission?
 bool gathers_sky(const MethodOptions& method);
+
+/// Does it solve close pairs in a table? Some methods and schemes have none.
+bool has_near_field(const MethodOptions& method);
 
 /// The near field that suits the options: finer where a smaller error is requested.
 NearFieldOptions near_field_options(const SolverOptions& options);

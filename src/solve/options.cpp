@@ -31,7 +31,9 @@ int batch_of(const MethodOptions& method)
 {
     return std::visit(
         [&](const auto& options) {
-            if constexpr (requires { options.batch; })
+            if constexpr (std::is_same_v<std::decay_t<decltype(options)>, LinksOptions>)
+                return 0;
+            else if constexpr (requires { options.batch; })
                 return options.batch;
             else
                 return views_of(method).batch;

@@ -71,10 +71,11 @@ using MethodOptions = std::variant<LinksOptions, StochasticOptions, GlossyOption
 
 /// A method, and when to stop.
 struct SolverOptions {
-    MethodOptions method = StochasticOptions{};
+    MethodOptions method = LinksOptions{};
     std::uint64_t max_shots = 0;  ///< 0: no limit
     double max_seconds = 0.0;     ///< of solving, 0: no limit
     double target_error = 0.02;   ///< estimated relative error to stop at, 0: never
+    double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
 };
 
 // What most methods have, and what stands for it in the others.
@@ -90,7 +91,7 @@ SampleRule rule_of(const MethodOptions& method);
 /// The default of methods that do not look from eyes.
 ViewOptions views_of(const MethodOptions& method);
 
-/// K, shooters of one step.
+/// K, shooters of one step; 0 of methods without shooters.
 int batch_of(const MethodOptions& method);
 
 /// True for the papers' iteration, which has no near field.

@@ -20,7 +20,12 @@ bool solve(Solver& solver, const SolverOptions& options,
             return true;
         if (options.max_seconds > 0.0 && seconds >= options.max_seconds)
             return true;
-        if (options.target_error > 0.0 && state.error >= 0.0 && state.error <= options.target_error)
+        const auto met = [](double error, double target) {
+            return target <= 0.0 || (error >= 0.0 && error <= target);
+        };
+        if ((options.target_error > 0.0 || options.target_dark_error > 0.0) &&
+            met(state.error, options.target_error) &&
+            met(state.dark_error, options.target_dark_error))
             return true;
         solver.step();
     }

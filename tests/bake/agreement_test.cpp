@@ -118,7 +118,8 @@ TEST(CornellBox, TheEstimatedErrorIsHonest)
 
 TEST(CornellBox, TheSameSeedGivesTheSameBytes)
 {
-    const SolverOptions options{.max_shots = 512, .target_error = 0.0};
+    const SolverOptions options{
+        .method = StochasticOptions{}, .max_shots = 512, .target_error = 0.0};
     const Solved a = support::solve_scene(cornell().world, options);
     const Solved b = support::solve_scene(cornell().world, options);
     EXPECT_EQ(a.irradiance, b.irradiance);

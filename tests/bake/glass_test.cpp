@@ -62,7 +62,13 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const NearField near = near_field_for(room.scene, room.rays, room.lumels, GetParam());
     const gpu::Device device;
     const World world(device, room.scene, room.lumels, &room.atlas);
-    const auto solver = make_solver({device, world, room.lumels, near}, GetParam());
+    const HostScene host{room.scene, room.rays, room.atlas};
+    const auto solver = make_solver({.device = device,
+                                     .world = world,
+                                     .lumels = room.lumels,
+                                     .near = near,
+                                     .host = &host},
+                                    GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());
     for (int c = 0; c < 3; ++c)
@@ -90,8 +96,12 @@ SolverOptions gather()
 // With stochastic layers the nearest of several pixels counts, each of which decides by chance
 // whether the pane blocks: it does too often.
 INSTANTIATE_TEST_SUITE_P(By, Glass,
-                         testing::Values(method("stochastic", 6144), method("glossy", 18432),
-                                         method("directions", 24576), gather()));
+                         testing::Values(method("links", 256), method("stochastic", 6144),
+                                         method("glossy", 18432), method("directions", 24576),
+                                         gather()),
+                         [](const auto& test) {
+                             return std::string(method_of(test.param.method).id);
+                         });
 
 }  // namespace
 }  // namespace lumel

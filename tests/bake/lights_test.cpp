@@ -91,7 +91,8 @@ struct City {
 TEST(City, IsLitAlikeByShootersAndAlongGlobalDirections)
 {
     const City city;
-    const SolverOptions shooters{.max_shots = 2048, .target_error = 0.0};
+    const SolverOptions shooters{
+        .method = StochasticOptions{}, .max_shots = 2048, .target_error = 0.0};
     SolverOptions directions = shooters;
     directions.method = DirectionsOptions{};
     const support::LumelError apart = city.apart(city.solve(directions), city.solve(shooters));

@@ -54,7 +54,7 @@ TEST(GraphicsMemory, OfDirectionalLayersIsAsDescribed)
 
 TEST(GraphicsMemory, OfSkyAndLampsIsAsDescribed)
 {
-    BakeOptions options = small(methods().front().id);
+    BakeOptions options = small("stochastic");
     set_sky(options.lights, "1,1,1");
     options.sky_directions = 16;
     expect_as_described("cornell-box", options);

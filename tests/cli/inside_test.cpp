@@ -31,7 +31,8 @@ bool has(const std::string& text, const std::string& part)
 TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(small_bake(place.path("out"), {"--verbose", "--json"}));
+    const Outcome bake = run_lumel(
+        small_bake(place.path("out"), {"--solver", "stochastic", "--verbose", "--json"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     const auto report = nlohmann::json::parse(bake.out, nullptr, false);
     ASSERT_FALSE(report.is_discarded()) << bake.out;
@@ -43,7 +44,7 @@ TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
     for (const std::string size : {"charts", "lumels"})
         EXPECT_TRUE(has(bake.err, report["sizes"][size].dump() + " " + size)) << bake.err;
     EXPECT_TRUE(has(bake.err, "close pairs take ")) << bake.err;
-    EXPECT_TRUE(has(bake.err, "128 shooters in 8 iterations")) << bake.err;
+    EXPECT_TRUE(has(bake.err, "128 shooters in 8 steps")) << bake.err;
     EXPECT_TRUE(has(bake.err, "iB of world/world.cpp:")) << bake.err;
     EXPECT_TRUE(has(bake.err, "solving: \"receive\" took ")) << bake.err;
     EXPECT_TRUE(has(bake.err, " MiB at most, on the device ")) << bake.err;
@@ -64,7 +65,8 @@ TEST(Dump, ShowsWhatTheBakeWorkedWith)
 {
     const Workplace place;
     const Outcome bake = run_lumel(
-        small_bake(place.path("out"), {"--hemicube", "64", "--dump", place.path("inside")}));
+        small_bake(place.path("out"), {"--solver", "stochastic", "--hemicube", "64", "--dump",
+                                       place.path("inside")}));
     ASSERT_EQ(bake.code, 0) << bake.err;
 
     // The lamp at 0.5483 m looks down on two blocks, the taller 0.33 m high; walls hide nothing.

@@ -36,7 +36,9 @@ TEST(Nodes, HierarchiesOfTwoThousandLevelsAreRead)
     for (int depth = 0; depth < 2000; ++depth)
         builder.push("nodes", {{"children", {depth}}, {"translation", {0, 0, 1}}});
     builder.json["scenes"][0]["nodes"] = {2000};
-    EXPECT_EQ(world_origin(builder.read().instances.at(0)), glm::vec3(0, 0, 2000));
+    const Scene scene = builder.read();
+    EXPECT_EQ(glm::dvec3(world_origin(scene.instances.at(0))) + scene.origin,
+              glm::dvec3(0, 0, 2000));
 }
 
 TEST(Nodes, OneMeshUnderTwoNodesIsReadOnceAndPlacedTwice)
