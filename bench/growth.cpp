@@ -38,13 +38,12 @@ void grow(const Settings& settings)
         const World gpu_world(device, world.scene, world.lumels);
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
         const HostScene host{world.scene, world.rays, world.atlas};
-        const auto solver =
-            make_solver({.device = device,
-                         .world = gpu_world,
-                         .lumels = world.lumels,
-                         .near = none,
-                         .host = &host},
-                        solver_of(settings));
+        const auto solver = make_solver({.device = device,
+                                         .world = gpu_world,
+                                         .lumels = world.lumels,
+                                         .near = none,
+                                         .host = &host},
+                                        solver_of(settings));
         shoot(*solver, kTimedShots);
         double cpu = 1e30, wall = 1e30;
         for (int round = 0; round < kRounds; ++round) {

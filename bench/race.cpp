@@ -109,12 +109,9 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         light_of(few, device, warm, world);
         const HostScene host{world.scene, world.rays, world.atlas};
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
-        const auto solver = make_solver({.device = device,
-                                         .world = warm,
-                                         .lumels = world.lumels,
-                                         .near = none,
-                                         .host = &host},
-                                        options);
+        const auto solver = make_solver(
+            {.device = device, .world = warm, .lumels = world.lumels, .near = none, .host = &host},
+            options);
         for (int i = 0; i < 8; ++i)
             solver->step();
         solver->irradiance();

@@ -210,7 +210,8 @@ void add_talk_options(CLI::App& app, Talk& talk)
 void add_stop_options(CLI::App& app, SolverOptions& solver)
 {
     app.option_defaults()->group(kStopGroup);
-    auto* shots = app.add_option("--shots", solver.max_shots, "Stop after this many shooters; of links: rays of each lumel")
+    auto* shots = app.add_option("--shots", solver.max_shots,
+                                 "Stop after this many shooters; of links: rays of each lumel")
                       ->type_name("N")
                       ->check(whole(1, kMostShots));
     auto* time = app.add_option("--time", solver.max_seconds, "Stop after solving for this time")

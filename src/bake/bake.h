@@ -43,9 +43,9 @@ using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {
     std::uint64_t shots = 0;
-    double error = -1.0;   ///< estimated relative error
+    double error = -1.0;       ///< estimated relative error
     double dark_error = -1.0;  ///< the same of dark lumels, see SolverState
-    double seconds = 0.0;  ///< whole bake
+    double seconds = 0.0;      ///< whole bake
     bool interrupted = false;
     std::string report;  ///< the JSON of report.json
 };

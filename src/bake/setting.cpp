@@ -68,8 +68,8 @@ public:
     {
         if (state.error < 0.0 || state.shots < next_)
             return;
-        std::string note =
-            fmt::format("{} {}, estimated error {:.3f} %", state.shots, shots_, 100.0 * state.error);
+        std::string note = fmt::format("{} {}, estimated error {:.3f} %", state.shots, shots_,
+                                       100.0 * state.error);
         if (state.dark_error >= 0.0)
             note += fmt::format(", of dark lumels {:.2f} %", 100.0 * state.dark_error);
         stages.note(note);

@@ -20,12 +20,12 @@ struct WhyOptions {
 
 /// One sender of light.
 struct WhyRow {
-    double share = 0.0;              ///< of all the luminance that arrives, 0…1
-    std::string name;                ///< of the instance or the lamp, or "sky"
-    std::string material;            ///< empty: no surface
+    double share = 0.0;               ///< of all the luminance that arrives, 0…1
+    std::string name;                 ///< of the instance or the lamp, or "sky"
+    std::string material;             ///< empty: no surface
     std::optional<glm::dvec3> place;  ///< in the world [m]; none: infinitely far away
-    double distance = 0.0;           ///< [m]
-    glm::vec3 light{0.0f};           ///< that arrives [lx]
+    double distance = 0.0;            ///< [m]
+    glm::vec3 light{0.0f};            ///< that arrives [lx]
 };
 
 struct WhySummary {

@@ -63,7 +63,7 @@ public:
     /// Joins cells whose points see each other by rays lifted off the lumel. Buried lumels are not
     /// cut.
     LumelParts(const WorldLumels& world, const Cells& cells, const RayScene& rays,
-            const std::vector<char>& buried, std::uint32_t seed);
+               const std::vector<char>& buried, std::uint32_t seed);
 
     std::size_t count() const { return lumel_.size(); }  ///< P, of all lumels together
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }

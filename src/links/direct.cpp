@@ -38,7 +38,10 @@ constexpr std::uint32_t kMostRefined = 8;
 constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
 
 /// Sources that a point beside the lumels asks for light, at most.
-constexpr std::uint32_t kMostAsked = 2;
+constexpr std::uint32_t kMostSought = 2;
+
+/// Sets many rays apart from few among the random streams of a lumel.
+constexpr std::uint32_t kManyStream = 0x10000;
 
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
@@ -47,7 +50,7 @@ constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
 
 /// What the rays to one source tell, of a lumel or of a cell.
 struct DirectFinder::Sums {
-    glm::vec3 open{0.0f};   ///< Σ of what is known exactly
+    glm::vec3 open{0.0f};    ///< Σ of what is known exactly
     glm::vec3 passed{0.0f};  ///< Σ V f
     float offered = 0.0f;    ///< Σ f by luminance
     glm::vec3 seen{0.0f};    ///< Σ V f by luminance of f
@@ -83,7 +86,14 @@ struct DirectFinder::Found {
     OfCells cells{};
     std::uint32_t seen = 0;
     bool uncertain = false;
+    bool exact = true;  ///< of all sources what they send as if nothing were between is known
     std::uint64_t rays = 0;
+};
+
+/// One source of several, and what its light counts for the others.
+struct DirectFinder::Choice {
+    std::uint32_t source;
+    float factor;
 };
 
 DirectFinder::DirectFinder(const LinkScene& place, const LightSources& sources,
@@ -124,40 +134,50 @@ void DirectFinder::share_out_rays(const glm::vec3& at, float size, std::vector<s
         rest.clear();
 }
 
-/// Looks at a point of a source; factor: times its light, where it stands for others too.
-DirectFinder::Looked DirectFinder::look(const RayStart& start, std::size_t source, float factor,
-                                        const glm::vec2& at, std::uint32_t seed) const
+/// By running sums over the sources.
+DirectFinder::Choice DirectFinder::choose(const std::vector<float>& running, float at)
 {
-    Looked looked{sources_.sample(source, start, at)};
-    SourceSample& sample = looked.sample;
+    const float mark = at * running.back();
+    const auto found = std::upper_bound(running.begin(), running.end() - 1, mark);
+    const auto source = std::uint32_t(found - running.begin());
+    const float own = *found - (source > 0 ? running[source - 1] : 0.0f);
+    return {source, own > 0.0f ? running.back() / own : 0.0f};
+}
+
+/// Looks at a point of a source; factor: times its light, where it stands for others too.
+DirectFinder::Seen DirectFinder::look(const RayStart& start, std::size_t source, float factor,
+                                      const glm::vec2& at, std::uint32_t seed) const
+{
+    Seen seen{sources_.sample(source, start, at)};
+    SourceSample& sample = seen.sample;
     if (factor != 1.0f) {
         sample.irradiance *= factor;
         sample.open.reset();
     }
     if (sample.irradiance == glm::vec3(0.0f))
-        return looked;
-    looked.passing =
-        std::isinf(sample.distance)
-            ? place_.rays.passing_out(start.position, sample.direction, seed)
-            : place_.rays.passing(start.position,
-                                  start.position + sample.distance * sample.direction,
-                                  place_.rays.lift(), seed);
-    return looked;
+        return seen;
+    seen.passing = std::isinf(sample.distance)
+                       ? place_.rays.passing_out(start.position, sample.direction, seed)
+                       : place_.rays.passing(start.position,
+                                             start.position + sample.distance * sample.direction,
+                                             place_.rays.lift(), seed);
+    return seen;
 }
 
-glm::vec3 DirectFinder::ask(const RayStart& start, float size, std::uint32_t seed) const
+glm::vec3 DirectFinder::light_at(const RayStart& start, float size, std::uint32_t seed) const
 {
     const auto place_on = [&](std::uint32_t k) {
         const std::uint32_t own = PathSamples::hash(seed, k);
-        return glm::vec2(PathSamples::to_unit(own), PathSamples::to_unit(PathSamples::hash(own, 1)));
+        return glm::vec2(PathSamples::to_unit(own),
+                         PathSamples::to_unit(PathSamples::hash(own, 1)));
     };
     glm::vec3 light(0.0f);
     const auto add = [&](std::size_t source, float factor, std::uint32_t k) {
-        const Looked looked = look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k));
-        light += looked.passing * looked.sample.irradiance;
+        const Seen seen = look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k));
+        light += seen.passing * seen.sample.irradiance;
     };
     const auto count = std::uint32_t(sources_.count());
-    if (count <= kMostAsked) {
+    if (count <= kMostSought) {
         for (std::uint32_t s = 0; s < count; ++s)
             add(s, 1.0f, s);
         return light;
@@ -167,15 +187,46 @@ glm::vec3 DirectFinder::ask(const RayStart& start, float size, std::uint32_t see
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < count; ++s)
         running[s] = sum += sources_.guess(s, start.position, size);
-    for (std::uint32_t k = 0; k < kMostAsked; ++k) {
-        const float mark = (place_on(count + k).x + float(k)) / float(kMostAsked) * sum;
-        const auto found = std::upper_bound(running.begin(), running.end() - 1, mark);
-        const std::size_t source = std::size_t(found - running.begin());
-        const float own = running[source] - (source > 0 ? running[source - 1] : 0.0f);
-        if (own > 0.0f)
-            add(source, sum / (own * float(kMostAsked)), k);
+    for (std::uint32_t k = 0; k < kMostSought; ++k) {
+        const Choice choice =
+            choose(running, (place_on(count + k).x + float(k)) / float(kMostSought));
+        add(choice.source, choice.factor / float(kMostSought), k);
     }
     return light;
+}
+
+/// Adds what the rays to a source find, or to the rest of the sources together.
+void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, bool many, Found& found) const
+{
+    const bool small = to.alone && sources_.is_small(to.source);
+    const std::uint32_t rays =
+        many ? (small ? kManyToSmall : kManyRays) << level_ : (small ? kFewToSmall : kFewRays);
+    std::array<Sums, kCells> of_cells;
+    Sums of_both;
+    for (std::uint32_t h = 0; h < 2; ++h) {
+        Sums sums;
+        const std::uint32_t stream = PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
+                                                       2 * to.source + (to.alone ? 0 : 1) +
+                                                           (many ? kManyStream << level_ : 0));
+        for (std::uint32_t k = 0; k < rays; ++k) {
+            const PathSamples samples(stream, k);
+            const RayStart start = starts_.start(i, samples.stratified(kStartPair));
+            const Choice choice = to.alone ? Choice{to.source, 1.0f}
+                                           : choose(*to.rest, samples.stratified(kChoicePair).x);
+            const Seen seen = look(start, choice.source, choice.factor,
+                                   samples.stratified(kSourcePair), samples.bits(kSourcePair));
+            for (Sums* into : {&sums, &of_both, &of_cells[start.cell]})
+                into->add(seen.sample, seen.passing);
+        }
+        found.half[h] += sums.light();
+    }
+    found.rays += of_both.free + of_both.hidden;
+    found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
+    found.exact = found.exact && of_both.exact;
+    if (of_both.free > 0)
+        found.seen |= 1u << (to.alone ? to.source % 32 : 31);
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
 }
 
 DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
@@ -186,58 +237,35 @@ DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
         return found;
     std::vector<std::uint32_t> own;
     std::vector<float> rest;
-    const RayStart middle = starts_.start(i, glm::vec2(0.5f));
-    share_out_rays(middle.position, lumel.size, own, rest);
-
-    bool exact = true;
-    const std::size_t groups = own.size() + (rest.empty() ? 0 : 1);
-    for (std::size_t g = 0; g < groups; ++g) {
-        const bool alone = g < own.size();
-        const bool small = alone && sources_.is_small(own[g]);
-        const std::uint32_t rays = (many ? (small ? kManyToSmall : kManyRays) << level_
-                                         : (small ? kFewToSmall : kFewRays));
-        std::array<Sums, kCells> of_cells;
-        Sums of_both;
-        for (std::uint32_t h = 0; h < 2; ++h) {
-            Sums sums;
-            const std::uint32_t stream = PathSamples::hash(
-                PathSamples::hash(seed_, 2 * i + h), std::uint32_t(g) + (many ? 0x8000u << level_ : 0));
-            for (std::uint32_t k = 0; k < rays; ++k) {
-                const PathSamples samples(stream, k);
-                const RayStart start = starts_.start(i, samples.stratified(kStartPair));
-                std::uint32_t source = alone ? own[g] : 0;
-                float factor = 1.0f;
-                if (!alone) {
-                    const float mark = samples.stratified(kChoicePair).x * rest.back();
-                    source = std::uint32_t(std::upper_bound(rest.begin(), rest.end(), mark) -
-                                           rest.begin());
-                    source = std::min(source, std::uint32_t(rest.size() - 1));
-                    const float below = source > 0 ? rest[source - 1] : 0.0f;
-                    if (!(rest[source] > below))
-                        continue;
-                    factor = rest.back() / (rest[source] - below);
-                }
-                const Looked looked = look(start, source, factor, samples.stratified(kSourcePair),
-                                           samples.bits(kSourcePair));
-                sums.add(looked.sample, looked.passing);
-                of_both.add(looked.sample, looked.passing);
-                of_cells[start.cell].add(looked.sample, looked.passing);
-            }
-            found.half[h] += sums.light();
-        }
-        found.rays += of_both.free + of_both.hidden;
-        found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
-        if (of_both.free > 0)
-            found.seen |= 1u << (alone ? own[g] % 32 : 31);
-        exact = exact && of_both.exact;
-        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
-            found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
-    }
-    const glm::vec3 mean = 0.5f * (found.half[0] + found.half[1]);
+    share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, own, rest);
+    for (const std::uint32_t source : own)
+        add_rays(i, {.alone = true, .source = source}, many, found);
+    if (!rest.empty())
+        add_rays(i, {.alone = false, .rest = &rest}, many, found);
     // A ray for a cell tells something only if it tells all.
-    if (!many && !exact)
-        found.cells.fill(mean);
+    if (!many && !found.exact)
+        found.cells.fill(0.5f * (found.half[0] + found.half[1]));
     return found;
+}
+
+/// Takes over what was found of lumel i.
+void DirectFinder::keep(std::uint32_t i, const Found& found, Block& block)
+{
+    half_[0][i] = found.half[0];
+    half_[1][i] = found.half[1];
+    uncertain_[i] = found.uncertain;
+    if (first_pass_)
+        seen_[i] = found.seen;
+    block.rays += found.rays;
+    const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
+        return luminance(one) < luminance(other);
+    };
+    const auto [least, most] =
+        std::minmax_element(found.cells.begin(), found.cells.end(), by_light);
+    if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
+        block.lumel.push_back(i);
+        block.cells.push_back(found.cells);
+    }
 }
 
 bool DirectFinder::step()
@@ -249,25 +277,8 @@ bool DirectFinder::step()
     parallel_for(last_block - done_, 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t b = done_ + first; b < done_ + last; ++b) {
             Block& block = blocks_[b];
-            for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, list.size()); ++k) {
-                const std::uint32_t i = list[k];
-                const Found found = find(i, !first_pass_);
-                half_[0][i] = found.half[0];
-                half_[1][i] = found.half[1];
-                block.rays += found.rays;
-                if (first_pass_)
-                    seen_[i] = found.seen;
-                uncertain_[i] = found.uncertain;
-                const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
-                    return luminance(one) < luminance(other);
-                };
-                const auto [least, most] =
-                    std::minmax_element(found.cells.begin(), found.cells.end(), by_light);
-                if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
-                    block.lumel.push_back(i);
-                    block.cells.push_back(found.cells);
-                }
-            }
+            for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, list.size()); ++k)
+                keep(list[k], find(list[k], !first_pass_), block);
         }
     });
     done_ = last_block;
@@ -290,8 +301,8 @@ bool DirectFinder::step()
 bool DirectFinder::refine()
 {
     const double mean = mean_of_all();
-    // What sees a part of a source stays: to drop those whose halves agree by chance would state too
-    // small an error.
+    // What sees a part of a source stays: to drop those whose halves agree by chance would state
+    // too small an error.
     std::erase_if(many_, [&](std::uint32_t i) { return !uncertain_[i] && !differs(i, mean); });
     if (many_.empty() || level_ == kMostRefined)
         return false;
@@ -345,8 +356,8 @@ void DirectFinder::mark_uncertain_hidden()
                 for (int dx = -1; dx <= 1; ++dx) {
                     if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height)
                         continue;
-                    const std::size_t texel = std::size_t(y + dy) * std::size_t(width) +
-                                              std::size_t(x + dx);
+                    const std::size_t texel =
+                        std::size_t(y + dy) * std::size_t(width) + std::size_t(x + dx);
                     const std::uint32_t other =
                         by_side[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
                     if (other == kNoLumel || place_.lumels.lumels[other].chart != lumel.chart)

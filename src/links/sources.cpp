@@ -20,7 +20,7 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// Surfaces of up to this many triangles and of one emission are looked for by their form factor.
+/// Surfaces of up to this many triangles and of one emission are seen for by their form factor.
 constexpr std::size_t kMostPolygons = 8;
 /// Larger ones are split until a part has so few triangles, or is so small a share of the scene.
 constexpr std::size_t kMostOfMesh = 64;
@@ -32,7 +32,7 @@ constexpr std::uint32_t kCandidates = 4;
 constexpr double kWideTriangle = 0.02;
 /// Points per triangle that find the mean emission of a textured one, per axis.
 constexpr int kMeanSide = 6;
-/// A sky's parts that are brighter than this many times its mean are looked for, if they send more
+/// A sky's parts that are brighter than this many times its mean are seen for, if they send more
 /// than this share of its light.
 constexpr double kBright = 8.0, kBrightShare = 0.03;
 /// Half an angle [rad] or a ratio of radius to distance below which a source's shape is small.
@@ -48,17 +48,15 @@ glm::vec2 on_triangle(const glm::vec2& at)
 /// Spherical triangle of unit corners: solid angle, and directions spread evenly over it. [Arv95]
 class SphericalTriangle {
 public:
-    SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
-        : a_(a),
-          b_(b)
+    SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) : a_(a), b_(b)
     {
         const glm::dvec3 ab = glm::cross(a, b), bc = glm::cross(b, c), ca = glm::cross(c, a);
         const auto corner_angle = [](const glm::dvec3& in, const glm::dvec3& out) {
             return std::atan2(glm::length(glm::cross(in, out)), -glm::dot(in, out));
         };
         alpha_ = corner_angle(ca, ab);
-        area_ = std::max(
-            alpha_ + corner_angle(ab, bc) + corner_angle(bc, ca) - std::numbers::pi, 0.0);
+        area_ =
+            std::max(alpha_ + corner_angle(ab, bc) + corner_angle(bc, ca) - std::numbers::pi, 0.0);
         toward_c_ = glm::normalize(c - glm::dot(c, a) * a);
     }
 
@@ -70,8 +68,8 @@ public:
         const double s = std::sin(part), t = std::cos(part);
         const double cos_alpha = std::cos(alpha_), sin_alpha = std::sin(alpha_);
         const double u = t - cos_alpha, v = s + sin_alpha * glm::dot(a_, b_);
-        const double q = std::clamp(((v * t - u * s) * cos_alpha - v) / ((v * s + u * t) * sin_alpha),
-                                    -1.0, 1.0);
+        const double q = std::clamp(
+            ((v * t - u * s) * cos_alpha - v) / ((v * s + u * t) * sin_alpha), -1.0, 1.0);
         const glm::dvec3 c = q * a_ + std::sqrt(1.0 - q * q) * toward_c_;
         const double along = glm::dot(c, b_), z = 1.0 - double(at.y) * (1.0 - along);
         const glm::dvec3 aside = c - along * b_;
@@ -153,7 +151,8 @@ void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
             mean = power_per_area(surface.look);
         else
             for (int k = 0; k < kMeanSide * kMeanSide; ++k) {
-                const glm::vec2 at = (glm::vec2(k % kMeanSide, k / kMeanSide) + 0.5f) / float(kMeanSide);
+                const glm::vec2 at =
+                    (glm::vec2(k % kMeanSide, k / kMeanSide) + 0.5f) / float(kMeanSide);
                 mean += power_per_area(surfaces.look_at(surface, t, on_triangle(at))) /
                         float(kMeanSide * kMeanSide);
             }
@@ -214,7 +213,8 @@ void LightSources::add_lights()
         const bool sun = light.kind == PunctualLight::Kind::directional;
         double brightest = luminance(light.color) * double(light.intensity);
         if (light.profile >= 0) {
-            const std::vector<float>& candela = scene_->profiles[std::size_t(light.profile)].candela;
+            const std::vector<float>& candela =
+                scene_->profiles[std::size_t(light.profile)].candela;
             brightest *= double(*std::max_element(candela.begin(), candela.end()));
         }
         sources_.push_back({.kind = sun ? Kind::sun : Kind::lamp,
@@ -288,11 +288,16 @@ SourceSample LightSources::sample(std::size_t index, const RayStart& start,
 {
     const Source& source = sources_[index];
     switch (source.kind) {
-    case Kind::polygons: return from_polygons(source, start, at);
-    case Kind::mesh: return from_mesh(source, start, at);
-    case Kind::lamp: return from_lamp(scene_->lights[source.first], start, at);
-    case Kind::sun: return from_sun(scene_->lights[source.first], start, at);
-    case Kind::sky: return from_sky(start, at);
+    case Kind::polygons:
+        return from_polygons(source, start, at);
+    case Kind::mesh:
+        return from_mesh(source, start, at);
+    case Kind::lamp:
+        return from_lamp(scene_->lights[source.first], start, at);
+    case Kind::sun:
+        return from_sun(scene_->lights[source.first], start, at);
+    case Kind::sky:
+        return from_sky(start, at);
     }
     return {};
 }
@@ -320,7 +325,8 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
         density = 1.0f / float(sphere.area());
         const float along = glm::dot(triangle.normal, sample.direction);
         sample.distance = along != 0.0f ? height / along : 0.0f;
-        const glm::vec3 p = start.position + sample.distance * sample.direction - triangle.corner[0];
+        const glm::vec3 p =
+            start.position + sample.distance * sample.direction - triangle.corner[0];
         const float uu = glm::dot(edge_u, edge_u), uv = glm::dot(edge_u, edge_v),
                     vv = glm::dot(edge_v, edge_v), pu = glm::dot(p, edge_u),
                     pv = glm::dot(p, edge_v);
@@ -342,12 +348,11 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
     if (!source.uniform) {
         if (triangle.swapped)
             std::swap(place.x, place.y);
-        const MaterialSample look = surfaces_->look_at(surfaces_->all()[triangle.surface],
-                                                       triangle.index, glm::clamp(place, 0.0f, 1.0f));
+        const MaterialSample look = surfaces_->look_at(
+            surfaces_->all()[triangle.surface], triangle.index, glm::clamp(place, 0.0f, 1.0f));
         emission = kPi * look.opacity * look.emitted;
     }
-    sample.irradiance =
-        emission * (start.cosine(sample.direction) / (kPi * density * chance));
+    sample.irradiance = emission * (start.cosine(sample.direction) / (kPi * density * chance));
     return sample;
 }
 
@@ -385,16 +390,15 @@ SourceSample LightSources::from_mesh(const Source& source, const RayStart& start
         const float mark = (at.x + float(k)) / float(kCandidates);
         const auto found = std::min(std::upper_bound(first, last, double(mark)), last - 1);
         const Triangle& triangle = triangles_[std::size_t(found - running_.begin())];
-        const float chance = float(double(triangle.power) * (source.double_sided ? 2.0 : 1.0) /
-                                   source.power);
+        const float chance =
+            float(double(triangle.power) * (source.double_sided ? 2.0 : 1.0) / source.power);
         const std::uint32_t own = PathSamples::hash(bits, k);
         const glm::vec2 place(PathSamples::to_unit(own),
                               PathSamples::to_unit(PathSamples::hash(own, 1)));
         const SourceSample candidate = from_triangle(source, triangle, chance, start, place);
         const float weight = float(luminance(candidate.irradiance));
         sum += weight;
-        if (weight > 0.0f &&
-            PathSamples::to_unit(PathSamples::hash(own, 2)) * sum < weight) {
+        if (weight > 0.0f && PathSamples::to_unit(PathSamples::hash(own, 2)) * sum < weight) {
             chosen = candidate;
             of_chosen = weight;
         }
@@ -444,8 +448,7 @@ SourceSample LightSources::from_sun(const PunctualLight& light, const RayStart& 
         sample.direction = frame_about(axis) * in_cone(at, light.angle);
         spread = 2.0f / (1.0f + std::cos(light.angle));
     }
-    sample.irradiance =
-        light.color * (light.intensity * spread * start.cosine(sample.direction));
+    sample.irradiance = light.color * (light.intensity * spread * start.cosine(sample.direction));
     return sample;
 }
 

@@ -16,9 +16,9 @@ namespace lumel {
 
 /// What a source sends to a point along one direction, as if nothing were between.
 struct SourceSample {
-    glm::vec3 direction{0.0f};    ///< unit, towards the source
-    float distance = 0.0f;        ///< [m], infinite for skies and suns
-    glm::vec3 irradiance{0.0f};   ///< estimate [lx] at the surface, cosine included
+    glm::vec3 direction{0.0f};   ///< unit, towards the source
+    float distance = 0.0f;       ///< [m], infinite for skies and suns
+    glm::vec3 irradiance{0.0f};  ///< estimate [lx] at the surface, cosine included
     /// All that the source sends here [lx], where that is known exactly.
     std::optional<glm::vec3> open = {};
 };
@@ -61,11 +61,11 @@ private:
         bool small = false;
         std::uint32_t first = 0, last = 0;  ///< triangles, or the light
         bool double_sided = false;
-        bool uniform = false;       ///< one emission all over
-        glm::vec3 emission{0.0f};   ///< E [lm/m²], of a uniform one
-        double power = 0.0;  ///< by luminance: of surfaces [lm], lamps at most [cd], skies [lx]
-        glm::vec3 centre{0.0f};     ///< [m]
-        float radius = 0.0f;        ///< of a ball around it [m]
+        bool uniform = false;      ///< one emission all over
+        glm::vec3 emission{0.0f};  ///< E [lm/m²], of a uniform one
+        double power = 0.0;      ///< by luminance: of surfaces [lm], lamps at most [cd], skies [lx]
+        glm::vec3 centre{0.0f};  ///< [m]
+        float radius = 0.0f;     ///< of a ball around it [m]
     };
 
     void add_surfaces(const Surfaces& surfaces);
@@ -91,7 +91,7 @@ private:
     std::vector<double> running_;  ///< [triangles] sums of power within their source, to 1
     Sky bright_;                   ///< what the sky has above `most_`
     std::optional<SkySampler> bright_sampler_;
-    float most_ = 0.0f;            ///< [cd/m²] by luminance, that rays which meet nothing find
+    float most_ = 0.0f;  ///< [cd/m²] by luminance, that rays which meet nothing find
 };
 
 }  // namespace lumel

@@ -13,8 +13,7 @@ RayStart RayStarts::start(std::size_t i, const glm::vec2& at) const
         ++index;
     const LumelPoint point =
         centre_ ? LumelPoint{lumel.centre, lumel.normal} : world_->point_on(i, at);
-    glm::vec3 geometric =
-        glm::normalize(glm::cross(pieces[index].edge_u, pieces[index].edge_v));
+    glm::vec3 geometric = glm::normalize(glm::cross(pieces[index].edge_u, pieces[index].edge_v));
     if (glm::dot(geometric, point.normal) < 0.0f)
         geometric = -geometric;  // the instance mirrors
 

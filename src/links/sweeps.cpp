@@ -25,18 +25,21 @@ constexpr int kMostSweeps = 2000;
 constexpr double kMostFactor = 64.0;
 /// Of a group [m²], where one has none.
 constexpr double kLeastArea = 1e-30;
-/// Parts of one task.
-constexpr std::size_t kGrain = 4096;
+/// Blocks of one task.
+constexpr std::size_t kGrain = 4;
+/// Changes count as shrinking by this factor at least.
+constexpr double kSlowest = 1.0 - 1e-6;
 /// A pivot this small: all that a group sends comes back to it.
 constexpr double kSingular = 1e-7;
 
-using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
-
-/// What a sweep changed, in each block of lumels.
-struct Change {
-    double squares = 0.0;
-    std::size_t count = 0;
-};
+/// Σ over channels, in the mean of all parts.
+double mean_of(const std::vector<glm::vec4>& sent)
+{
+    double sum = 0.0;
+    for (const glm::vec4& light : sent)
+        sum += double(light.x + light.y + light.z);
+    return sum / double(std::max<std::size_t>(sent.size(), 1));
+}
 
 }  // namespace
 
@@ -54,8 +57,7 @@ public:
         for (int c = 0; c < 3; ++c)
             inverse_[c].assign(cells, 0.0);
         area_.assign(size_, 0.0);
-        for_each_part(
-            [&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
+        for_each_part([&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
         count_links(gathered);
         for (int c = 0; c < 3; ++c)
             invert(inverse_[c]);
@@ -80,14 +82,12 @@ public:
                 double sum = -change[a][c];
                 for (std::uint32_t b = 0; b < size_; ++b)
                     sum += inverse_[c][std::size_t(a) * size_ + b] * change[b][c];
-                factor[a][c] =
-                    mean[a][c] > 0.0
-                        ? std::clamp(1.0 + sum / mean[a][c], 1.0 / kMostFactor, kMostFactor)
-                        : 1.0;
+                factor[a][c] = mean[a][c] > 0.0 ? std::clamp(1.0 + sum / mean[a][c],
+                                                             1.0 / kMostFactor, kMostFactor)
+                                                : 1.0;
             }
-        for_each_part([&](std::uint32_t p, double) {
-            now[p] *= glm::vec4(factor[solver_.group_[p]], 0.0);
-        });
+        for_each_part(
+            [&](std::uint32_t p, double) { now[p] *= glm::vec4(factor[solver_.group_[p]], 0.0); });
         double squares = 0.0, sent = 0.0;
         for (std::uint32_t g = 0; g < size_; ++g)
             for (int c = 0; c < 3; ++c) {
@@ -120,13 +120,15 @@ private:
                 const std::size_t end = std::min((b + 1) * kLinkBlock, solver_.order_.size());
                 for (std::size_t o = b * kLinkBlock; o < end; ++o) {
                     const std::uint32_t i = solver_.order_[o];
-                    const std::uint32_t first = solver_.parts_.first(i), last = solver_.parts_.end(i);
+                    const std::uint32_t first = solver_.parts_.first(i),
+                                        last = solver_.parts_.end(i);
                     for (std::uint32_t p = first; p < last; ++p, ++row) {
                         if (gathered.rays[p] == 0)
                             continue;
                         const std::uint32_t a = solver_.group_[p];
                         const double share = double(lumels[i].area) / double(last - first) /
-                                             std::max(area_[a], kLeastArea) / double(gathered.rays[p]);
+                                             std::max(area_[a], kLeastArea) /
+                                             double(gathered.rays[p]);
                         const LinkBlock& block = blocks[b];
                         const auto add = [&](std::uint32_t target, const glm::vec3& weight) {
                             const std::size_t cell =
@@ -196,75 +198,84 @@ LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const Lum
         float(kGroupCells) / glm::max(high - low, glm::vec3(1e-6f * glm::distance(low, high)));
     std::map<int, std::uint32_t> number;
     for (std::size_t i = 0; i < world.size(); ++i) {
-        const glm::ivec3 cell = glm::clamp(glm::ivec3((world[i].centre - low) * scale), 0,
-                                           kGroupCells - 1);
-        const int key =
-            ((cell.z * kGroupCells + cell.y) * kGroupCells + cell.x) * 6 + cube_side(world[i].normal);
+        const glm::ivec3 cell =
+            glm::clamp(glm::ivec3((world[i].centre - low) * scale), 0, kGroupCells - 1);
+        const int key = ((cell.z * kGroupCells + cell.y) * kGroupCells + cell.x) * 6 +
+                        cube_side(world[i].normal);
         const auto [at, is_new] = number.try_emplace(key, std::uint32_t(number.size()));
         std::fill(group_.begin() + parts.first(i), group_.begin() + parts.end(i), at->second);
     }
     group_count_ = std::uint32_t(number.size());
 }
 
+/// X of a block's parts from what all send, and what they send then.
+LinkSolver::Change LinkSolver::sweep_block(const Gathered& gathered, std::size_t b, double floor,
+                                           const std::vector<Reflected>& sent,
+                                           std::vector<Reflected>& next,
+                                           std::vector<glm::vec3>& received) const
+{
+    Change change;
+    std::size_t row = 0;
+    const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
+    for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+        const std::uint32_t i = order_[o];
+        glm::vec3 of_all(0.0f);
+        std::uint32_t rays = 0;
+        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
+            const glm::vec3 sum = received_by(gathered, b, row, p, sent);
+            of_all += sum;
+            rays += gathered.rays[p];
+            if (gathered.rays[p] > 0)
+                received[p] = sum / float(gathered.rays[p]);
+        }
+        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
+            // A part without a ray takes the lumel's mean.
+            if (gathered.rays[p] == 0)
+                received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
+            next[p] = glm::vec4(lumels_.lumels[i].albedo * received[p], 0.0f);
+            const double now = double(next[p].x + next[p].y + next[p].z);
+            const double before = double(sent[p].x + sent[p].y + sent[p].z);
+            if (now > 0.0) {
+                const double relative = (now - before) / (now + floor);
+                change.squares += relative * relative;
+                ++change.count;
+            }
+        }
+    }
+    return change;
+}
+
+/// Σ of all that the rays of part p have brought, in a block's row.
+glm::vec3 LinkSolver::received_by(const Gathered& gathered, std::size_t b, std::size_t row,
+                                  std::uint32_t p, const std::vector<Reflected>& sent) const
+{
+    glm::vec4 sum(gathered.reflected[p] + gathered.sky[p], 0.0f);
+    for (const std::vector<LinkBlock>& round : gathered.rounds) {
+        const LinkBlock& block = round[b];
+        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+            sum += sent[block.target[k]];
+        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1]; ++k)
+            sum += sent[block.weak[k].part] *
+                   glm::vec4(glm::unpackF3x9_E1x5(block.weak[k].weight), 0.0f);
+    }
+    return glm::vec3(sum);
+}
+
 void LinkSolver::solve(const Gathered& gathered, std::vector<glm::vec3>& received) const
 {
-    const std::vector<Lumel>& lumels = lumels_.lumels;
-    const std::size_t parts = parts_.count(), blocks = (order_.size() + kLinkBlock - 1) / kLinkBlock;
+    const std::size_t parts = parts_.count(),
+                      blocks = (order_.size() + kLinkBlock - 1) / kLinkBlock;
     received.resize(parts, glm::vec3(0.0f));
     std::vector<Reflected> sent(parts), next(parts);
-    const auto each_part = [&](const auto& body) {
-        parallel_for(parts, kGrain, [&](std::size_t first, std::size_t last) {
-            for (std::size_t p = first; p < last; ++p)
-                body(p, lumels[parts_.lumel(p)]);
-        });
-    };
-    each_part([&](std::size_t p, const Lumel& lumel) {
-        sent[p] = glm::vec4(lumel.albedo * received[p], 0.0f);
-    });
+    for (std::size_t p = 0; p < parts; ++p)
+        sent[p] = glm::vec4(lumels_.lumels[parts_.lumel(p)].albedo * received[p], 0.0f);
     std::optional<Groups> groups;
     std::vector<Change> changes(blocks);
     double before = 0.0, floor = 0.0;
-    for (sweeps_ = 1; sweeps_ <= kMostSweeps; ++sweeps_) {
-        parallel_for(blocks, 4, [&](std::size_t first_block, std::size_t last_block) {
-            for (std::size_t b = first_block; b < last_block; ++b) {
-                Change& change = changes[b] = {};
-                std::size_t row = 0;
-                const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
-                for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-                    const std::uint32_t i = order_[o];
-                    glm::vec3 of_all(0.0f);
-                    std::uint32_t rays = 0;
-                    for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
-                        glm::vec4 sum = glm::vec4(gathered.reflected[p] + gathered.sky[p], 0.0f);
-                        for (const std::vector<LinkBlock>& round : gathered.rounds) {
-                            const LinkBlock& block = round[b];
-                            for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
-                                sum += sent[block.target[k]];
-                            for (std::uint32_t k = block.first_weak[row];
-                                 k < block.first_weak[row + 1]; ++k)
-                                sum += sent[block.weak[k].part] *
-                                       glm::vec4(glm::unpackF3x9_E1x5(block.weak[k].weight), 0.0f);
-                        }
-                        of_all += glm::vec3(sum);
-                        rays += gathered.rays[p];
-                        if (gathered.rays[p] > 0)
-                            received[p] = glm::vec3(sum) / float(gathered.rays[p]);
-                    }
-                    for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
-                        // A part without a ray takes the lumel's mean.
-                        if (gathered.rays[p] == 0)
-                            received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
-                        next[p] = glm::vec4(lumels[i].albedo * received[p], 0.0f);
-                        const double now = double(next[p].x + next[p].y + next[p].z);
-                        const double was = double(sent[p].x + sent[p].y + sent[p].z);
-                        if (now > 0.0) {
-                            const double relative = (now - was) / (now + floor);
-                            change.squares += relative * relative;
-                            ++change.count;
-                        }
-                    }
-                }
-            }
+    for (int sweep = 1; sweep <= kMostSweeps; ++sweep) {
+        parallel_for(blocks, kGrain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b)
+                changes[b] = sweep_block(gathered, b, floor, sent, next, received);
         });
         Change all;
         for (const Change& change : changes) {
@@ -273,20 +284,16 @@ void LinkSolver::solve(const Gathered& gathered, std::vector<glm::vec3>& receive
         }
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
         // Changes that shrink by a factor q leave q / (1 - q) of the last to come.
-        const double factor = before > 0.0 ? std::min(size / before, 1.0 - 1e-6) : 1.0 - 1e-6;
+        const double factor = std::min(before > 0.0 ? size / before : kSlowest, kSlowest);
         const double to_come =
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
         sent.swap(next);
         before = size;
-        if (size == 0.0 || (sweeps_ > 1 && to_come < kStill))
+        if (size == 0.0 || (sweep > 1 && to_come < kStill))
             return;
-        if (sweeps_ == 1) {
-            double mean = 0.0;
-            for (const Reflected& value : sent)
-                mean += double(value.x + value.y + value.z);
-            floor = kDarkest * mean / double(parts);
-        }
-        if (sweeps_ == kPlainSweeps)
+        if (sweep == 1)
+            floor = kDarkest * mean_of(sent);
+        if (sweep == kPlainSweeps)
             groups.emplace(*this, gathered);
     }
 }

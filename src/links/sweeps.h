@@ -2,7 +2,6 @@
 // All bounces of light over stored links.
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -10,9 +9,6 @@
 #include "links/tracer.h"
 
 namespace lumel {
-
-/// Where light of a solution comes from that is not over links.
-enum class Counted { all, without_sky };
 
 /// Solves X = C + K ρ X for what parts receive beside direct light:
 ///
@@ -31,17 +27,26 @@ public:
     /// light of a closed room is nowhere absorbed.
     void solve(const Gathered& gathered, std::vector<glm::vec3>& received) const;
 
-    int sweeps() const { return sweeps_; }  ///< of the last solve
-
 private:
     class Groups;
+    using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
+    /// What a sweep changed of what parts send, each relative to its own.
+    struct Change {
+        double squares = 0.0;
+        std::size_t count = 0;
+    };
+
+    Change sweep_block(const Gathered& gathered, std::size_t block, double floor,
+                       const std::vector<Reflected>& sent, std::vector<Reflected>& next,
+                       std::vector<glm::vec3>& received) const;
+    glm::vec3 received_by(const Gathered& gathered, std::size_t block, std::size_t row,
+                          std::uint32_t part, const std::vector<Reflected>& sent) const;
 
     const Lumels& lumels_;
     const LumelParts& parts_;
     const std::vector<std::uint32_t>& order_;
     std::vector<std::uint32_t> group_;  ///< [P]
     std::uint32_t group_count_ = 0;
-    mutable int sweeps_ = 0;
 };
 
 }  // namespace lumel

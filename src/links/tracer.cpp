@@ -17,10 +17,10 @@ constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
 /// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more
-/// before it looks anything up, and direct light is looked for there: so near, neither the cells of a
+/// before it looks anything up, and direct light is seen for there: so near, neither the cells of a
 /// lumel nor its parts are fine enough.
 constexpr float kTooNear = 0.25f;
-/// Reflections on the way, at most.
+/// Reflections before that, at most.
 constexpr int kMostReflections = 4;
 /// Lookups are checked by rays this far above the surfaces, in sides of the lumel.
 constexpr float kLift = 0.05f;
@@ -34,9 +34,9 @@ constexpr std::uint32_t kStartPair = 0, kDirectionPair = 1, kPassPair = 2, kFirs
 }  // namespace
 
 /// What a ray has gathered, and what is left of it.
-struct LinkTracer::Way {
+struct LinkTracer::Followed {
     glm::vec3 weight{1.0f};
-    glm::vec3 reflected{0.0f};  ///< of surfaces on the way [lx]
+    glm::vec3 reflected{0.0f};  ///< of surfaces met [lx]
     glm::vec3 sky{0.0f};        ///< [lx]
     std::uint32_t part = 0;
 };
@@ -127,7 +127,7 @@ bool LinkTracer::seen_cell(std::uint32_t j, const glm::vec3& position, std::uint
 
 LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
                                    const glm::vec3& first_direction, const PathSamples& samples,
-                                   Way& way) const
+                                   Followed& ray) const
 {
     glm::vec3 origin = start.position, direction = first_direction;
     float size = world_[i].size;
@@ -136,9 +136,10 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
         const std::uint32_t seed = samples.bits(reflections == 0 ? kPassPair : pair);
         RayHit hit;
         const bool met = place_.rays.closest(origin, direction, 0.0f, kFar, seed, hit);
-        way.weight *= hit.tint;
+        ray.weight *= hit.tint;
         if (!met) {
-            (reflections == 0 ? way.sky : way.reflected) += way.weight * kPi * sources_.rest_of_sky(direction);
+            (reflections == 0 ? ray.sky : ray.reflected) +=
+                ray.weight * kPi * sources_.rest_of_sky(direction);
             return Met::sky;
         }
         const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
@@ -156,17 +157,17 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
         if (!goes_on && parts_.is_cut(j) && !seen_cell(j, position, seed, cell))
             goes_on = can_go_on;
         if (!goes_on) {
-            way.reflected += way.weight * lumel.albedo * direct_.at(j, cell);
-            way.part = parts_.part(j, cell);
+            ray.reflected += ray.weight * lumel.albedo * direct_.at(j, cell);
+            ray.part = parts_.part(j, cell);
             return Met::part;
         }
-        way.weight *= lumel.albedo;
-        if (way.weight == glm::vec3(0.0f))
+        ray.weight *= lumel.albedo;
+        if (ray.weight == glm::vec3(0.0f))
             return Met::nothing;
         const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
         origin = origin + direction * std::max(0.0f, hit.distance - lift_) + lift_ * normal;
-        way.reflected += way.weight * direct_.ask({origin, normal, normal, cell}, lumel.size,
-                                                  samples.bits(pair));
+        ray.reflected += ray.weight * direct_.light_at({origin, normal, normal, cell}, lumel.size,
+                                                       samples.bits(pair));
         direction = frame_about(normal) * by_cosine(samples.random(pair + 1));
         size = lumel.size;
     }
@@ -192,20 +193,20 @@ void LinkTracer::trace_block(std::size_t b, const std::vector<std::uint16_t>& ra
             const std::uint32_t p = parts_.part(i, start.cell) - first;
             const glm::vec3 direction =
                 frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
-            Way way;
+            Followed ray;
             const Met met = start.cosine(direction) > 0.0f
-                                ? follow(i, start, direction, samples, way)
+                                ? follow(i, start, direction, samples, ray)
                                 : Met::nothing;
             block.loses = block.loses || met != Met::part;
             if (met == Met::lost)
                 continue;
             ++into.rays[first + p];
-            into.reflected[first + p] += way.reflected;
-            into.sky[first + p] += way.sky;
-            if (met == Met::part && way.weight == glm::vec3(1.0f))
-                targets[p].push_back(way.part);
+            into.reflected[first + p] += ray.reflected;
+            into.sky[first + p] += ray.sky;
+            if (met == Met::part && ray.weight == glm::vec3(1.0f))
+                targets[p].push_back(ray.part);
             else if (met == Met::part)
-                weak[p].push_back({way.part, glm::packF3x9_E1x5(way.weight)});
+                weak[p].push_back({ray.part, glm::packF3x9_E1x5(ray.weight)});
         }
         for (std::uint32_t p = 0; p < parts; ++p) {
             block.target.insert(block.target.end(), targets[p].begin(), targets[p].end());

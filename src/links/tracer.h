@@ -13,7 +13,7 @@
 
 namespace lumel {
 
-/// A ray that met a part after it had passed glass or had been reflected on its way.
+/// A ray that met a part after it had passed glass or had been reflected on its ray.
 struct WeakLink {
     std::uint32_t part;
     std::uint32_t weight;  ///< what is left of it, RGB9E5
@@ -66,11 +66,11 @@ public:
                std::uint32_t stream, Gathered& into) const;
 
 private:
-    struct Way;
+    struct Followed;
     enum class Met { part, sky, nothing, lost };
 
     Met follow(std::uint32_t lumel, const RayStart& start, const glm::vec3& direction,
-               const PathSamples& samples, Way& way) const;
+               const PathSamples& samples, Followed& ray) const;
     std::uint32_t lumel_near(const RayHit& hit) const;
     bool seen_cell(std::uint32_t lumel, const glm::vec3& position, std::uint32_t seed,
                    std::uint32_t& cell) const;

@@ -153,8 +153,8 @@ private:
         for (int line = 0; line < count_; ++line) {
             const float across = (float(line) + 0.5f) / float(count_);
             for (int k = 0; k < count_; ++k)
-                open[at(line, k)] = is_open(
-                    length_at(across) * (float(k) + 0.5f) / float(count_), across, swapped);
+                open[at(line, k)] =
+                    is_open(length_at(across) * (float(k) + 0.5f) / float(count_), across, swapped);
         }
         return open;
     }
@@ -189,8 +189,7 @@ private:
         float begin = 0.0f;
         for (int k = 0; k <= count_; ++k) {
             const float place = k < count_ ? (float(k) + 0.5f) * step : length - kInset * step;
-            const bool open =
-                k < count_ ? open_[at(strip, k)] : is_open(place, across, swapped_);
+            const bool open = k < count_ ? open_[at(strip, k)] : is_open(place, across, swapped_);
             if (open && !was_open)
                 begin = edge_between(place, before, across);
             else if (!open && was_open)

@@ -35,7 +35,7 @@ struct BakeRecord {
     int side = 0;                   ///< of the square atlas [texels]
     double texels_per_metre = 0.0;  ///< as laid out
     std::uint64_t shots = 0, iterations = 0;
-    double error = -1.0;  ///< estimated relative error, < 0: not known
+    double error = -1.0;       ///< estimated relative error, < 0: not known
     double dark_error = -1.0;  ///< the same of dark lumels, see SolverState
     bool interrupted = false;
     std::optional<float> exposure;   ///< of lightmap.png [1/lx]

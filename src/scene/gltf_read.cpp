@@ -83,8 +83,8 @@ void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
         return found->world;
     };
     for (const Instance& instance : scene.instances) {
-        const Box box = placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]),
-                                   world_of(instance));
+        const Box box =
+            placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]), world_of(instance));
         whole.low = glm::min(whole.low, box.low);
         whole.high = glm::max(whole.high, box.high);
     }

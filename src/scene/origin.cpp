@@ -25,6 +25,8 @@ glm::dvec3 origin_for(const Box& scene)
 
 void set_origin(Scene& scene, const glm::dvec3& origin)
 {
+    if (scene.origin == origin)
+        return;
     const glm::dvec4 change(scene.origin - origin, 0.0);
     const auto move = [&](glm::mat4& transform) {
         transform[3] = glm::vec4(glm::dvec4(transform[3]) + change);

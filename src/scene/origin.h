@@ -6,8 +6,8 @@
 
 namespace lumel {
 
-/// Where a scene in this box should have its 0 [m]: in its middle, to a power of two, if it lies far
-/// out for its size; else where it is.
+/// Where a scene in this box should have its 0 [m]: in its middle, to a power of two, if it lies
+/// far out for its size; else where it is.
 glm::dvec3 origin_for(const Box& scene);
 
 /// Moves the scene's 0, and all that stands in the scene the other way.

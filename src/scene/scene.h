@@ -126,8 +126,8 @@ struct Scene {
     std::vector<Photometry> profiles;  ///< of lights
     Sky sky;
     std::vector<Camera> cameras;
-    /// Where 0 of all transforms here is in the file's world [m]: not 0 only for scenes that lie far
-    /// from there, where floats are too coarse.
+    /// Where 0 of all transforms here is in the file's world [m]: not 0 only for scenes that lie
+    /// far from there, where floats are too coarse.
     glm::dvec3 origin{0.0};
     std::vector<std::string> warnings;  ///< sentences for the user
     std::size_t dropped_triangles = 0;  ///< of zero area

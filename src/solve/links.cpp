@@ -24,8 +24,8 @@
 
 #include "atlas/morton.h"
 #include "core/frame.h"
-#include "paths/samples.h"
 #include "core/luminance.h"
+#include "paths/samples.h"
 #include "solve/methods.h"
 
 namespace lumel {
@@ -38,8 +38,8 @@ constexpr double kLeastMore = 0.25, kMostMore = 3.0;
 /// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMostRays = 4096;
-/// Share of its rays that go to all lumels alike; neighbours on either side, in the order of lumels,
-/// from which the deviation of one is guessed.
+/// Share of its rays that go to all lumels alike; neighbours on either side, in the order of
+/// lumels, from which the deviation of one is guessed.
 constexpr double kEvenShare = 0.25;
 constexpr std::size_t kNeighbours = 4;
 /// Blocks of links that one step traces at the first round's number of rays.
@@ -115,8 +115,7 @@ private:
 }  // namespace
 
 LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
-                             const LinksOptions& options, const SolverOptions& limits,
-                             Parts parts)
+                             const LinksOptions& options, const SolverOptions& limits, Parts parts)
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
@@ -210,10 +209,10 @@ void LinkRadiosity::begin_round()
         half->rounds.emplace_back(tracer_->blocks());
 }
 
-/// The sum of variances is least if rays are in proportion to deviations. That of a lumel is guessed
-/// from the halves of its neighbours in space, not from its own: they are to state the error, and
-/// rays must not follow them. A part of the rays goes to all alike, since what has not met any light
-/// yet looks quiet.
+/// The sum of variances is least if rays are in proportion to deviations. That of a lumel is
+/// guessed from the halves of its neighbours in space, not from its own: they are to state the
+/// error, and rays must not follow them. A part of the rays goes to all alike, since what has not
+/// met any light yet looks quiet.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
@@ -225,9 +224,9 @@ void LinkRadiosity::share_out_rays()
     for (std::size_t o = 0; o < count; ++o) {
         const glm::vec3 a = indirect(order_[o], 0), b = indirect(order_[o], 1), d = a - b;
         // Where dark lumels count, what they lack counts by their own light, half way.
-        const double weight =
-            target_dark_error_ > 0.0 ? 1.0 / (double(a.r + a.g + a.b + b.r + b.g + b.b) + floor)
-                                     : 1.0;
+        const double weight = target_dark_error_ > 0.0
+                                  ? 1.0 / (double(a.r + a.g + a.b + b.r + b.g + b.b) + floor)
+                                  : 1.0;
         running[o + 1] = running[o] + weight * double(glm::dot(d, d));
     }
     double mean = 0.0, lit = 0.0;
@@ -381,8 +380,7 @@ void LinkRadiosity::estimate()
         return lights > 0.0 ? std::sqrt(3.0 * n * squares) / lights : 0.0;
     };
     state_.error = relative(std::accumulate(square.begin(), square.end(), 0.0), sum, count);
-    direct_error_ =
-        relative(std::accumulate(of_direct.begin(), of_direct.end(), 0.0), sum, count);
+    direct_error_ = relative(std::accumulate(of_direct.begin(), of_direct.end(), 0.0), sum, count);
     double dark_squares = 0.0, dark_sum = 0.0, dark_count = 0.0;
     for (std::size_t k = 0; k < mean.size(); ++k)
         if (brightness(mean[k]) < kDark * sum / count) {
@@ -398,8 +396,7 @@ std::vector<glm::vec3> LinkRadiosity::irradiance()
     std::vector<glm::vec3> result(lumels_.lumels.size(), glm::vec3(0.0f));
     if (direct_)
         for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] =
-                0.5f * (light(i, 0, parts_wanted_) + light(i, 1, parts_wanted_));
+            result[i] = 0.5f * (light(i, 0, parts_wanted_) + light(i, 1, parts_wanted_));
     return result;
 }
 

@@ -67,16 +67,16 @@ private:
     std::optional<DirectFinder> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
-    std::optional<Gathered> gathered_[2];           ///< independent of each other
+    std::optional<Gathered> gathered_[2];             ///< independent of each other
     std::array<std::vector<glm::vec3>, 2> received_;  ///< [P] [lx] beside direct light
     Stage stage_ = Stage::begin;
-    std::uint32_t round_ = 0;      ///< that is traced
-    double mean_rays_ = 0.0;       ///< of a lumel in it, in each half
+    std::uint32_t round_ = 0;          ///< that is traced
+    double mean_rays_ = 0.0;           ///< of a lumel in it, in each half
     std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
-    std::size_t traced_ = 0;       ///< blocks of it
-    bool refines_alone_ = false;   ///< direct light is found better, no links are traced
-    double mean_light_ = 0.0;      ///< of all channels together [lx]
-    double direct_error_ = 0.0;    ///< share of direct light's noise in the error
+    std::size_t traced_ = 0;           ///< blocks of it
+    bool refines_alone_ = false;       ///< direct light is found better, no links are traced
+    double mean_light_ = 0.0;          ///< of all channels together [lx]
+    double direct_error_ = 0.0;        ///< share of direct light's noise in the error
     SolverState state_;
     gpu::StageTimes times_;
 };

@@ -66,15 +66,16 @@ struct MatrixOptions {
     TransportOptions transport;
 };
 
-using MethodOptions = std::variant<LinksOptions, StochasticOptions, GlossyOptions, DirectionsOptions,
-                                   ProgressiveOptions, GatherOptions, MatrixOptions>;
+using MethodOptions =
+    std::variant<LinksOptions, StochasticOptions, GlossyOptions, DirectionsOptions,
+                 ProgressiveOptions, GatherOptions, MatrixOptions>;
 
 /// A method, and when to stop.
 struct SolverOptions {
     MethodOptions method = LinksOptions{};
-    std::uint64_t max_shots = 0;  ///< 0: no limit
-    double max_seconds = 0.0;     ///< of solving, 0: no limit
-    double target_error = 0.02;   ///< estimated relative error to stop at, 0: never
+    std::uint64_t max_shots = 0;     ///< 0: no limit
+    double max_seconds = 0.0;        ///< of solving, 0: no limit
+    double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
     double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
 };
 

@@ -52,7 +52,8 @@ Lit light_up(const Scene& scene, const RayScene& rays, const Lumels& lumels,
 Lit light_up(const Prepared& world, const Effort& effort)
 {
     return light_up(world.scene, world.rays, world.lumels,
-                    {.method = StochasticOptions{}, .max_shots = effort.solve, .target_error = 0.0}, effort.directional);
+                    {.method = StochasticOptions{}, .max_shots = effort.solve, .target_error = 0.0},
+                    effort.directional);
 }
 
 std::vector<glm::vec3> of_lumel(const std::vector<std::vector<glm::vec3>>& coefficients,
@@ -244,7 +245,8 @@ TEST(DirectionalDelta, IsLitLikeTheClosedFormAtTiltedNormals)
         const support::HandMade made = support::make_quads({floor, lamp});
         const RayScene rays(made.scene);
         const Lit lit =
-            light_up(made.scene, rays, made.lumels, {.method = StochasticOptions{}, .max_shots = 1024, .target_error = 0.0}, 1024);
+            light_up(made.scene, rays, made.lumels,
+                     {.method = StochasticOptions{}, .max_shots = 1024, .target_error = 0.0}, 1024);
         const double facing = 1000.0 * 0.01 / (std::numbers::pi * 100.0);  // E A / π r²
         const glm::vec3 normal(0, 0, 1);
         for (int order = 1; order <= 2; ++order) {

@@ -63,12 +63,9 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const gpu::Device device;
     const World world(device, room.scene, room.lumels, &room.atlas);
     const HostScene host{room.scene, room.rays, room.atlas};
-    const auto solver = make_solver({.device = device,
-                                     .world = world,
-                                     .lumels = room.lumels,
-                                     .near = near,
-                                     .host = &host},
-                                    GetParam());
+    const auto solver = make_solver(
+        {.device = device, .world = world, .lumels = room.lumels, .near = near, .host = &host},
+        GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());
     for (int c = 0; c < 3; ++c)

@@ -76,7 +76,8 @@ TEST(GlossyCornellBox, OfDiffuseWallsAgreesWithTheDiffuseSolver)
     Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     for (std::size_t i = 0; i < world.lumels.gloss.size(); ++i)
         world.lumels.gloss[i] = {world.lumels.lumels[i].albedo, glm::vec3(0.0f), 1.0f};
-    const auto diffuse = support::solve_scene(world, {.method = StochasticOptions{}, .max_shots = 8192, .target_error = 0.0});
+    const auto diffuse = support::solve_scene(
+        world, {.method = StochasticOptions{}, .max_shots = 8192, .target_error = 0.0});
     const auto glossy = support::solve_scene(
         world, {.method = GlossyOptions{}, .max_shots = 32768, .target_error = 0.0});
     const support::LumelError error = support::lumel_error(

@@ -11,8 +11,7 @@ using support::LumelError;
 using support::Solved;
 
 /// Solvers that are held to the same truths.
-const auto kEverySolver =
-    testing::Values("links", "stochastic", "progressive", "gather", "matrix");
+const auto kEverySolver = testing::Values("links", "stochastic", "progressive", "gather", "matrix");
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 

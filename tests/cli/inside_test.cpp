@@ -31,8 +31,8 @@ bool has(const std::string& text, const std::string& part)
 TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(
-        small_bake(place.path("out"), {"--solver", "stochastic", "--verbose", "--json"}));
+    const Outcome bake =
+        run_lumel(small_bake(place.path("out"), {"--solver", "stochastic", "--verbose", "--json"}));
     ASSERT_EQ(bake.code, 0) << bake.err;
     const auto report = nlohmann::json::parse(bake.out, nullptr, false);
     ASSERT_FALSE(report.is_discarded()) << bake.out;
@@ -64,9 +64,9 @@ TEST(Verbose, ChangesNothingElse)
 TEST(Dump, ShowsWhatTheBakeWorkedWith)
 {
     const Workplace place;
-    const Outcome bake = run_lumel(
-        small_bake(place.path("out"), {"--solver", "stochastic", "--hemicube", "64", "--dump",
-                                       place.path("inside")}));
+    const Outcome bake =
+        run_lumel(small_bake(place.path("out"), {"--solver", "stochastic", "--hemicube", "64",
+                                                 "--dump", place.path("inside")}));
     ASSERT_EQ(bake.code, 0) << bake.err;
 
     // The lamp at 0.5483 m looks down on two blocks, the taller 0.33 m high; walls hide nothing.
