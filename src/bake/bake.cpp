@@ -56,7 +56,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
         directional = gather_directional(
             device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
-            [&](double fraction) { return run.finished && stages.tell(fraction); });
+            [&](double fraction) { return run.finished && stages.progress(fraction); });
     }
 
     const bool stopped = stages.stopped();

@@ -94,7 +94,7 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
     DirectLight light =
         direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
                      direct_light_options(options.solver, options.sky_directions),
-                     [&](double fraction) { return stages.tell(fraction); });
+                     [&](double fraction) { return stages.progress(fraction); });
     stages.note_times(light.times);
     return light;
 }

@@ -175,7 +175,7 @@ public:
         FrameRow row{.file = frame_name(frame), .seconds = time};
         const std::uint64_t before = hemicubes_;
         while (!row.at_rest) {
-            if (!stages.tell(double(frame) / double(options_.frames), hemicubes_))
+            if (!stages.progress(double(frame) / double(options_.frames), hemicubes_))
                 return std::nullopt;
             const double left = options_.budget_ms > 0.0 ? options_.budget_ms - row.update_ms
                                                          : std::numeric_limits<double>::max();

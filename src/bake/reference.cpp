@@ -25,7 +25,8 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     bool stopped = false;
     const std::vector<glm::vec3> irradiance = reference_irradiance(
         prepared.scene, prepared.rays, prepared.lumels, reference, [&](double fraction) {
-            stopped = !stages.tell(fraction, std::uint64_t(fraction * reference.samples_per_lumel));
+            stopped =
+                !stages.progress(fraction, std::uint64_t(fraction * reference.samples_per_lumel));
             return !stopped;
         });
 
@@ -40,7 +41,7 @@ Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& 
     return reference_image(
         scene, rays, view,
         {.width = size.x, .height = size.y, .samples_per_pixel = paths, .seed = seed},
-        [&](double fraction) { return stages.tell(fraction); });
+        [&](double fraction) { return stages.progress(fraction); });
 }
 
 }  // namespace lumel

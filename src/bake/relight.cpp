@@ -145,7 +145,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
         const std::vector<std::vector<glm::vec3>> maps = session.irradiance(some);
         const double each = (wall_seconds() - start) / double(count);
         for (std::size_t i = 0; i < count; ++i) {
-            if (!stages.tell(double(first + i) / double(states.size())))
+            if (!stages.progress(double(first + i) / double(states.size())))
                 break;
             const double begin = wall_seconds();
             const Image map =

@@ -83,7 +83,7 @@ std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,
     bool go_on = true;
     for (std::uint64_t shot = 0; shot < sampling.shots && (go_on || shot < least);
          shot = solver.state().shots - start) {
-        go_on = stages.tell(double(shot) / double(sampling.shots), shot);
+        go_on = stages.progress(double(shot) / double(sampling.shots), shot);
         solver.step();
     }
     return solver.eye_radiance();
@@ -111,7 +111,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
                                .seed = seed_of(options.bake.solver.method)};
     const std::vector<glm::vec3> along =
         gather_along_lobes(seen.glossy, setting.prepared.rays, surfaces, lit, senders, lobes,
-                           [&](double fraction) { return stages.tell(fraction); });
+                           [&](double fraction) { return stages.progress(fraction); });
     for (std::size_t g = 0; g < along.size(); ++g)
         reflected[g] += along[g];
     return reflected;
@@ -196,7 +196,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     stages.begin("looking");
     const Seen seen =
         look(view, options.width, options.height, options.sets, prepared.rays, surfaces,
-             prepared.scene.sky, [&](double fraction) { return stages.tell(fraction); });
+             prepared.scene.sky, [&](double fraction) { return stages.progress(fraction); });
     Image image =
         compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();

@@ -118,7 +118,7 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
         const double seconds = stages.stage_seconds();
         if (state.error >= 0.0 && (run.curve.empty() || run.curve.back().error != state.error))
             run.curve.push_back({state.shots, seconds, state.error});
-        return stages.tell(solved_fraction(options, state, seconds), state.shots, state.error);
+        return stages.progress(solved_fraction(options, state, seconds), state.shots, state.error);
     });
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
                             method_of(options.method).shots, solver.state().iterations));

@@ -23,7 +23,7 @@ std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting&
         DirectLight light =
             direct_light(device, setting.world, lamps, prepared.lumels,
                          direct_light_options(options.solver, options.sky_directions),
-                         [&](double fraction) { return stages.tell(fraction); });
+                         [&](double fraction) { return stages.progress(fraction); });
         known.direct = std::move(light.irradiance);
         told.finished = told.finished && light.finished;
         for (const auto& [stage, ms] : light.times)
@@ -59,7 +59,7 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     stages.begin("solving");
     auto solver = std::make_unique<RelightSolver>(device, setting.world, prepared.lumels,
                                                   setting.near, options.solver, std::move(sources));
-    while (!solver->done() && stages.tell(solver->fraction(), solver->state().shots))
+    while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
     stages.note_times(solver->times());
     solution->run.finished = solver->done();

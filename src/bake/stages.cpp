@@ -38,7 +38,7 @@ void Stages::begin(const std::string& name)
     note("begins");
 }
 
-bool Stages::tell(double fraction, std::uint64_t shots, double error)
+bool Stages::progress(double fraction, std::uint64_t shots, double error)
 {
     now_.fraction = fraction;
     now_.shots = shots;

@@ -21,7 +21,7 @@ public:
     /// Ends the stage before and begins this one.
     void begin(const std::string& name);
     /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
-    bool tell(double fraction, std::uint64_t shots = 0, double error = -1.0);
+    bool progress(double fraction, std::uint64_t shots = 0, double error = -1.0);
     /// Passes on a fact about the current stage, in one line.
     void note(const std::string& text);
     /// Notes what kernels took on the device [ms], longest first.

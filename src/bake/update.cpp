@@ -45,7 +45,7 @@ std::vector<glm::vec3> change_of_lights(const gpu::Device& device, const EditedS
                              .seed = seed_of(baked.solver.method),
                              .centre = rule_of(baked.solver.method) == SampleRule::centre},
                             [&](double fraction) {
-                                stages.tell(fraction);
+                                stages.progress(fraction);
                                 return true;
                             })
             .irradiance;
@@ -85,7 +85,7 @@ std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution
         edit, solution, baked,
         {.begin = [&](const char* stage) { stages.begin(stage); },
          .follow = [&](double fraction,
-                       std::uint64_t particles) { return stages.tell(fraction, particles); }});
+                       std::uint64_t particles) { return stages.progress(fraction, particles); }});
     std::vector<glm::vec3> lights;
     if (row.relit)
         lights = change_of_lights(*device, edit, baked, stages);

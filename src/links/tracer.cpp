@@ -39,6 +39,7 @@ struct LinkTracer::Followed {
     glm::vec3 reflected{0.0f};  ///< of surfaces met [lx]
     glm::vec3 sky{0.0f};        ///< [lx]
     std::uint32_t part = 0;
+    float nearest = kFar;  ///< [m] to what it met first
 };
 
 bool Gathered::is_closed() const
@@ -137,6 +138,8 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
         RayHit hit;
         const bool met = place_.rays.closest(origin, direction, 0.0f, kFar, seed, hit);
         ray.weight *= hit.tint;
+        if (met && reflections == 0)
+            ray.nearest = hit.distance;
         if (!met) {
             (reflections == 0 ? ray.sky : ray.reflected) +=
                 ray.weight * kPi * sources_.rest_of_sky(direction);
@@ -197,6 +200,7 @@ void LinkTracer::trace_block(std::size_t b, const std::vector<std::uint16_t>& ra
             const Met met = start.cosine(direction) > 0.0f
                                 ? follow(i, start, direction, samples, ray)
                                 : Met::nothing;
+            into.nearest[first + p] = std::min(into.nearest[first + p], ray.nearest);
             block.loses = block.loses || met != Met::part;
             if (met == Met::lost)
                 continue;

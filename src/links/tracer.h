@@ -36,7 +36,8 @@ struct Gathered {
     explicit Gathered(std::size_t parts)
         : reflected(parts, glm::vec3(0.0f)),
           sky(parts, glm::vec3(0.0f)),
-          rays(parts, 0)
+          rays(parts, 0),
+          nearest(parts, std::numeric_limits<float>::max())
     {
     }
 
@@ -47,6 +48,7 @@ struct Gathered {
     std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of the direct light that they met [lx]
     std::vector<glm::vec3> sky;        ///< [P] Σ over rays of the sky's light [lx]
     std::vector<std::uint32_t> rays;   ///< [P] that count
+    std::vector<float> nearest;        ///< [P] [m] how near they met anything
 };
 
 /// Follows rays from lumels until they meet a part.

@@ -5,9 +5,9 @@
 
 bool is_near(vec3 centre_i, float size_i, vec3 centre_j, float size_j, float radius)
 {
-    const vec3 way = centre_j - centre_i;
+    const vec3 step = centre_j - centre_i;
     const float reach = radius * max(size_i, size_j);
-    return dot(way, way) < reach * reach;
+    return dot(step, step) < reach * reach;
 }
 
 #endif

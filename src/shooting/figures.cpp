@@ -43,8 +43,8 @@ void Figures::add_up(gpu::Commands& commands, const gpu::Array<Terms>& totals) c
                       TotalParams{std::uint32_t(parts_.size())}, kSumGroup);
 }
 
-void Figures::ask(gpu::Pacer& pacer, std::uint64_t iteration,
-                  const std::function<void(gpu::Commands&)>& evaluate)
+void Figures::request(gpu::Pacer& pacer, std::uint64_t iteration,
+                      const std::function<void(gpu::Commands&)>& evaluate)
 {
     if (waiting_ || iteration < next_)
         return;
@@ -58,7 +58,7 @@ void Figures::ask(gpu::Pacer& pacer, std::uint64_t iteration,
     next_ = std::max(read_at_ + 1, std::uint64_t(double(iteration) * kGrowth));
 }
 
-std::optional<Terms> Figures::take(gpu::Pacer& pacer, std::uint64_t iteration)
+std::optional<Terms> Figures::poll(gpu::Pacer& pacer, std::uint64_t iteration)
 {
     if (!waiting_ || iteration < read_at_)
         return {};
@@ -67,7 +67,7 @@ std::optional<Terms> Figures::take(gpu::Pacer& pacer, std::uint64_t iteration)
     return checked(*host_.mapped());
 }
 
-Terms Figures::hear(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate)
+Terms Figures::read_now(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate)
 {
     pacer.work("figures", evaluate);
     pacer.finish();

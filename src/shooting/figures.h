@@ -11,7 +11,7 @@
 namespace lumel {
 
 /// What a kernel of workgroups of kSumGroup lumels reduced (see sum.glsl), added up. Figures are
-/// taken a fixed number of iterations after they were asked for, so that timing cannot change a
+/// read a fixed number of iterations after they were requested, so that timing cannot change a
 /// result and nothing waits for the device.
 class Figures {
 public:
@@ -28,14 +28,14 @@ public:
 
     /// Records `evaluate`, which ends in add_up(), and starts the figures on their way, if it is
     /// time to.
-    void ask(gpu::Pacer& pacer, std::uint64_t iteration,
-             const std::function<void(gpu::Commands&)>& evaluate);
+    void request(gpu::Pacer& pacer, std::uint64_t iteration,
+                 const std::function<void(gpu::Commands&)>& evaluate);
     /// Figures that are due at this iteration. Throws Error{input} if column 0's first two are not
     /// finite.
-    std::optional<Terms> take(gpu::Pacer& pacer, std::uint64_t iteration);
+    std::optional<Terms> poll(gpu::Pacer& pacer, std::uint64_t iteration);
 
-    /// The same at once, whenever asked. Waits for the device.
-    Terms hear(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate);
+    /// The same at once. Waits for the device.
+    Terms read_now(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate);
 
     /// Forgets figures that are on their way. The pacer must have finished.
     void drop() { waiting_ = false; }

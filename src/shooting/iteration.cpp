@@ -140,8 +140,8 @@ bool Iteration::finish_batch(gpu::Pacer& pacer, std::uint32_t emission_shots,
     if (phase_ends)
         advance(pacer);
     if (state_.iterations >= 2)
-        figures_.ask(pacer, state_.iterations,
-                     [&](gpu::Commands& commands) { evaluate(commands); });
+        figures_.request(pacer, state_.iterations,
+                         [&](gpu::Commands& commands) { evaluate(commands); });
     return phase_ends;
 }
 
@@ -245,7 +245,7 @@ void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
 
 void Iteration::take_figures(gpu::Pacer& pacer)
 {
-    const std::optional<Terms> terms = figures_.take(pacer, state_.iterations);
+    const std::optional<Terms> terms = figures_.poll(pacer, state_.iterations);
     if (!terms)
         return;
     const glm::vec4 sums = terms->column[0];

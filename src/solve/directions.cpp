@@ -96,12 +96,12 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
       seen_(device,
             options.layers == Layers::peel ? std::size_t(batch_) * lumels.lumels.size() : 0),
       news_(device, 1),
-      heard_(device, lumels.lumels.size()),
+      seen_light_(device, lumels.lumels.size()),
       iteration_(device, lumels, NearField{}, known, options.iteration, batch_),
       pacer_(device)
 {
     gpu::Commands commands(device);
-    commands.fill(heard_.buffer());
+    commands.fill(seen_light_.buffer());
     commands.run();
     iteration_.begin(pacer_);
 }
@@ -161,8 +161,8 @@ std::uint64_t GlobalDirections::device_bytes(const SolveSize& size,
     constexpr std::uint64_t kChunks = 5;
     return IlluminationMaps::device_bytes(options.layers, side, maps, slabs) +
            kChunks * kChunk * (sizeof(ParallelView) + sizeof(GlobalDirection)) +
-           (2 * size.texels() + seen + 1) * sizeof(std::uint32_t) + size.count() * sizeof(Heard) +
-           Iteration::device_bytes(size.count(), 0);
+           (2 * size.texels() + seen + 1) * sizeof(std::uint32_t) +
+           size.count() * sizeof(SeenLight) + Iteration::device_bytes(size.count(), 0);
 }
 
 void GlobalDirections::step()
@@ -234,7 +234,7 @@ void GlobalDirections::gather(const Chunk& chunk, std::uint32_t first_view, std:
                                        .indirect = iteration_.indirect(),
                                        .kept = seen_,
                                        .news = news_,
-                                       .heard_of = heard_},
+                                       .seen_light_of = seen_light_},
                                       params, last - first);
                 });
 }

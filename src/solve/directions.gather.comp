@@ -42,7 +42,7 @@ layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
 layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
 layout(scalar) buffer Kept { uint kept[]; };  // [K][N] peeled: seen so far
 layout(scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
-layout(scalar) buffer HeardOf { Heard heard_of[]; };
+layout(scalar) buffer SeenLightOf { SeenLight seen_light_of[]; };
 
 const float kPi = 3.14159265;
 // What lies higher than this above the plane is not the receiver itself [pixels' widths].
@@ -162,7 +162,7 @@ void main()
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
     vec3 of_emission = vec3(0.0), of_source = vec3(0.0);
-    Heard heard = heard_of[i];
+    SeenLight light = seen_light_of[i];
     for (uint k = 0u; k < p.views; ++k) {
         const GlobalDirection direction = directions[p.first_view + k];
         const LumelPoint point =
@@ -176,8 +176,8 @@ void main()
         if (p.keep != 0u)
             continue;
         const vec3 weight = 4.0 * cosine * seen.weight * carried_in_turn(view.channel);
-        heard.asked += cosine;
-        heard.told += cosine * seen.weight;
+        light.sought += cosine;
+        light.found += cosine * seen.weight;
         if (seen.surface == 0u) {
             of_emission += weight * kPi * direction.sky;
             continue;
@@ -194,8 +194,8 @@ void main()
     }
     if (p.keep != 0u)
         return;
-    heard_of[i] = heard;
-    const float correction = (heard.asked + kUsual) / (heard.told + kUsual);
+    seen_light_of[i] = light;
+    const float correction = (light.sought + kUsual) / (light.found + kUsual);
     const uint at = p.half_index * p.count + i;
     direct[at] += correction * of_emission;
     indirect[at] += correction * of_source;

@@ -61,7 +61,7 @@ private:
     gpu::Array<std::uint32_t> news_;      ///< [1] peeled: 1 once a layer shows something new
     std::uint32_t layers_ = 1;            ///< peeled at most so far
     std::array<std::deque<Chunk>, 2> chunks_;
-    gpu::Array<Heard> heard_;  ///< [N]
+    gpu::Array<SeenLight> seen_light_;  ///< [N]
     Iteration iteration_;
     gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
 };

@@ -11,12 +11,12 @@ struct GlobalDirection {
     vec3 sky;     ///< radiance [cd/m²] where nothing is seen
 };
 
-/// How much of what a lumel asked it was told, over all directions so far. A map tells it about the
-/// world along d only where one of its rays meets the lumel, which has a chance P that is about
-/// known; Σ asked / Σ told makes up for what is wrong in it.
-struct Heard {
-    float asked;  ///< Σ cosθ
-    float told;   ///< Σ cosθ/P where the map told
+/// How much of the light that a lumel seeks its map shows, over all directions so far. A map shows
+/// the world along d only where one of its rays meets the lumel, which has a chance P that is about
+/// known; Σ sought / Σ found makes up for what is wrong in it.
+struct SeenLight {
+    float sought;  ///< Σ cosθ
+    float found;   ///< Σ cosθ/P where the map tells
 };
 
 /// Push constants of directions.gather.comp.

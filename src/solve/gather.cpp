@@ -281,7 +281,7 @@ void GatherRadiosity::end_bounce()
     next_ = 0;
     if (averages_)
         ++taken_[half()];
-    const Terms terms = figures_.hear(pacer_, [&](gpu::Commands& commands) {
+    const Terms terms = figures_.read_now(pacer_, [&](gpu::Commands& commands) {
         commands.dispatch(figures_kernel_,
                           {.surface = surface_,
                            .sums = sums_,

@@ -155,8 +155,8 @@ void GlossyIllumination::step()
     state_.shots += batch_;
     next_shot_ += batch_;
     if (std::min(batches_[0], batches_[1]) >= 1.0f)
-        figures_.ask(pacer_, state_.iterations,
-                     [&](gpu::Commands& commands) { evaluate(commands); });
+        figures_.request(pacer_, state_.iterations,
+                         [&](gpu::Commands& commands) { evaluate(commands); });
 }
 
 void GlossyIllumination::restart()
@@ -270,7 +270,7 @@ void GlossyIllumination::evaluate(gpu::Commands& commands)
 
 void GlossyIllumination::take_figures()
 {
-    const std::optional<Terms> terms = figures_.take(pacer_, state_.iterations);
+    const std::optional<Terms> terms = figures_.poll(pacer_, state_.iterations);
     if (!terms)
         return;
     const glm::vec4 sums = terms->column[0];

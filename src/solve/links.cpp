@@ -8,8 +8,10 @@
 // grows with the number of lumels, as there is no shooter whose light falls off with the square of
 // the distance.
 //
-// Two solutions share nothing random: each has its own links, and direct light is found in two
-// halves. The result is their mean, and their difference is the error that is stated.
+// Three solutions have links of their own, and direct light is found in two halves. The result is
+// the mean of the solutions, filtered over charts. The weights of the filter for two of them, A and
+// B, come from the third, so that the error of the filtered A', B' can be stated: their variance is
+// in A' - B', and the square of what the filter gets wrong is the mean of (A' - A)(B' - B).
 //
 // A lumel is too coarse where light changes within it: it has a grid of cells for direct light, and
 // parts, each with an X of its own, where geometry cuts it (links/cells.h).
@@ -31,7 +33,7 @@
 namespace lumel {
 namespace {
 
-/// Rays of a lumel in each half of the first round; powers of two, which stratify best.
+/// Rays of a lumel in each solution of the first round; powers of two stratify best.
 constexpr std::uint32_t kFirstRays = 8;
 /// A later round has at least this share of the rays so far, and so many rays of a lumel at most.
 constexpr double kLeastMore = 0.25, kMostMore = 3.0;
@@ -56,7 +58,7 @@ constexpr double kDarkest = 1e-2;
 /// Key of the lumels' order: cells of the scene along each axis, within which lumels are sorted by
 /// the side that they face.
 constexpr double kOrderCells = 32.0;
-/// Random streams: of parts, of direct light, and of links of either half.
+/// Random streams: of parts, of direct light, and of links of the solutions.
 constexpr std::uint32_t kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
 
 /// Lumels such that neighbours in space that face alike come together: their rays meet the same
@@ -85,6 +87,13 @@ std::vector<std::uint32_t> order_in_space(const WorldLumels& world)
     std::transform(keys.begin(), keys.end(), order.begin(),
                    [](const Key& key) { return key.lumel; });
     return order;
+}
+
+/// Squared differences of each two of three, all channels together.
+double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+{
+    const glm::vec3 ab = a - b, bc = b - c, ca = c - a;
+    return double(glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca));
 }
 
 std::vector<char> buried(const Lumels& lumels)
@@ -160,8 +169,9 @@ void LinkRadiosity::step()
         const std::size_t count =
             std::max(std::size_t(double(kBlocksPerStep * kFirstRays) / mean_rays_), std::size_t(1));
         const std::size_t last = std::min(traced_ + count, tracer_->blocks());
-        for (std::uint32_t h = 0; h < 2; ++h)
-            tracer_->trace(traced_, last, rays_, kLinkStream + 2 * round_ + h, *gathered_[h]);
+        for (std::uint32_t k = 0; k < kSolutions; ++k)
+            tracer_->trace(traced_, last, rays_, kLinkStream + kSolutions * round_ + k,
+                           *gathered_[k]);
         traced_ = last;
         if (traced_ == tracer_->blocks())
             stage_ = Stage::solve;
@@ -185,8 +195,8 @@ void LinkRadiosity::cut()
     tracer_.emplace(place_, sources_, world_, starts_, cells_, *parts_, *direct_, order_,
                     options_.seed);
     solver_.emplace(lumels_, world_, *parts_, order_);
-    for (std::optional<Gathered>& half : gathered_)
-        half.emplace(parts_->count());
+    for (std::optional<Gathered>& gathered : gathered_)
+        gathered.emplace(parts_->count());
 }
 
 /// As many rays as the error still asks for, within limits.
@@ -194,7 +204,7 @@ void LinkRadiosity::begin_round()
 {
     mean_rays_ = kFirstRays;
     if (state_.shots > 0) {
-        const double so_far = double(state_.shots) / 2.0;
+        const double so_far = double(state_.shots) / double(kSolutions);
         double more = so_far;
         if (const double ratio = missing(); ratio > 0.0) {
             more = std::clamp(kAdaptiveGain * so_far * (ratio * ratio - 1.0), kLeastMore * so_far,
@@ -205,8 +215,8 @@ void LinkRadiosity::begin_round()
     share_out_rays();
     traced_ = 0;
     stage_ = Stage::links;
-    for (std::optional<Gathered>& half : gathered_)
-        half->rounds.emplace_back(tracer_->blocks());
+    for (std::optional<Gathered>& gathered : gathered_)
+        gathered->rounds.emplace_back(tracer_->blocks());
 }
 
 /// The sum of variances is least if rays are in proportion to deviations. That of a lumel is
@@ -222,12 +232,12 @@ void LinkRadiosity::share_out_rays()
     std::vector<double> running(count + 1, 0.0), deviation(count);
     const double floor = kDarkest * mean_light_;
     for (std::size_t o = 0; o < count; ++o) {
-        const glm::vec3 a = indirect(order_[o], 0), b = indirect(order_[o], 1), d = a - b;
+        const glm::vec3 a = indirect(order_[o], 0), b = indirect(order_[o], 1),
+                        c = indirect(order_[o], 2), sum = a + b + c;
         // Where dark lumels count, what they lack counts by their own light, half way.
-        const double weight = target_dark_error_ > 0.0
-                                  ? 1.0 / (double(a.r + a.g + a.b + b.r + b.g + b.b) + floor)
-                                  : 1.0;
-        running[o + 1] = running[o] + weight * double(glm::dot(d, d));
+        const double weight =
+            target_dark_error_ > 0.0 ? 1.0 / (double(sum.r + sum.g + sum.b) + floor) : 1.0;
+        running[o + 1] = running[o] + weight * spread(a, b, c);
     }
     double mean = 0.0, lit = 0.0;
     for (std::size_t o = 0; o < count; ++o) {
@@ -253,11 +263,11 @@ void LinkRadiosity::share_out_rays()
 
 void LinkRadiosity::end_round()
 {
-    for (int h = 0; h < 2; ++h) {
-        solver_->solve(*gathered_[h], received_[std::size_t(h)]);
-        balance(h);
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        solver_->solve(*gathered_[k], received_[k]);
+        balance(k);
     }
-    state_.shots += 2 * std::uint64_t(std::llround(mean_rays_));
+    state_.shots += std::uint64_t(std::llround(double(kSolutions) * mean_rays_));
     ++round_;
     estimate();
     go_on();
@@ -265,9 +275,9 @@ void LinkRadiosity::end_round()
 
 /// In a bright closed room the level of all light has a noise of its own, but what surfaces absorb
 /// is known: all that is sent, Σ A (1 - ρ) (D + X) = Σ A D.
-void LinkRadiosity::balance(int half)
+void LinkRadiosity::balance(std::size_t k)
 {
-    if (!gathered_[half]->is_closed())
+    if (!gathered_[k]->is_closed())
         return;
     glm::dvec3 absorbed(0.0), reflected(0.0);
     double area = 0.0, albedo = 0.0;
@@ -276,8 +286,8 @@ void LinkRadiosity::balance(int half)
         if (lumel.flags & kLumelBuried)
             continue;
         const double a = double(lumel.area);
-        absorbed += a * glm::dvec3((1.0f - lumel.albedo) * indirect(i, half));
-        reflected += a * glm::dvec3(lumel.albedo * direct_->half(half)[i]);
+        absorbed += a * glm::dvec3((1.0f - lumel.albedo) * indirect(i, k));
+        reflected += a * glm::dvec3(lumel.albedo * direct_->mean(i));
         area += a;
         albedo += a * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
     }
@@ -287,7 +297,7 @@ void LinkRadiosity::balance(int half)
     for (int c = 0; c < 3; ++c)
         if (absorbed[c] > 0.0)
             factor[c] = float(reflected[c] / absorbed[c]);
-    for (glm::vec3& light : received_[std::size_t(half)])
+    for (glm::vec3& light : received_[k])
         light *= factor;
 }
 
@@ -318,77 +328,137 @@ void LinkRadiosity::go_on()
     }
 }
 
-/// All that rays brought to a lumel in one half [lx].
-glm::vec3 LinkRadiosity::indirect(std::size_t i, int half) const
+/// What rays brought to a lumel in one solution, of the parts of light that are wanted [lx].
+glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
+{
+    glm::vec3 sky(0.0f);
+    std::uint32_t rays = 0;
+    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+        rays += gathered_[k]->rays[p];
+        sky += gathered_[k]->sky[p];
+    }
+    if (rays > 0)
+        sky /= float(rays);
+    switch (parts_wanted_) {
+    case Parts::all:
+        return indirect(i, k);
+    case Parts::direct:
+        return sky;
+    case Parts::indirect:
+        return indirect(i, k) - sky;
+    }
+    return {};
+}
+
+/// All that rays brought to a lumel in one solution [lx].
+glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
 {
     glm::vec3 sum(0.0f);
     std::uint32_t rays = 0;
     for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
-        rays += gathered_[half]->rays[p];
-        sum += float(gathered_[half]->rays[p]) * received_[std::size_t(half)][p];
+        rays += gathered_[k]->rays[p];
+        sum += float(gathered_[k]->rays[p]) * received_[k][p];
     }
     return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
 }
 
-/// Of one half [lx].
-glm::vec3 LinkRadiosity::light(std::size_t i, int half, Parts parts) const
+/// How near the rays of each lumel met anything [N] [m].
+std::vector<float> LinkRadiosity::nearest() const
 {
-    glm::vec3 indirect(0.0f), sky(0.0f);
-    std::uint32_t rays = 0;
-    const Gathered& gathered = *gathered_[half];
-    const std::vector<glm::vec3>& received = received_[std::size_t(half)];
-    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
-        rays += gathered.rays[p];
-        sky += gathered.sky[p];
-        if (!received.empty())
-            indirect += float(gathered.rays[p]) * received[p];
-    }
-    const float share = rays > 0 ? 1.0f / float(rays) : 0.0f;
-    const glm::vec3 direct = direct_->half(half)[i];
-    if (parts == Parts::direct)
-        return direct + share * sky;
-    if (parts == Parts::indirect)
-        return share * (indirect - sky);
-    return direct + share * indirect;
+    std::vector<float> nearest(lumels_.lumels.size(), std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+        for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+            for (const std::optional<Gathered>& gathered : gathered_)
+                nearest[i] = std::min(nearest[i], gathered->nearest[p]);
+    return nearest;
 }
 
-/// The difference of two independent halves has four times the variance of their mean.
+/// Takes the mean of the solutions, filtered if that is better. Returns the squared errors [N].
+std::vector<double> LinkRadiosity::combine()
+{
+    const std::size_t count = lumels_.lumels.size();
+    std::array<Estimates, kSolutions> found;
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        found[k].resize(count);
+        for (std::size_t i = 0; i < count; ++i)
+            found[k][i] = brought(i, k);
+    }
+    std::vector<double> square(count);
+    indirect_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        indirect_[i] = (found[0][i] + found[1][i] + found[2][i]) / 3.0f;
+        square[i] = spread(found[0][i], found[1][i], found[2][i]) / 18.0;
+    }
+    if (!options_.filter)
+        return square;
+    const std::vector<float> near = nearest();
+    const ChartFilter filter(place_, world_, *parts_, near);
+    Estimates one, other, third, unused;
+    filter.filter(found[2], found[0], found[1], one, other);
+    filter.filter(found[0], found[2], found[1], third, unused);
+    // What is filtered wrongly can not be less than nothing: where it seems so, it is small.
+    std::vector<double> noise(count), wrong(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 d = one[i] - other[i];
+        noise[i] = double(glm::dot(d, d)) / 6.0;
+        wrong[i] = double(glm::dot(one[i] - found[0][i], other[i] - found[1][i]));
+    }
+    const auto sum_of = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0);
+    };
+    const double all_wrong = sum_of(wrong);
+    if (!(sum_of(noise) + std::max(all_wrong, 0.0) < sum_of(square)))
+        return square;
+    std::vector<double> after = noise;
+    if (all_wrong > 0.0)
+        for (std::size_t i = 0; i < count; ++i)
+            after[i] += wrong[i];
+    for (std::size_t i = 0; i < count; ++i)
+        indirect_[i] = (one[i] + other[i] + third[i]) / 3.0f;
+    return after;
+}
+
+/// Beside the error of what rays brought, that of direct light: the difference of two independent
+/// halves has four times the variance of their mean.
 void LinkRadiosity::estimate()
 {
-    std::vector<glm::vec3> mean;
-    std::vector<double> square, of_direct;
+    const std::vector<double> of_rays = combine();
+    std::vector<double> light, square;
+    double of_direct = 0.0;
     for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
         if (lumels_.lumels[i].flags & kLumelBuried)
             continue;
-        const glm::vec3 a = light(i, 0, parts_wanted_), b = light(i, 1, parts_wanted_);
-        const glm::vec3 d = 0.5f * (a - b);
-        const glm::vec3 direct = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
-        mean.push_back(0.5f * (a + b));
-        square.push_back(double(glm::dot(d, d)));
-        of_direct.push_back(double(glm::dot(direct, direct)));
+        const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
+        const double direct = parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
+        const glm::vec3 all = arrived(i);
+        light.push_back(double(all.r + all.g + all.b));
+        square.push_back(of_rays[i] + direct);
+        of_direct += direct;
     }
-    const auto brightness = [](const glm::vec3& light) {
-        return double(light.r + light.g + light.b);
-    };
-    double sum = 0.0;
-    for (const glm::vec3& light : mean)
-        sum += brightness(light);
-    mean_light_ = sum / double(std::max<std::size_t>(mean.size(), 1));
-    const double count = double(mean.size());
     // √(Σ d² / 3n) / (Σ H / 3n)
     const auto relative = [](double squares, double lights, double n) {
-        return lights > 0.0 ? std::sqrt(3.0 * n * squares) / lights : 0.0;
+        return lights > 0.0 ? std::sqrt(3.0 * n * std::max(squares, 0.0)) / lights : 0.0;
     };
+    const double count = double(light.size());
+    const double sum = std::accumulate(light.begin(), light.end(), 0.0);
+    mean_light_ = sum / std::max(count, 1.0);
     state_.error = relative(std::accumulate(square.begin(), square.end(), 0.0), sum, count);
-    direct_error_ = relative(std::accumulate(of_direct.begin(), of_direct.end(), 0.0), sum, count);
+    direct_error_ = relative(of_direct, sum, count);
     double dark_squares = 0.0, dark_sum = 0.0, dark_count = 0.0;
-    for (std::size_t k = 0; k < mean.size(); ++k)
-        if (brightness(mean[k]) < kDark * sum / count) {
+    for (std::size_t k = 0; k < light.size(); ++k)
+        if (light[k] < kDark * mean_light_) {
             dark_squares += square[k];
-            dark_sum += brightness(mean[k]);
+            dark_sum += light[k];
             dark_count += 1.0;
         }
     state_.dark_error = relative(dark_squares, dark_sum, dark_count);
+}
+
+/// At a lumel, of the parts of light that are wanted [lx].
+glm::vec3 LinkRadiosity::arrived(std::size_t i) const
+{
+    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f) : direct_->mean(i);
+    return indirect_.empty() ? direct : direct + indirect_[i];
 }
 
 std::vector<glm::vec3> LinkRadiosity::irradiance()
@@ -396,7 +466,7 @@ std::vector<glm::vec3> LinkRadiosity::irradiance()
     std::vector<glm::vec3> result(lumels_.lumels.size(), glm::vec3(0.0f));
     if (direct_)
         for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] = 0.5f * (light(i, 0, parts_wanted_) + light(i, 1, parts_wanted_));
+            result[i] = arrived(i);
     return result;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "links/direct.h"
+#include "links/filter.h"
 #include "links/sweeps.h"
 #include "links/tracer.h"
 #include "nearfield/solve_size.h"
@@ -38,6 +39,8 @@ public:
     double longest_submission() const override { return 0.0; }
 
 private:
+    /// Two to state the error, and a third to filter them by.
+    static constexpr std::uint32_t kSolutions = 3;
     enum class Stage { begin, direct, links, solve };
 
     struct Scratch;
@@ -45,11 +48,14 @@ private:
     void begin_round();
     void share_out_rays();
     void end_round();
-    void balance(int half);
+    void balance(std::size_t solution);
     void go_on();
     double missing() const;
-    glm::vec3 indirect(std::size_t lumel, int half) const;
-    glm::vec3 light(std::size_t lumel, int half, Parts parts) const;
+    glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
+    glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
+    glm::vec3 arrived(std::size_t lumel) const;
+    std::vector<float> nearest() const;
+    std::vector<double> combine();
     void estimate();
 
     const LinksOptions options_;
@@ -67,8 +73,10 @@ private:
     std::optional<DirectFinder> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
-    std::optional<Gathered> gathered_[2];             ///< independent of each other
-    std::array<std::vector<glm::vec3>, 2> received_;  ///< [P] [lx] beside direct light
+    // Solutions that share nothing random but direct light.
+    std::array<std::optional<Gathered>, kSolutions> gathered_;
+    std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] beside direct light
+    Estimates indirect_;                                       ///< [N] [lx] the result, beside it
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< that is traced
     double mean_rays_ = 0.0;           ///< of a lumel in it, in each half

@@ -41,6 +41,7 @@ constexpr Word<Projection> kProjections[] = {{"hemicube", Projection::hemicube},
 constexpr Word<Scheme> kSchemes[] = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 constexpr Word<Layers> kLayers[] = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
+constexpr Word<bool> kSwitch[] = {{"on", true}, {"off", false}};
 constexpr Word<int> kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
 
 // Where options are in the structs.
@@ -80,6 +81,10 @@ constexpr auto eye_hemicube = [](auto& o) -> auto&
 constexpr auto projection = [](auto& o) -> auto&
 {
     return o.views.projection;
+};
+constexpr auto filter = [](auto& o) -> auto&
+{
+    return o.filter;
 };
 constexpr auto layers = [](auto& o) -> auto&
 {
@@ -233,6 +238,10 @@ constexpr OptionInfo seed_option()
 constexpr OptionInfo kLinksOptions[] = {
     seed_option<LinksOptions>(),
     choice<LinksOptions, kRules, rule>(kSampling),
+    choice<LinksOptions, kSwitch, filter>(
+        {"filter", "on|off",
+         "Average lumels with those around them that look alike; without it the result is exact in "
+         "expectation"}),
 };
 
 constexpr OptionInfo kStochasticOptions[] = {

@@ -15,6 +15,7 @@ namespace lumel {
 struct LinksOptions {
     std::uint32_t seed = 1;
     SampleRule rule = SampleRule::area;
+    bool filter = true;  ///< averages lumels with others of their chart that look alike
 };
 
 struct StochasticOptions {

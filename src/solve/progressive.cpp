@@ -234,13 +234,13 @@ void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
 
 void ProgressiveRadiosity::ask_figures()
 {
-    figures_.ask(pacer_, state_.iterations,
-                 [&](gpu::Commands& commands) { sum_figures(commands); });
+    figures_.request(pacer_, state_.iterations,
+                     [&](gpu::Commands& commands) { sum_figures(commands); });
 }
 
 void ProgressiveRadiosity::take_figures()
 {
-    const std::optional<Terms> terms = figures_.take(pacer_, state_.iterations);
+    const std::optional<Terms> terms = figures_.poll(pacer_, state_.iterations);
     if (!terms)
         return;
     if (terms->column[0].y > 0.0f)
@@ -252,7 +252,7 @@ void ProgressiveRadiosity::take_figures()
 double ProgressiveRadiosity::residual()
 {
     const Terms terms =
-        figures_.hear(pacer_, [&](gpu::Commands& commands) { sum_figures(commands); });
+        figures_.read_now(pacer_, [&](gpu::Commands& commands) { sum_figures(commands); });
     most_arrived_ = std::max(most_arrived_, double(terms.column[0].y));
     return missing_part(terms, kDark * most_arrived_);
 }

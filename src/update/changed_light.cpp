@@ -214,11 +214,11 @@ struct Met {
 class Gatherer {
 public:
     Gatherer(const SeenScene& before, const SeenScene& now,
-             const std::vector<std::uint32_t>& partner, const std::vector<Asked>& asked,
+             const std::vector<std::uint32_t>& partner, const std::vector<Wanted>& wanted,
              const std::vector<Ball>& balls, const ChangedLightOptions& options)
         : before_(before),
           now_(now),
-          asked_(asked),
+          wanted_(wanted),
           balls_(balls),
           options_(options),
           world_before_(*before.scene, *before.rays, *before.lumels),
@@ -235,7 +235,7 @@ private:
     struct Receiver;
 
     std::uint32_t points_for(float share) const;
-    glm::vec3 along_ways(const Receiver& receiver) const;
+    glm::vec3 along_directions(const Receiver& receiver) const;
     glm::vec3 from_lamp_points(const Receiver& receiver) const;
     glm::vec3 from_lamps(const Receiver& receiver) const;
     Met meet(const SeenScene& seen, const Receiver& receiver, const glm::vec3& from,
@@ -246,7 +246,7 @@ private:
 
     const SeenScene& before_;
     const SeenScene& now_;
-    const std::vector<Asked>& asked_;
+    const std::vector<Wanted>& wanted_;
     const std::vector<Ball>& balls_;
     const ChangedLightOptions& options_;
     WorldLumels world_before_, world_now_;
@@ -272,10 +272,10 @@ std::uint32_t Gatherer::points_for(float share) const
 
 glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& rays) const
 {
-    if (asked_[i] == Asked::nothing)
+    if (wanted_[i] == Wanted::nothing)
         return glm::vec3(0.0f);
     Receiver receiver{.lumel = i,
-                      .whole = asked_[i] == Asked::all,
+                      .whole = wanted_[i] == Wanted::all,
                       .stream = PathSamples::hash(PathSamples::hash(options_.seed, options_.effort),
                                                   2 * i + half),
                       .directions = std::max(options_.effort * options_.whole / 2, 1u),
@@ -296,7 +296,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
             share /= sum;
         receiver.directions = options_.effort * points_for(std::min(sum, 1.0f));
     }
-    glm::vec3 light = along_ways(receiver) + from_lamps(receiver);
+    glm::vec3 light = along_directions(receiver) + from_lamps(receiver);
     if (!lamp_points_.empty())
         light += from_lamp_points(receiver);
     return light;
@@ -335,7 +335,7 @@ Met Gatherer::meet(const SeenScene& seen, const Receiver& receiver, const glm::v
             per_area * hit.distance * hit.distance / std::max(cosine, 1e-6f)};
 }
 
-glm::vec3 Gatherer::along_ways(const Receiver& receiver) const
+glm::vec3 Gatherer::along_directions(const Receiver& receiver) const
 {
     glm::vec3 sum(0.0f);
     for (std::uint32_t k = 0; k < receiver.directions; ++k) {
@@ -502,12 +502,12 @@ std::vector<Ball> changed_balls(const Scene& before, const Scene& now, const Mat
 
 ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
-                                  const std::vector<Asked>& asked, const std::vector<Ball>& balls,
+                                  const std::vector<Wanted>& wanted, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,
                                   const std::function<void(double)>& progress)
 {
-    const Gatherer gatherer(before, now, partner, asked, balls, options);
-    const std::size_t count = asked.size();
+    const Gatherer gatherer(before, now, partner, wanted, balls, options);
+    const std::size_t count = wanted.size();
     ChangedLight light{TwoEstimates(count)};
     std::atomic<std::uint64_t> rays = 0;
     parallel_steps(

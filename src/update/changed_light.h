@@ -35,7 +35,7 @@ struct SeenScene {
 };
 
 /// What is to be found for a lumel.
-enum class Asked : std::uint8_t {
+enum class Wanted : std::uint8_t {
     nothing,     ///< it is buried
     difference,  ///< light that arrives now, less light that arrived before
     all,         ///< all light that arrives now
@@ -60,7 +60,7 @@ struct ChangedLight {
 /// none or changed. Noise is in proportion to what changed: where nothing did the difference is 0.
 ChangedLight gather_changed_light(const SeenScene& before, const SeenScene& now,
                                   const std::vector<std::uint32_t>& partner,
-                                  const std::vector<Asked>& asked, const std::vector<Ball>& balls,
+                                  const std::vector<Wanted>& wanted, const std::vector<Ball>& balls,
                                   const ChangedLightOptions& options,
                                   const std::function<void(double)>& progress = {});
 

@@ -60,9 +60,9 @@ Correction::Correction(const EditedScene& edit, const StoredSolution& solution,
                                            : solution.irradiance(lumel, lumel.texel));
     for (std::size_t i = 0; i < edit.partner.size(); ++i) {
         const Lumel& lumel = edit.now.lumels.lumels[i];
-        asked_.push_back(is_buried(lumel)              ? Asked::nothing
-                         : edit.partner[i] != kNoLumel ? Asked::difference
-                                                       : Asked::all);
+        wanted_.push_back(is_buried(lumel)              ? Wanted::nothing
+                          : edit.partner[i] != kNoLumel ? Wanted::difference
+                                                        : Wanted::all);
         guess_.push_back(edit.same[i] != kNoLumel ? before_[edit.same[i]] : glm::vec3(0.0f));
     }
 }
@@ -98,14 +98,14 @@ double Correction::change(const std::vector<glm::vec3>& lights) const
 /// Guesses the light of lumels whose whole light is to be found.
 void Correction::look_first(UpdateRow& row)
 {
-    std::vector<Asked> asked = asked_;
-    std::replace(asked.begin(), asked.end(), Asked::difference, Asked::nothing);
-    if (std::find(asked.begin(), asked.end(), Asked::all) == asked.end())
+    std::vector<Wanted> wanted = wanted_;
+    std::replace(wanted.begin(), wanted.end(), Wanted::difference, Wanted::nothing);
+    if (std::find(wanted.begin(), wanted.end(), Wanted::all) == wanted.end())
         return;
     watch_.begin("first look");
-    const TwoEstimates light = gather(asked, {.whole = kFirstLook}, row);
-    for (std::size_t i = 0; i < asked.size(); ++i)
-        if (asked[i] == Asked::all)
+    const TwoEstimates light = gather(wanted, {.whole = kFirstLook}, row);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        if (wanted[i] == Wanted::all)
             guess_[i] = light.mean(i);
 }
 
@@ -113,24 +113,24 @@ void Correction::look_first(UpdateRow& row)
 TwoEstimates Correction::gather_until(double residual, UpdateRow& row)
 {
     watch_.begin("gathering");
-    TwoEstimates light = gather(asked_, {}, row);
+    TwoEstimates light = gather(wanted_, {}, row);
     const double most = residual * mean_light(edit_.now.lumels, guess_);
     for (std::uint32_t effort = kMoreEffort; effort <= kMostEffort; effort *= kMoreEffort) {
-        if (light.error() <= most || row.rays > kMostRays * asked_.size())
+        if (light.error() <= most || row.rays > kMostRays * wanted_.size())
             break;
-        std::vector<Asked> noisy = asked_;
+        std::vector<Wanted> noisy = wanted_;
         for (std::size_t i = 0; i < noisy.size(); ++i)
             if (0.5 * double(glm::distance(light.half[0][i], light.half[1][i])) <= most)
-                noisy[i] = Asked::nothing;
+                noisy[i] = Wanted::nothing;
         const TwoEstimates finer = gather(noisy, {.effort = effort}, row);
         for (std::size_t i = 0; i < noisy.size(); ++i)
-            for (int h = 0; h < 2 && noisy[i] != Asked::nothing; ++h)
+            for (int h = 0; h < 2 && noisy[i] != Wanted::nothing; ++h)
                 light.half[h][i] = finer.half[h][i];
     }
     return light;
 }
 
-TwoEstimates Correction::gather(const std::vector<Asked>& asked, ChangedLightOptions options,
+TwoEstimates Correction::gather(const std::vector<Wanted>& wanted, ChangedLightOptions options,
                                 UpdateRow& row)
 {
     options.seed = seed_of(baked_.solver.method);
@@ -139,7 +139,7 @@ TwoEstimates Correction::gather(const std::vector<Asked>& asked, ChangedLightOpt
     const SeenScene before{&was.scene, &was.rays, &was.lumels, &hits_before_, sent_before()};
     const SeenScene now{&is.scene, &is.rays, &is.lumels, &hits_now_, sent_now()};
     ChangedLight light =
-        gather_changed_light(before, now, edit_.partner, asked, edit_.balls, options,
+        gather_changed_light(before, now, edit_.partner, wanted, edit_.balls, options,
                              [&](double fraction) { watch_.follow(fraction, 0); });
     row.rays += light.rays;
     return std::move(light.irradiance);
@@ -212,7 +212,7 @@ std::optional<std::vector<glm::vec3>> Correction::correct(const std::vector<glm:
     const SentLight sent = sent_now();
     for (std::size_t i = 0; i < light.size(); ++i) {
         glm::vec3 r = changed.mean(i) / edit_.thinned[i];
-        if (asked_[i] == Asked::all)
+        if (wanted_[i] == Wanted::all)
             r -= guess_[i];
         if (!lights.empty())
             light[i] += lights[i];

@@ -37,7 +37,7 @@ public:
 private:
     void look_first(UpdateRow& row);
     TwoEstimates gather_until(double residual, UpdateRow& row);
-    TwoEstimates gather(const std::vector<Asked>& asked, ChangedLightOptions options,
+    TwoEstimates gather(const std::vector<Wanted>& wanted, ChangedLightOptions options,
                         UpdateRow& row);
     CarriedLight carry(const std::vector<glm::vec3>& source, double error, UpdateRow& row);
     SentLight sent_before() const;
@@ -48,7 +48,7 @@ private:
     const BakeRecord& baked_;
     CorrectionWatch watch_;
     HitLumels hits_before_, hits_now_;
-    std::vector<Asked> asked_;       ///< [N now]
+    std::vector<Wanted> wanted_;     ///< [N now]
     std::vector<glm::vec3> before_;  ///< H [N before]
     std::vector<glm::vec3> guess_;   ///< H~ [N now], but for D' - D
 };

@@ -39,15 +39,15 @@ bool is_past_edge(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, flo
                   float in_front, float plane)
 {
     const vec2 offset = f.at - f.pixel - 0.5;
-    const vec2 way = abs(offset.x) > abs(offset.y) ? vec2(sign(offset.x), 0.0)
+    const vec2 side = abs(offset.x) > abs(offset.y) ? vec2(sign(offset.x), 0.0)
                                                    : vec2(0.0, sign(offset.y));
-    if (!is_in_view(tiling, f, f.pixel + way) || !is_in_view(tiling, f, f.pixel - 2.0 * way))
+    if (!is_in_view(tiling, f, f.pixel + side) || !is_in_view(tiling, f, f.pixel - 2.0 * side))
         return false;
     // The next pixel must show the receiver's own surface, or nothing: surfaces on the scene's hull
     // are not drawn.
-    const float next_stored = stored_depth(tiling, tile, f, f.pixel + way);
+    const float next_stored = stored_depth(tiling, tile, f, f.pixel + side);
     const float next =
-        in_front_of_plane(tiling, f, f.pixel + way, next_stored, facing, toward_point);
+        in_front_of_plane(tiling, f, f.pixel + side, next_stored, facing, toward_point);
     if (next > plane * kDepthSlack || (next_stored > 0.0 && next < -plane * kPlaneSlack))
         return false;
     // A convex edge: the other facet lies a little behind the plane.
@@ -56,14 +56,14 @@ bool is_past_edge(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, flo
     // A contact: the other surface comes down to the plane before the point is reached, if it
     // goes on as it does over the pixels before.
     const float before =
-        in_front_of_plane(tiling, f, f.pixel - way, stored_depth(tiling, tile, f, f.pixel - way),
+        in_front_of_plane(tiling, f, f.pixel - side, stored_depth(tiling, tile, f, f.pixel - side),
                           facing, toward_point);
     const float first = in_front_of_plane(
-        tiling, f, f.pixel - 2.0 * way, stored_depth(tiling, tile, f, f.pixel - 2.0 * way),
+        tiling, f, f.pixel - 2.0 * side, stored_depth(tiling, tile, f, f.pixel - 2.0 * side),
         facing, toward_point);
     const float step = in_front - before;
     const bool is_flat = abs(step - (before - first)) <= kFlatness * abs(step);
-    return is_flat && in_front + step * dot(offset, way) <= plane * kDepthSlack;
+    return is_flat && in_front + step * dot(offset, side) <= plane * kDepthSlack;
 }
 
 // Does the receiver's plane show beside the pixel as well, toward the eye or away from it? Another
@@ -74,10 +74,10 @@ bool is_plane_beside(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, 
     const float right = -dot(facing, centre_ray(tiling, f, f.pixel + vec2(1.0, 0.0)));
     const float up = -dot(facing, centre_ray(tiling, f, f.pixel + vec2(0.0, 1.0)));
     const float here = plane / tiling.near;
-    const vec2 way = abs(right - here) > abs(up - here) ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    const vec2 side = abs(right - here) > abs(up - here) ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
     bool shown = false;
     for (float toward = -1.0; toward <= 1.0; toward += 2.0) {
-        const vec2 pixel = f.pixel + toward * way;
+        const vec2 pixel = f.pixel + toward * side;
         const float found = in_front_of_plane(tiling, f, pixel,
                                               stored_depth(tiling, tile, f, pixel), facing,
                                               toward_point);
