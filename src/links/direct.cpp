@@ -5,6 +5,9 @@
 //
 // So lumels that see all of a source, or nothing of it, have no noise. Random numbers of the two
 // halves are independent.
+//
+// A few rays tell which lumels see parts of sources; these begin anew with many, so that what the
+// few have shown decides nothing about the result. More go where neighbours are uncertain.
 
 #include "links/direct.h"
 
@@ -13,6 +16,7 @@
 
 #include "core/luminance.h"
 #include "core/parallel.h"
+#include "links/deviation.h"
 #include "paths/samples.h"
 
 namespace lumel {
@@ -22,17 +26,25 @@ namespace {
 constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
 /// Rays of one half for each source: of all lumels, and of those that see a part of a source. Small
 /// sources have sharp shadows.
-constexpr std::uint32_t kFewRays = 8, kManyRays = 32, kFewToSmall = 16, kManyToSmall = 32;
+constexpr std::uint32_t kFewRays = 8, kManyRays = 16, kTimesToSmall = 2;
 /// Sources with less than this share of the light guessed for a lumel share their rays.
 constexpr float kOwnRays = 1.0f / 16.0f;
+/// Halvings of their rays at most, against the source that may send most.
+constexpr std::uint32_t kMostHalved = 3;
 /// The light of a lumel's cells is kept if it differs by more than this share of the brightest, and
 /// that is more than this share of the mean of all lumels.
 constexpr float kDiffers = 0.25f, kCounts = 0.01f;
 
 /// Neighbours in the order of lumels, on either side, that should see the same sources.
 constexpr std::size_t kNeighbours = 4;
-/// Times that the many rays are doubled, at most.
-constexpr std::uint32_t kMostRefined = 8;
+/// Rays of one half to a source, at most, and times as many as before in one pass.
+constexpr std::uint32_t kMostRays = kManyRays << 9, kMostTimes = 16;
+/// Less than so many times the rays before are not worth a pass.
+constexpr double kLeastTimes = 1.41;
+/// Steps of the search for how many rays a variance takes, and how far it goes beyond where the
+/// most uncertain lumel has the most rays.
+constexpr int kSearchSteps = 24;
+constexpr double kWidestSearch = 1e3;
 /// Halves that differ by more than this share of their mean, and of that of all lumels, are
 /// uncertain.
 constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
@@ -105,6 +117,8 @@ DirectFinder::DirectFinder(const LinkScene& place, const LightSources& sources,
       order_(order),
       seed_(seed),
       half_{std::vector<glm::vec3>(order.size()), std::vector<glm::vec3>(order.size())},
+      taken_(order.size()),
+      more_(order.size()),
       seen_(order.size()),
       uncertain_(order.size()),
       varying_(order.size(), kSame),
@@ -112,26 +126,33 @@ DirectFinder::DirectFinder(const LinkScene& place, const LightSources& sources,
 {
 }
 
-/// Sources that send much have rays of their own; `rest`: running sums over all sources of what the
-/// others might send, empty if there are none.
-void DirectFinder::share_out_rays(const glm::vec3& at, float size, std::vector<std::uint32_t>& own,
-                                  std::vector<float>& rest) const
+/// Sources that send much have rays of their own, in proportion to what they may send; `rest`:
+/// running sums over all sources of what the others might send.
+std::vector<DirectFinder::RaysTo> DirectFinder::share_out_rays(const glm::vec3& at, float size,
+                                                               std::vector<float>& rest) const
 {
-    own.clear();
     rest.resize(sources_.count());
-    float total = 0.0f;
-    for (std::uint32_t s = 0; s < sources_.count(); ++s)
+    float total = 0.0f, most = 0.0f;
+    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
         total += rest[s] = sources_.guess(s, at, size);
+        most = std::max(most, rest[s]);
+    }
+    const auto halved = [&](float guess) {
+        const float times = most > 0.0f ? std::round(std::log2(most / guess)) : 0.0f;
+        return std::uint32_t(std::clamp(times, 0.0f, float(kMostHalved)));
+    };
+    std::vector<RaysTo> result;
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < sources_.count(); ++s) {
         if (rest[s] >= kOwnRays * total) {
-            own.push_back(s);
+            result.push_back({.source = s, .halved = halved(rest[s])});
             rest[s] = 0.0f;
         }
         rest[s] = sum += rest[s];
     }
-    if (!(sum > 0.0f))
-        rest.clear();
+    if (sum > 0.0f)
+        result.push_back({.halved = halved(sum), .rest = &rest});
+    return result;
 }
 
 /// By running sums over the sources.
@@ -196,23 +217,25 @@ glm::vec3 DirectFinder::light_at(const RayStart& start, float size, std::uint32_
 }
 
 /// Adds what the rays to a source find, or to the rest of the sources together.
-void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, bool many, Found& found) const
+void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
+                            Found& found) const
 {
-    const bool small = to.alone && sources_.is_small(to.source);
-    const std::uint32_t rays =
-        many ? (small ? kManyToSmall : kManyRays) << level_ : (small ? kFewToSmall : kFewRays);
+    const bool many = more > 0, alone = !to.rest, small = alone && sources_.is_small(to.source);
+    const std::uint32_t times = small ? kTimesToSmall : 1;
+    const std::uint32_t begin = many ? times * taken_[i] >> to.halved : 0;
+    const std::uint32_t end = begin + times * (many ? more >> to.halved : kFewRays);
     std::array<Sums, kCells> of_cells;
     Sums of_both;
     for (std::uint32_t h = 0; h < 2; ++h) {
         Sums sums;
-        const std::uint32_t stream = PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
-                                                       2 * to.source + (to.alone ? 0 : 1) +
-                                                           (many ? kManyStream << level_ : 0));
-        for (std::uint32_t k = 0; k < rays; ++k) {
+        const std::uint32_t stream =
+            PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
+                              2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
+        for (std::uint32_t k = begin; k < end; ++k) {
             const PathSamples samples(stream, k);
             const RayStart start = starts_.start(i, samples.stratified(kStartPair));
-            const Choice choice = to.alone ? Choice{to.source, 1.0f}
-                                           : choose(*to.rest, samples.stratified(kChoicePair).x);
+            const Choice choice = alone ? Choice{to.source, 1.0f}
+                                        : choose(*to.rest, samples.stratified(kChoicePair).x);
             const Seen seen = look(start, choice.source, choice.factor,
                                    samples.stratified(kSourcePair), samples.bits(kSourcePair));
             for (Sums* into : {&sums, &of_both, &of_cells[start.cell]})
@@ -224,47 +247,50 @@ void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, bool many, Found&
     found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
     found.exact = found.exact && of_both.exact;
     if (of_both.free > 0)
-        found.seen |= 1u << (to.alone ? to.source % 32 : 31);
+        found.seen |= 1u << (alone ? to.source % 32 : 31);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
         found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
 }
 
-DirectFinder::Found DirectFinder::find(std::uint32_t i, bool many) const
+DirectFinder::Found DirectFinder::find(std::uint32_t i, std::uint32_t more) const
 {
     Found found;
     const Lumel& lumel = place_.lumels.lumels[i];
     if (lumel.flags & kLumelBuried)
         return found;
-    std::vector<std::uint32_t> own;
     std::vector<float> rest;
-    share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, own, rest);
-    for (const std::uint32_t source : own)
-        add_rays(i, {.alone = true, .source = source}, many, found);
-    if (!rest.empty())
-        add_rays(i, {.alone = false, .rest = &rest}, many, found);
+    for (const RaysTo& to :
+         share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
+        add_rays(i, to, more, found);
     // A ray for a cell tells something only if it tells all.
-    if (!many && !found.exact)
+    if (more == 0 && !found.exact)
         found.cells.fill(0.5f * (found.half[0] + found.half[1]));
     return found;
 }
 
-/// Takes over what was found of lumel i.
+/// Takes over what was found of lumel i; many rays are the mean of what all of them found.
 void DirectFinder::keep(std::uint32_t i, const Found& found, Block& block)
 {
-    half_[0][i] = found.half[0];
-    half_[1][i] = found.half[1];
-    uncertain_[i] = found.uncertain;
-    if (first_pass_)
+    const std::uint32_t taken = taken_[i], more = more_[i];
+    const float before = taken > 0 ? float(taken) / float(taken + more) : 0.0f;
+    OfCells cells;
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        cells[c] = before * at(i, c) + (1.0f - before) * found.cells[c];
+    for (int h = 0; h < 2; ++h)
+        half_[h][i] = before * half_[h][i] + (1.0f - before) * found.half[h];
+    taken_[i] += more;
+    if (first_pass_) {
+        uncertain_[i] = found.uncertain;
         seen_[i] = found.seen;
+    }
     block.rays += found.rays;
     const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
         return luminance(one) < luminance(other);
     };
-    const auto [least, most] =
-        std::minmax_element(found.cells.begin(), found.cells.end(), by_light);
+    const auto [least, most] = std::minmax_element(cells.begin(), cells.end(), by_light);
     if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
         block.lumel.push_back(i);
-        block.cells.push_back(found.cells);
+        block.cells.push_back(cells);
     }
 }
 
@@ -278,7 +304,7 @@ bool DirectFinder::step()
         for (std::size_t b = done_ + first; b < done_ + last; ++b) {
             Block& block = blocks_[b];
             for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, list.size()); ++k)
-                keep(list[k], find(list[k], !first_pass_), block);
+                keep(list[k], find(list[k], more_[list[k]]), block);
         }
     });
     done_ = last_block;
@@ -291,30 +317,71 @@ bool DirectFinder::step()
     keep_cells();
     const bool more = first_pass_ && !many_.empty();
     first_pass_ = false;
-    if (more) {
-        blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
-        done_ = 0;
-    }
+    if (more)
+        begin_pass();
     return more;
 }
 
-bool DirectFinder::refine()
+void DirectFinder::begin_pass()
 {
-    const double mean = mean_of_all();
-    // What sees a part of a source stays: to drop those whose halves agree by chance would state
-    // too small an error.
-    std::erase_if(many_, [&](std::uint32_t i) { return !uncertain_[i] && !differs(i, mean); });
-    if (many_.empty() || level_ == kMostRefined)
-        return false;
-    ++level_;
     blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
     done_ = 0;
-    return true;
 }
 
-std::uint64_t DirectFinder::rays_to_refine() const
+/// Rays that lumel i should have more, if so many were best.
+std::uint32_t DirectFinder::wanted(std::uint32_t i, double rays) const
 {
-    return std::uint64_t(many_.size()) * (2 * kManyRays << (level_ + 1));
+    const std::uint32_t taken = taken_[i];
+    if (!(rays > kLeastTimes * double(std::max(taken, kFewRays))))
+        return 0;
+    const double doubled = std::round(std::log2(std::max(rays / double(kManyRays), 1.0)));
+    const std::uint32_t most = std::min(std::max(taken, kManyRays) * kMostTimes, kMostRays);
+    const auto all = std::uint32_t(std::min(std::exp2(doubled) * double(kManyRays), double(most)));
+    return all > taken ? all - taken : 0;
+}
+
+bool DirectFinder::refine(double share, std::uint64_t most, const std::vector<double>& weight)
+{
+    // The variance of a ray is about that of the lumel times its rays. All variances together are
+    // least if rays are in proportion to deviations.
+    const auto rays_of = [&](std::uint32_t i) { return double(std::max(taken_[i], kFewRays)); };
+    std::vector<double> variance(order_.size()), square(order_.size());
+    double now = 0.0;
+    for (const std::uint32_t i : order_) {
+        const glm::vec3 apart = half_[0][i] - half_[1][i];
+        now += variance[i] = weight[i] * double(glm::dot(apart, apart));
+        square[i] = variance[i] * rays_of(i);
+    }
+    const std::vector<double> deviation = deviation_nearby(square, order_, 1.0);
+    const double widest = *std::max_element(deviation.begin(), deviation.end());
+    const auto enough = [&](double scale) {
+        double left = 0.0;
+        std::uint64_t rays = 0;
+        for (const std::uint32_t i : order_) {
+            const std::uint32_t more = wanted(i, scale * deviation[i]);
+            rays += 2 * std::uint64_t(more);
+            left += more > 0 ? variance[i] * rays_of(i) / double(taken_[i] + more) : variance[i];
+        }
+        return rays >= most || left <= share * now;
+    };
+    if (!(widest > 0.0))
+        return false;
+    double low = double(kFewRays) / widest, high = kWidestSearch * double(kMostRays) / widest;
+    for (int step = 0; step < kSearchSteps; ++step) {
+        const double middle = std::sqrt(low * high);
+        (enough(middle) ? high : low) = middle;
+    }
+    many_.clear();
+    for (const std::uint32_t i : order_) {
+        more_[i] =
+            place_.lumels.lumels[i].flags & kLumelBuried ? 0 : wanted(i, high * deviation[i]);
+        if (more_[i] > 0)
+            many_.push_back(i);
+    }
+    if (many_.empty())
+        return false;
+    begin_pass();
+    return true;
 }
 
 double DirectFinder::fraction() const
@@ -375,8 +442,10 @@ void DirectFinder::mark_uncertain_hidden()
                 needs[i] = needs[j] = 1;
         }
     for (const std::uint32_t i : order_)
-        if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried))
+        if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried)) {
             many_.push_back(i);
+            more_[i] = kManyRays;
+        }
 }
 
 /// Takes over what the blocks of a pass found of cells.

@@ -32,11 +32,10 @@ public:
     bool step();
     /// 0…1
     double fraction() const;
-    /// Finds the light anew where it is uncertain, by twice as many rays: steps are left again.
-    /// False, and nothing is left, if it is uncertain nowhere, or finer than is sensible.
-    bool refine();
-    /// Rays to one source that refine() would take, at most.
-    std::uint64_t rays_to_refine() const;
+    /// Prepares to add rays where light is uncertain, until its variance has fallen to `share` of
+    /// what it is, by `most` rays to one source at most: steps are left again. weight [N]: of the
+    /// square of each lumel's error. False, and nothing is left, if no rays would help.
+    bool refine(double share, std::uint64_t most, const std::vector<double>& weight);
 
     /// Two independent estimates [2][N] [lx].
     const std::vector<glm::vec3>& half(int h) const { return half_[h]; }
@@ -61,9 +60,9 @@ private:
     struct Sums;
     /// A source that rays go to, or several that share them.
     struct RaysTo {
-        bool alone = true;
         std::uint32_t source = 0;
-        const std::vector<float>* rest = nullptr;  ///< running sums
+        std::uint32_t halved = 0;                  ///< how often its rays are
+        const std::vector<float>* rest = nullptr;  ///< running sums of several that share them
     };
     struct Seen {
         SourceSample sample;
@@ -75,16 +74,18 @@ private:
         std::uint64_t rays = 0;
     };
 
-    void share_out_rays(const glm::vec3& at, float size, std::vector<std::uint32_t>& own,
-                        std::vector<float>& rest) const;
+    std::vector<RaysTo> share_out_rays(const glm::vec3& at, float size,
+                                       std::vector<float>& rest) const;
     Seen look(const RayStart& start, std::size_t source, float factor, const glm::vec2& at,
               std::uint32_t seed) const;
     static Choice choose(const std::vector<float>& running, float at);
-    void add_rays(std::uint32_t lumel, const RaysTo& to, bool many, Found& found) const;
-    Found find(std::uint32_t lumel, bool many) const;
+    void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, Found& found) const;
+    Found find(std::uint32_t lumel, std::uint32_t more) const;
     void keep(std::uint32_t lumel, const Found& found, Block& block);
     double mean_of_all() const;
     bool differs(std::size_t lumel, double mean) const;
+    std::uint32_t wanted(std::uint32_t lumel, double rays) const;
+    void begin_pass();
     void keep_cells();
     void mark_uncertain_hidden();
 
@@ -93,11 +94,12 @@ private:
     const RayStarts& starts_;
     const std::vector<std::uint32_t>& order_;
     std::uint32_t seed_;
-    std::uint32_t level_ = 0;  ///< many rays are 2^level times as many
     std::vector<glm::vec3> half_[2];
+    std::vector<std::uint32_t> taken_;    ///< [N] rays of one half to a source, beside the few
+    std::vector<std::uint32_t> more_;     ///< [N] of them that this pass adds
     std::vector<std::uint32_t> seen_;     ///< [N] bit s: a source of that number mod 32 is seen
     std::vector<char> uncertain_;         ///< [N]
-    std::vector<std::uint32_t> many_;     ///< lumels that many rays are for
+    std::vector<std::uint32_t> many_;     ///< lumels that this pass is for
     std::vector<std::uint32_t> varying_;  ///< [N] index into cells_, or kSame
     std::vector<OfCells> cells_;
     std::vector<Block> blocks_;

@@ -29,7 +29,7 @@ constexpr float kSmallMesh = 0.02f;
 constexpr std::uint32_t kCandidates = 4;
 /// A triangle that fills more of the sphere than this [sr] is sampled by solid angle, since area
 /// would put too few points where it is near. [Arv95]
-constexpr double kWideTriangle = 0.02;
+constexpr double kWideTriangle = 0.25;
 /// Points per triangle that find the mean emission of a textured one, per axis.
 constexpr int kMeanSide = 6;
 /// A sky's parts that are brighter than this many times its mean are seen for, if they send more
@@ -308,9 +308,6 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
 {
     const glm::vec3 edge_u = triangle.corner[1] - triangle.corner[0];
     const glm::vec3 edge_v = triangle.corner[2] - triangle.corner[0];
-    glm::dvec3 to[3];
-    for (int k = 0; k < 3; ++k)
-        to[k] = glm::normalize(glm::dvec3(triangle.corner[k]) - glm::dvec3(start.position));
     const float height = glm::dot(triangle.normal, triangle.corner[0] - start.position);
     SourceSample sample;
     float density = 0.0f;  // per solid angle
@@ -318,11 +315,15 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
     // Twice its area over the square of the distance is close enough to choose by.
     const glm::vec3 middle = triangle.corner[0] + (edge_u + edge_v) / 3.0f - start.position;
     const bool wide = double(triangle.area) > kWideTriangle * double(glm::dot(middle, middle));
-    const SphericalTriangle sphere = wide ? SphericalTriangle(to[0], to[1], to[2])
-                                          : SphericalTriangle({1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-    if (wide && sphere.area() > 0.0) {
-        sample.direction = sphere.direction(at);
-        density = 1.0f / float(sphere.area());
+    const auto towards = [&](int k) {
+        return glm::normalize(glm::dvec3(triangle.corner[k]) - glm::dvec3(start.position));
+    };
+    std::optional<SphericalTriangle> sphere;
+    if (wide)
+        sphere.emplace(towards(0), towards(1), towards(2));
+    if (sphere && sphere->area() > 0.0) {
+        sample.direction = sphere->direction(at);
+        density = 1.0f / float(sphere->area());
         const float along = glm::dot(triangle.normal, sample.direction);
         sample.distance = along != 0.0f ? height / along : 0.0f;
         const glm::vec3 p =
@@ -380,7 +381,7 @@ SourceSample LightSources::from_polygons(const Source& source, const RayStart& s
 
 /// Chooses among points on triangles drawn by power one by what it sends here. [TCE05]
 SourceSample LightSources::from_mesh(const Source& source, const RayStart& start,
-                                     glm::vec2 at) const
+                                     const glm::vec2& at) const
 {
     const auto first = running_.begin() + source.first, last = running_.begin() + source.last;
     const auto bits = std::uint32_t(at.x * 0x1p16f) << 16 | std::uint32_t(at.y * 0x1p16f);

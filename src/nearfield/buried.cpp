@@ -136,7 +136,7 @@ public:
 private:
     /// [lines][places along a line] whether a place is open.
     using Grid = std::array<bool, std::size_t(kStrips) * kStrips>;
-    static std::size_t at(int line, int k) { return std::size_t(line * kStrips + k); }
+    static std::size_t at(int line, int k) { return std::size_t(line) * kStrips + std::size_t(k); }
 
     bool is_open(float along, float across, bool swapped)
     {

@@ -1,7 +1,7 @@
 #pragma once
 // The punctual lights of a scene as rays on the host sample them, for the truth, `update` and
-// `why`. Bakes find their light on the device (lights/lamps.h), in another way on purpose: the
-// truth judges it. See lamps.cpp for the equations.
+// `why`. Bakes find their light on the device (lights/lamps.h) or by links (links/sources.h), with
+// code of their own on purpose: the truth judges it. See lamps.cpp for the equations.
 
 #include <cstddef>
 #include <vector>

@@ -143,6 +143,7 @@ struct RayScene::Data {
     RTCDevice device = nullptr;
     RTCScene tree = nullptr;
     std::vector<Part> parts;  ///< by Embree's geometry number
+    glm::vec3 low{0.0f}, high{0.0f};
 
     Data() = default;
     Data(const Data&) = delete;
@@ -226,6 +227,12 @@ RayScene::RayScene(const Scene& scene) : data_(std::make_unique<Data>())
             data_->add(scene, i, p);
     rtcCommitScene(data_->tree);
     data_->check("building the tree for ray queries");
+    if (!data_->parts.empty()) {
+        RTCBounds bounds;
+        rtcGetSceneBounds(data_->tree, &bounds);
+        data_->low = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
+        data_->high = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+    }
 }
 
 RayScene::~RayScene() = default;
@@ -288,20 +295,12 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
 
 glm::vec3 RayScene::low() const
 {
-    if (data_->parts.empty())
-        return glm::vec3(0.0f);
-    RTCBounds bounds;
-    rtcGetSceneBounds(data_->tree, &bounds);
-    return {bounds.lower_x, bounds.lower_y, bounds.lower_z};
+    return data_->low;
 }
 
 glm::vec3 RayScene::high() const
 {
-    if (data_->parts.empty())
-        return glm::vec3(0.0f);
-    RTCBounds bounds;
-    rtcGetSceneBounds(data_->tree, &bounds);
-    return {bounds.upper_x, bounds.upper_y, bounds.upper_z};
+    return data_->high;
 }
 
 float RayScene::lift() const

@@ -23,10 +23,12 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "atlas/morton.h"
 #include "core/frame.h"
 #include "core/luminance.h"
+#include "links/deviation.h"
 #include "paths/samples.h"
 #include "solve/methods.h"
 
@@ -36,19 +38,21 @@ namespace {
 /// Rays of a lumel in each solution of the first round; powers of two stratify best.
 constexpr std::uint32_t kFirstRays = 8;
 /// A later round has at least this share of the rays so far, and so many rays of a lumel at most.
-constexpr double kLeastMore = 0.25, kMostMore = 3.0;
+constexpr double kLeastMore = 0.4, kMostMore = 3.0;
 /// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMostRays = 4096;
-/// Share of its rays that go to all lumels alike; neighbours on either side, in the order of
-/// lumels, from which the deviation of one is guessed.
+/// Share of its rays that go to all lumels alike.
 constexpr double kEvenShare = 0.25;
-constexpr std::size_t kNeighbours = 4;
 /// Blocks of links that one step traces at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
-/// Direct light is found better if its noise is more than this share of all; and alone, without
-/// more links, if it is more than that share.
-constexpr double kMostOfDirect = 0.5, kRestOfLinks = 0.8;
+/// Direct light is found better if its variance is so many times what it should be; in one go at
+/// most to this share of what it is.
+constexpr double kTooUncertain = 1.25, kLeastDirect = 1.0 / 16.0;
+/// A ray of a link costs so many times one to a source, sweeps and filter included.
+constexpr double kCostOfLink = 1.5;
+/// Bounds of direct light's share in the variance that is asked for.
+constexpr double kLeastShare = 0.1, kMostShare = 0.6;
 /// Mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
 /// Lumels that are darker than this share of the mean are dark.
@@ -74,7 +78,11 @@ std::vector<std::uint32_t> order_in_space(const WorldLumels& world)
     struct Key {
         std::uint64_t cell, side, fine;
         std::uint32_t lumel;
-        auto operator<=>(const Key&) const = default;
+        bool operator<(const Key& other) const
+        {
+            return std::tie(cell, side, fine, lumel) <
+                   std::tie(other.cell, other.side, other.fine, other.lumel);
+        }
     };
     std::vector<Key> keys(world.size());
     for (std::size_t i = 0; i < world.size(); ++i) {
@@ -155,12 +163,11 @@ void LinkRadiosity::step()
         const Clock clock(times_["direct light"]);
         if (direct_->step())
             break;
-        if (refines_alone_) {
-            refines_alone_ = false;
+        if (state_.shots == 0) {
+            begin_round();
+        } else {
             estimate();
             go_on();
-        } else {
-            begin_round();
         }
         break;
     }
@@ -202,16 +209,7 @@ void LinkRadiosity::cut()
 /// As many rays as the error still asks for, within limits.
 void LinkRadiosity::begin_round()
 {
-    mean_rays_ = kFirstRays;
-    if (state_.shots > 0) {
-        const double so_far = double(state_.shots) / double(kSolutions);
-        double more = so_far;
-        if (const double ratio = missing(); ratio > 0.0) {
-            more = std::clamp(kAdaptiveGain * so_far * (ratio * ratio - 1.0), kLeastMore * so_far,
-                              kMostMore * so_far);
-        }
-        mean_rays_ = std::min(more, double(kMostRays));
-    }
+    mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
     share_out_rays();
     traced_ = 0;
     stage_ = Stage::links;
@@ -219,45 +217,61 @@ void LinkRadiosity::begin_round()
         gathered->rounds.emplace_back(tracer_->blocks());
 }
 
-/// The sum of variances is least if rays are in proportion to deviations. That of a lumel is
-/// guessed from the halves of its neighbours in space, not from its own: they are to state the
-/// error, and rays must not follow them. A part of the rays goes to all alike, since what has not
-/// met any light yet looks quiet.
+/// Rays that each solution should have more, for the error that is asked for.
+double LinkRadiosity::more_rays() const
+{
+    const double so_far = double(state_.shots) / double(kSolutions);
+    double more = so_far;
+    if (const std::vector<Wanted> all = wanted(); !all.empty()) {
+        double ratio = 0.0;
+        for (const Wanted& one : all) {
+            const double square = one.error * one.error;
+            const double left = square - std::min(one.now.direct, kMostShare * square);
+            ratio = std::max(ratio, one.now.rays / left);
+        }
+        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kLeastMore * so_far,
+                          kMostMore * so_far);
+    }
+    return std::min(more, double(kMostRays));
+}
+
+/// What the square of each lumel's error counts [N]: where dark lumels are asked for, what they
+/// lack counts by their own light, half way.
+std::vector<double> LinkRadiosity::weights() const
+{
+    std::vector<double> weight(order_.size(), 1.0);
+    if (target_dark_error_ > 0.0)
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            const glm::vec3 all = arrived(i);
+            weight[i] = 1.0 / (double(all.r + all.g + all.b) + kDarkest * mean_light_);
+        }
+    return weight;
+}
+
+/// The sum of variances is least if rays are in proportion to deviations. A part of the rays goes
+/// to all alike, since what has not met any light yet looks quiet.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
     if (state_.shots == 0)
         return;
-    const std::size_t count = order_.size();
-    std::vector<double> running(count + 1, 0.0), deviation(count);
-    const double floor = kDarkest * mean_light_;
-    for (std::size_t o = 0; o < count; ++o) {
-        const glm::vec3 a = indirect(order_[o], 0), b = indirect(order_[o], 1),
-                        c = indirect(order_[o], 2), sum = a + b + c;
-        // Where dark lumels count, what they lack counts by their own light, half way.
-        const double weight =
-            target_dark_error_ > 0.0 ? 1.0 / (double(sum.r + sum.g + sum.b) + floor) : 1.0;
-        running[o + 1] = running[o] + weight * spread(a, b, c);
-    }
+    const std::vector<double> weight = weights();
+    std::vector<double> square(order_.size());
+    for (std::size_t i = 0; i < square.size(); ++i)
+        square[i] = weight[i] * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2));
+    const std::vector<double> deviation = deviation_nearby(square, order_, 0.0);
     double mean = 0.0, lit = 0.0;
-    for (std::size_t o = 0; o < count; ++o) {
-        const std::size_t first = o - std::min(o, kNeighbours);
-        const std::size_t last = std::min(o + kNeighbours + 1, count);
-        const double own = running[o + 1] - running[o];
-        deviation[o] = std::sqrt(std::max(running[last] - running[first] - own, 0.0) /
-                                 double(std::max<std::size_t>(last - first - 1, 1)));
-        if (!(lumels_.lumels[order_[o]].flags & kLumelBuried)) {
-            mean += deviation[o];
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+            mean += deviation[i];
             lit += 1.0;
         }
-    }
     mean /= std::max(lit, 1.0);
     if (!(mean > 0.0))
         return;
-    for (std::size_t o = 0; o < count; ++o) {
-        const double share = kEvenShare + (1.0 - kEvenShare) * deviation[o] / mean;
-        rays_[order_[o]] =
-            std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMostRays)));
+    for (std::size_t i = 0; i < deviation.size(); ++i) {
+        const double share = kEvenShare + (1.0 - kEvenShare) * deviation[i] / mean;
+        rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMostRays)));
     }
 }
 
@@ -269,6 +283,7 @@ void LinkRadiosity::end_round()
     }
     state_.shots += std::uint64_t(std::llround(double(kSolutions) * mean_rays_));
     ++round_;
+    combine();
     estimate();
     go_on();
 }
@@ -301,31 +316,57 @@ void LinkRadiosity::balance(std::size_t k)
         light *= factor;
 }
 
-/// How many times larger the error is than the one asked for; 0: none is asked for.
-double LinkRadiosity::missing() const
+/// The errors that are asked for.
+std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
 {
-    double ratio = 0.0;
+    std::vector<Wanted> result;
     if (target_error_ > 0.0)
-        ratio = std::max(ratio, state_.error / target_error_);
+        result.push_back({target_error_, all_});
     if (target_dark_error_ > 0.0)
-        ratio = std::max(ratio, state_.dark_error / target_dark_error_);
-    return ratio;
+        result.push_back({target_dark_error_, dark_});
+    return result;
 }
 
-/// What comes next: better direct light, more links, or both.
+/// What comes next: better direct light, or more links.
 void LinkRadiosity::go_on()
 {
-    const bool wanted = target_error_ > 0.0 || target_dark_error_ > 0.0;
-    if (wanted && missing() <= 1.0)
+    const std::vector<Wanted> all = wanted();
+    const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
+        return one.now.rays + one.now.direct <= one.error * one.error;
+    });
+    if (reached && !all.empty())
         return;
-    // Better direct light may take as many rays as there are links, no more.
-    const bool affordable = direct_->rays_to_refine() <= state_.shots * order_.size();
-    if (direct_error_ > kMostOfDirect * state_.error && affordable && direct_->refine()) {
-        refines_alone_ = wanted && direct_error_ > kRestOfLinks * state_.error;
+    if (refine_direct())
         stage_ = Stage::direct;
-    } else {
+    else
         begin_round();
-    }
+}
+
+/// The share of direct light in the variance that is asked for. A variance that falls as 1 / rays
+/// is reached at the least cost if its parts are as the roots of variance × cost.
+double LinkRadiosity::share_of_direct(const Errors& now) const
+{
+    const double of_rays = kCostOfLink * now.rays * double(state_.shots * order_.size());
+    const double of_direct = now.direct * double(direct_->rays());
+    const double root = std::sqrt(of_direct), sum = root + std::sqrt(of_rays);
+    return sum > 0.0 ? std::clamp(root / sum, kLeastShare, kMostShare) : kMostShare;
+}
+
+/// Prepares to find direct light better, where its noise is what is in the way.
+bool LinkRadiosity::refine_direct()
+{
+    double share = 1.0;
+    const auto cut = [&](double square, const Errors& now) {
+        const double most = share_of_direct(now) * square;
+        if (now.direct > kTooUncertain * most)
+            share = std::min(share, std::max(most / now.direct, kLeastDirect));
+    };
+    const std::vector<Wanted> all = wanted();
+    for (const Wanted& one : all)
+        cut(one.error * one.error, one.now);
+    if (all.empty())
+        cut(all_.rays + all_.direct, all_);
+    return share < 1.0 && direct_->refine(share, state_.shots * order_.size(), weights());
 }
 
 /// What rays brought to a lumel in one solution, of the parts of light that are wanted [lx].
@@ -373,8 +414,8 @@ std::vector<float> LinkRadiosity::nearest() const
     return nearest;
 }
 
-/// Takes the mean of the solutions, filtered if that is better. Returns the squared errors [N].
-std::vector<double> LinkRadiosity::combine()
+/// Takes the mean of the solutions, filtered if that is better, and its squared errors.
+void LinkRadiosity::combine()
 {
     const std::size_t count = lumels_.lumels.size();
     std::array<Estimates, kSolutions> found;
@@ -383,14 +424,14 @@ std::vector<double> LinkRadiosity::combine()
         for (std::size_t i = 0; i < count; ++i)
             found[k][i] = brought(i, k);
     }
-    std::vector<double> square(count);
+    square_.resize(count);
     indirect_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         indirect_[i] = (found[0][i] + found[1][i] + found[2][i]) / 3.0f;
-        square[i] = spread(found[0][i], found[1][i], found[2][i]) / 18.0;
+        square_[i] = spread(found[0][i], found[1][i], found[2][i]) / 18.0;
     }
     if (!options_.filter)
-        return square;
+        return;
     const std::vector<float> near = nearest();
     const ChartFilter filter(place_, world_, *parts_, near);
     Estimates one, other, third, unused;
@@ -407,51 +448,55 @@ std::vector<double> LinkRadiosity::combine()
         return std::accumulate(values.begin(), values.end(), 0.0);
     };
     const double all_wrong = sum_of(wrong);
-    if (!(sum_of(noise) + std::max(all_wrong, 0.0) < sum_of(square)))
-        return square;
-    std::vector<double> after = noise;
+    if (!(sum_of(noise) + std::max(all_wrong, 0.0) < sum_of(square_)))
+        return;
+    square_ = noise;
     if (all_wrong > 0.0)
         for (std::size_t i = 0; i < count; ++i)
-            after[i] += wrong[i];
+            square_[i] += wrong[i];
     for (std::size_t i = 0; i < count; ++i)
         indirect_[i] = (one[i] + other[i] + third[i]) / 3.0f;
-    return after;
 }
 
 /// Beside the error of what rays brought, that of direct light: the difference of two independent
 /// halves has four times the variance of their mean.
 void LinkRadiosity::estimate()
 {
-    const std::vector<double> of_rays = combine();
-    std::vector<double> light, square;
-    double of_direct = 0.0;
-    for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
-        if (lumels_.lumels[i].flags & kLumelBuried)
-            continue;
-        const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
-        const double direct = parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
-        const glm::vec3 all = arrived(i);
-        light.push_back(double(all.r + all.g + all.b));
-        square.push_back(of_rays[i] + direct);
-        of_direct += direct;
-    }
-    // √(Σ d² / 3n) / (Σ H / 3n)
-    const auto relative = [](double squares, double lights, double n) {
-        return lights > 0.0 ? std::sqrt(3.0 * n * std::max(squares, 0.0)) / lights : 0.0;
-    };
-    const double count = double(light.size());
-    const double sum = std::accumulate(light.begin(), light.end(), 0.0);
-    mean_light_ = sum / std::max(count, 1.0);
-    state_.error = relative(std::accumulate(square.begin(), square.end(), 0.0), sum, count);
-    direct_error_ = relative(of_direct, sum, count);
-    double dark_squares = 0.0, dark_sum = 0.0, dark_count = 0.0;
-    for (std::size_t k = 0; k < light.size(); ++k)
-        if (light[k] < kDark * mean_light_) {
-            dark_squares += square[k];
-            dark_sum += light[k];
-            dark_count += 1.0;
+    struct Sums {
+        double rays = 0.0, direct = 0.0, light = 0.0, count = 0.0;
+
+        /// √(Σ d² / 3n) / (Σ H / 3n), squared
+        double relative(double squares) const
+        {
+            return light > 0.0 ? 3.0 * count * std::max(squares, 0.0) / (light * light) : 0.0;
         }
-    state_.dark_error = relative(dark_squares, dark_sum, dark_count);
+        Errors errors() const { return {relative(rays), relative(direct)}; }
+    };
+    const auto add = [&](Sums& sums, std::size_t i, double light) {
+        const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
+        sums.direct += parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
+        sums.rays += square_[i];
+        sums.light += light;
+        sums.count += 1.0;
+    };
+    const auto visit = [&](const auto& what) {
+        for (std::size_t i = 0; i < lumels_.lumels.size(); ++i)
+            if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+                const glm::vec3 all = arrived(i);
+                what(i, double(all.r + all.g + all.b));
+            }
+    };
+    Sums all, dark;
+    visit([&](std::size_t i, double light) { add(all, i, light); });
+    mean_light_ = all.light / std::max(all.count, 1.0);
+    visit([&](std::size_t i, double light) {
+        if (light < kDark * mean_light_)
+            add(dark, i, light);
+    });
+    all_ = all.errors();
+    dark_ = dark.errors();
+    state_.error = std::sqrt(all_.rays + all_.direct);
+    state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
 }
 
 /// At a lumel, of the parts of light that are wanted [lx].

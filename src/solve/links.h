@@ -42,20 +42,32 @@ private:
     /// Two to state the error, and a third to filter them by.
     static constexpr std::uint32_t kSolutions = 3;
     enum class Stage { begin, direct, links, solve };
+    /// Squares of what rays and what direct light have in an error.
+    struct Errors {
+        double rays = 0.0, direct = 0.0;
+    };
+    struct Wanted {
+        double error;  ///< that is asked for
+        Errors now;
+    };
 
-    struct Scratch;
     void cut();
     void begin_round();
     void share_out_rays();
     void end_round();
     void balance(std::size_t solution);
     void go_on();
+    std::vector<Wanted> wanted() const;
     double missing() const;
+    double share_of_direct(const Errors& now) const;
+    bool refine_direct();
+    double more_rays() const;
+    std::vector<double> weights() const;
     glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
     glm::vec3 arrived(std::size_t lumel) const;
     std::vector<float> nearest() const;
-    std::vector<double> combine();
+    void combine();
     void estimate();
 
     const LinksOptions options_;
@@ -82,9 +94,9 @@ private:
     double mean_rays_ = 0.0;           ///< of a lumel in it, in each half
     std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
     std::size_t traced_ = 0;           ///< blocks of it
-    bool refines_alone_ = false;       ///< direct light is found better, no links are traced
+    std::vector<double> square_;       ///< [N] squared errors of indirect_
     double mean_light_ = 0.0;          ///< of all channels together [lx]
-    double direct_error_ = 0.0;        ///< share of direct light's noise in the error
+    Errors all_, dark_;
     SolverState state_;
     gpu::StageTimes times_;
 };
