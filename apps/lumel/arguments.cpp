@@ -245,6 +245,13 @@ void add_sky_directions_option(CLI::App& app, BakeOptions& options)
         ->check(whole(2, kMostDirections));
 }
 
+void add_keep_lights_option(CLI::App& app, bool& keep_lights)
+{
+    app.option_defaults()->group(kLightmapGroup);
+    app.add_flag("--keep-lights", keep_lights,
+                 "Keep lamps and skies of the scene in scene.glb, though their light is baked");
+}
+
 void add_half_option(CLI::App& app, bool& half)
 {
     app.option_defaults()->group(kLightmapGroup);
@@ -308,6 +315,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     add_stop_options(command, bake.options.solver);
     add_device_option(command, bake.options.device);
     add_half_option(command, bake.options.half);
+    add_keep_lights_option(command, bake.options.keep_lights);
     add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);

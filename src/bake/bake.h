@@ -22,6 +22,7 @@ struct BakeOptions {
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     Parts parts = Parts::all;                     ///< of the light that arrives
     bool half = false;                            ///< lightmap.exr in half precision
+    bool keep_lights = false;                     ///< that are baked in scene.glb too
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
     std::string dump;  ///< folder for intermediate images, see dump.h; empty: none

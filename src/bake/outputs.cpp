@@ -5,6 +5,8 @@
 #include "bake/directional_layers.h"
 #include "bake/reference.h"
 #include "bake/report.h"
+#include "core/error.h"
+#include "core/log.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
@@ -50,26 +52,50 @@ float write_map(const OutputFolder& folder, const std::string& name, const Image
     return exposure;
 }
 
-float write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
-                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
-                  const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
+namespace {
+
+/// A picture that cannot be made costs no more than itself.
+bool write_preview(const OutputFolder& folder, const gpu::Device& device, const Prepared& prepared,
+                   const Image& map, int width)
+{
+    try {
+        const View view = choose_view(prepared.scene, prepared.rays);
+        write_png(
+            folder.path(kPreview),
+            tone_map(render_preview(device, prepared.scene, prepared.atlas, map, view, width)));
+        return true;
+    } catch (const Error& error) {
+        if (error.kind() == ErrorKind::output)
+            throw;
+        log_warning(std::string("there is no ") + kPreview + ": " + error.what());
+        return false;
+    }
+}
+
+}  // namespace
+
+WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
+                         const Prepared& prepared, const gpu::Device* device,
+                         const std::vector<glm::vec3>& irradiance,
+                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
 {
     const DirectionalMaps maps = finish_directional(prepared, irradiance, coefficients);
     const Image& map = maps.light;
     const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
                                       radiance_of(prepared.lumels, irradiance));
-    const float exposure = write_map(folder, kLightmap, map, options.half, prepared, maps.layers);
+    WrittenLight written{
+        .exposure = write_map(folder, kLightmap, map, options.half, prepared, maps.layers)};
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
-    write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map);
+    // Where only indirect light is baked, viewers add the direct light of lamps themselves.
+    write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
+                    {.keep = options.keep_lights || options.parts == Parts::indirect,
+                     .exposure = written.exposure});
     write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, radiance);
     if (device && options.preview_width > 0) {
         stages.begin("preview");
-        const View view = choose_view(prepared.scene, prepared.rays);
-        write_png(folder.path("preview.png"),
-                  tone_map(render_preview(*device, prepared.scene, prepared.atlas, map, view,
-                                          options.preview_width)));
+        written.preview = write_preview(folder, *device, prepared, map, options.preview_width);
     }
-    return exposure;
+    return written;
 }
 
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
@@ -77,12 +103,12 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
                        const std::vector<glm::vec3>& irradiance, const Results& results,
                        Stages& stages)
 {
-    const float exposure = write_light(folder, options, prepared, &device, irradiance,
-                                       results.directional.coefficients, stages);
+    const WrittenLight written = write_light(folder, options, prepared, &device, irradiance,
+                                             results.directional.coefficients, stages);
     stages.end();
     device.check_validation();
 
-    const BakeRecord record = record_of(options, prepared, results, exposure);
+    const BakeRecord record = record_of(options, prepared, results, written);
     const Json report = to_json(bake_report(record, prepared, device, solver, results, stages));
     write_json(folder.path(kReportFile), report);
     folder.commit();

@@ -37,12 +37,19 @@ struct Results {
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
                 const Prepared& prepared, std::span<const Layer> directional = {});
 
+/// What write_light() wrote.
+struct WrittenLight {
+    float exposure = 0.0f;  ///< of lightmap.png [1/lx]
+    bool preview = false;
+};
+
 /// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.
-/// Returns the exposure of lightmap.png. device: for the preview, which is left out without one.
-/// irradiance [N] [lx], coefficients as of DirectionalLight.
-float write_light(const OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
-                  const gpu::Device* device, const std::vector<glm::vec3>& irradiance,
-                  const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
+/// device: for the preview, which is left out without one, and with a warning where it cannot be
+/// made. irradiance [N] [lx], coefficients as of DirectionalLight.
+WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
+                         const Prepared& prepared, const gpu::Device* device,
+                         const std::vector<glm::vec3>& irradiance,
+                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
 
 /// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,

@@ -17,7 +17,6 @@ namespace {
 
 const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    kSolutionFile,
                                               kSceneFile,     "scene-baked.glb", kReportFile};
-constexpr const char* kPreview = "preview.png";
 
 std::string file_of(const Scene& scene)
 {
@@ -97,9 +96,6 @@ void add_solution(Report& report, const gpu::Device& device, const Solver& solve
     report.interrupted = results.interrupted;
     report.convergence = results.curve;
     report.form_factors = results.form_factors;
-    if (!results.lamps.finished)
-        report.notes.emplace_back(
-            "stopped before all light of sky and lamps was found; some of it is missing");
     add_times(report, "sky and lamps: ", results.lamps.times);
     add_times(report, "", solver.times());
     report.gpu_milliseconds.emplace_back("longest submission",
@@ -123,7 +119,7 @@ Json path_tracer_settings(std::uint32_t seed)
 }  // namespace
 
 BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
-                     float exposure)
+                     const WrittenLight& written)
 {
     BakeRecord record{.scene = file_of(prepared.scene),
                       .scene_hash = prepared.scene.hash,
@@ -134,6 +130,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .parts = options.parts,
                       .directional = options.directional,
                       .half = options.half,
+                      .keep_lights = options.keep_lights,
                       .side = prepared.atlas.width,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),
                       .shots = results.shots,
@@ -141,9 +138,9 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .error = results.error,
                       .dark_error = results.dark_error,
                       .interrupted = results.interrupted,
-                      .exposure = exposure,
+                      .exposure = written.exposure,
                       .files = kBakedFiles};
-    if (options.preview_width > 0)
+    if (written.preview)
         record.files.emplace_back(kPreview);
     if (results.relightable)
         record.files.emplace_back(kMatrixFile);
@@ -151,7 +148,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
 }
 
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
-                     const Prepared& prepared, std::optional<float> exposure, bool preview,
+                     const Prepared& prepared, const std::optional<WrittenLight>& written,
                      bool interrupted)
 {
     baked.scene = file_of(prepared.scene);
@@ -164,9 +161,10 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     else if (baked.error >= 0.0)
         baked.error = std::hypot(baked.error, row.residual);
     baked.interrupted = interrupted;
-    baked.exposure = exposure ? exposure : baked.exposure;
+    if (written)
+        baked.exposure = written->exposure;
     baked.files = kBakedFiles;
-    if (preview)
+    if (written && written->preview)
         baked.files.emplace_back(kPreview);
     return baked;
 }

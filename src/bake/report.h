@@ -13,12 +13,11 @@ struct ReferenceOptions;
 
 /// What a bake is. exposure: of lightmap.png.
 BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
-                     float exposure);
+                     const WrittenLight& written);
 
-/// What a bake is once it was corrected. exposure: of lightmap.png if it was written anew.
-/// preview: a picture was written.
+/// What a bake is once it was corrected. written: if light was written anew.
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
-                     const Prepared& prepared, std::optional<float> exposure, bool preview,
+                     const Prepared& prepared, const std::optional<WrittenLight>& written,
                      bool interrupted);
 
 /// The facts of a bake.

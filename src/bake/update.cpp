@@ -66,7 +66,8 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     options.solver.method = baked.solver.method;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
-        edit.now.scene, [&](const Scene&) { return edit.now.atlas; }, device, options, stages);
+        edit.now.scene, [&](const Scene&, const Watch&) { return edit.now.atlas; }, device, options,
+        stages);
     std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
     const SolverState state = solution->solver->state();
     row.solved_anew = true;
@@ -134,7 +135,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     UpdateRow row = changes_of(edit);
     row.error_before = baked.error;
     std::optional<gpu::Device> device;
-    std::optional<float> exposure;
+    std::optional<WrittenLight> written;
     if (row.any()) {
         if (row.relit || options.preview_width > 0)
             device.emplace(options.device);
@@ -143,16 +144,18 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         stages.begin("finishing");
         BakeOptions files;
         files.half = baked.half;
+        files.keep_lights = baked.keep_lights;
+        files.parts = baked.parts;
         files.preview_width = options.preview_width;
         output.outdate(kMatrixFile);
-        exposure = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
-                               stages);
+        written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
+                              stages);
     }
     stages.end();
     if (device)
         device->check_validation();
-    const BakeRecord record = corrected(std::move(baked), options, row, edit.now, exposure,
-                                        device && options.preview_width > 0, stages.stopped());
+    const BakeRecord record =
+        corrected(std::move(baked), options, row, edit.now, written, stages.stopped());
     const Json report =
         to_json(update_report(record, row, edit.now, device ? &*device : nullptr, stages));
     write_json(output.path(kReportFile), report);

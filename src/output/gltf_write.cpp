@@ -8,6 +8,7 @@
 #include "output/baked_materials.h"
 #include "output/baked_meshes.h"
 #include "output/glb_builder.h"
+#include "scene/baked_lights.h"
 
 namespace lumel {
 namespace {
@@ -38,6 +39,19 @@ Image without_alpha(const Image& map, float scale)
     return rgb;
 }
 
+// In asset.extras: what a viewer should know of the light that is baked.
+void tell_of_lights(Json& gltf, const SceneLights& lights)
+{
+    Json told = {{"lightmapUnit", "lx"}};
+    if (lights.exposure)
+        told["exposure"] = *lights.exposure;
+    told["bakedLights"] = lights.keep ? 0 : put_away_lights(gltf);
+    Json& extras = gltf["asset"]["extras"];
+    if (!extras.is_null() && !extras.is_object())
+        extras = Json{{"value", std::move(extras)}};
+    extras["lumel"] = std::move(told);
+}
+
 void write(const std::string& path, GlbBuilder& builder)
 {
     list_extensions(builder.json, builder.document().json);
@@ -48,12 +62,13 @@ void write(const std::string& path, GlbBuilder& builder)
 }  // namespace
 
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& map)
+                     const Image& map, const SceneLights& lights)
 {
     const GltfDocument document = load_gltf_document(scene.path);
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
+    tell_of_lights(builder.json, lights);
     cut_baked_primitives(builder.json, baked);
     const std::vector<std::size_t> materials = separate_materials(builder.json, baked);
     if (const auto old = outdated_lightmap(builder.json, document.json))

@@ -7,6 +7,7 @@
 // Materials that read their own textures through the old TEXCOORD_1 find it under TEXCOORD_0, or
 // under the next free number where that is read too.
 
+#include <optional>
 #include <string>
 
 #include "atlas/atlas.h"
@@ -15,6 +16,12 @@
 
 namespace lumel {
 
+/// What scene.glb says of light.
+struct SceneLights {
+    bool keep = false;              ///< lamps and skies of the input
+    std::optional<float> exposure;  ///< that suits the map [1/lx]
+};
+
 /// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
 /// material; the extension is listed in extensionsUsed only, so that a viewer without it shows
 /// the scene unlit. The PNG holds irradiance / intensity, 8 bits, linear; intensity [lx] is the
@@ -22,8 +29,11 @@ namespace lumel {
 /// the PNG clips. As in three.js, the radiance that a surface reflects is
 ///     albedo / π × texel × intensity.
 /// `map`: irradiance [lx], RGBA. Throws Error.
+///
+/// Lamps and skies of the input are baked: they go to extras (see scene/baked_lights.h), unless
+/// `lights` keeps them. asset.extras.lumel says how many, and has the exposure.
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& map);
+                     const Image& map, const SceneLights& lights = {});
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
 /// metallic and rough, so that it reflects nothing, and emits a texture on TEXCOORD_1: the

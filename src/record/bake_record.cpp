@@ -35,6 +35,7 @@ void each_setting(Record& record, const Visit& visit)
     visit("only", record.parts);
     visit("directional", record.directional);
     visit("half", record.half);
+    visit("keep-lights", record.keep_lights);
 }
 
 [[noreturn]] void refuse(const std::string& folder, const std::string& what)

@@ -18,7 +18,7 @@ namespace lumel {
 
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
-                            *kSolutionFile = "solution.exr";
+                            *kSolutionFile = "solution.exr", *kPreview = "preview.png";
 
 struct BakeRecord {
     std::string scene;       ///< name of the file, without its folder
@@ -31,6 +31,7 @@ struct BakeRecord {
     Parts parts = Parts::all;
     Directional directional = Directional::none;
     bool half = false;
+    bool keep_lights = false;
 
     int side = 0;                   ///< of the square atlas [texels]
     double texels_per_metre = 0.0;  ///< as laid out

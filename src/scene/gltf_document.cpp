@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "scene/baked_lights.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_extensions.h"
@@ -103,6 +104,8 @@ GltfDocument load_gltf_document(const std::string& path)
     GltfDocument document;
     document.path = path;
     document.json = parse_json(path, file.data() + chunks.json_offset, chunks.json_size);
+    if (document.json.is_object())
+        bring_back_lights(document.json);
     const JsonView root = document.root();
     root.as_object();
     check_asset(root);

@@ -101,6 +101,48 @@ void expect_same_instances(const Scene& before, const Scene& after)
     EXPECT_EQ(after.cameras.size(), before.cameras.size());
 }
 
+/// The sources of light of a scene with a lamp, a triangle, and extras that are not ours.
+std::string lamp_scene()
+{
+    return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+        "extensionsUsed": ["KHR_lights_punctual"],
+        "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 7}]}},
+        "nodes": [{"mesh": 0},
+                  {"translation": [0, 2, 0], "extras": {"note": "mine"},
+                   "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,)"
+           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/"
+           R"("}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 0, 1]}]})";
+}
+
+TEST(GltfWrite, LampsThatAreBakedShineNoMoreButComeBackForALaterBake)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "lamp.gltf") << lamp_scene();
+    const Scene scene = read_gltf(folder / "lamp.gltf");
+    ASSERT_EQ(scene.lights.size(), 1u);
+    const Atlas atlas = test::corner_atlas(scene);
+    for (const bool keep : {false, true}) {
+        write_scene_glb(folder / "scene.glb", scene, atlas, test::any_map(atlas),
+                        {.keep = keep, .exposure = 0.25f});
+        std::ifstream file(folder / "scene.glb", std::ios::binary);
+        const std::string bytes(std::istreambuf_iterator<char>(file), {});
+        EXPECT_EQ(bytes.find(R"("extensions":{"KHR_lights_punctual")") != std::string::npos, keep);
+        const Json json = load_gltf_document(folder / "scene.glb").json;
+        EXPECT_EQ(json["asset"]["extras"]["lumel"]["bakedLights"], keep ? 0 : 1);
+        EXPECT_EQ(json["asset"]["extras"]["lumel"]["exposure"], 0.25);
+        EXPECT_EQ(json["nodes"][1]["extras"]["note"], "mine");
+        const Scene again = read_gltf(folder / "scene.glb");
+        ASSERT_EQ(again.lights.size(), 1u);
+        EXPECT_EQ(again.lights[0].intensity, 7.0f);
+        EXPECT_EQ(again.lights[0].transform, scene.lights[0].transform);
+    }
+}
+
 TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
 {
     if (conformance_files().empty())
@@ -246,7 +288,7 @@ TEST_F(TwoQuads, NamesExtrasAndLightsAreKept)
 TEST_F(TwoQuads, TheLightmapIsBoundByAnOptionalExtension)
 {
     const Json json = lit(file());
-    EXPECT_EQ(json["extensionsUsed"], Json({"KHR_lights_punctual", "MOZ_lightmap"}));
+    EXPECT_EQ(json["extensionsUsed"], Json({"MOZ_lightmap"}));  // its lamps are baked
     EXPECT_FALSE(json.contains("extensionsRequired"));
     const Json& primitive =
         json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
