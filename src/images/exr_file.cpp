@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +32,9 @@ namespace {
 constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
 constexpr std::int64_t kMaxTexels = std::int64_t(1) << 28;  // 16384², 4 GiB as floats
 
+// No compression of EXR packs more bytes into one: deflate's limit is 1032.
+constexpr std::int64_t kLargestRatio = 2048;
+
 // Collects the file in memory, so that it can be written, and fail, in one place.
 class MemoryStream : public Imf::OStream {
 public:
@@ -49,6 +53,39 @@ public:
 private:
     std::size_t place_ = 0;
 };
+
+// A file in memory, as OpenEXR reads it.
+class MemoryFile : public Imf::IStream {
+public:
+    MemoryFile(const std::string& path, const Bytes& bytes)
+        : Imf::IStream(path.c_str()),
+          bytes_(bytes)
+    {
+    }
+    bool read(char into[], int count) override
+    {
+        if (count < 0 || std::size_t(count) > bytes_.size() - std::min(place_, bytes_.size()))
+            throw std::runtime_error("the file is cut short");
+        std::memcpy(into, bytes_.data() + place_, std::size_t(count));
+        place_ += std::size_t(count);
+        return place_ < bytes_.size();
+    }
+    std::uint64_t tellg() override { return place_; }
+    void seekg(std::uint64_t place) override { place_ = place; }
+
+private:
+    const Bytes& bytes_;
+    std::size_t place_ = 0;
+};
+
+// Bytes of a texel of all channels, as they are before they are compressed.
+std::int64_t bytes_per_texel(const Imf::Header& header)
+{
+    std::int64_t bytes = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        bytes += channel.channel().type == Imf::HALF ? 2 : 4;
+    return bytes;
+}
 
 // A slice that reads or writes channel c of interleaved texels whose data window starts at (x, y).
 template <class T>
@@ -146,12 +183,18 @@ void write_exr(const std::string& path, const Image& image, Precision precision,
 Image read_exr(const std::string& path, const std::string& layer)
 {
     try {
-        Imf::InputFile file(path.c_str());
+        const Bytes bytes = read_file(path, path);
+        MemoryFile stream(path, bytes);
+        Imf::InputFile file(stream);
         const Imath::Box2i window = file.header().dataWindow();
         const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
         const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
         if (width <= 0 || height <= 0 || width > kMaxTexels || width * height > kMaxTexels)
             throw Error(ErrorKind::input, path, "has a header with an impossible size");
+        if (width * height > kLargestRatio * std::int64_t(bytes.size()) /
+                                 std::max(bytes_per_texel(file.header()), std::int64_t(1)))
+            throw Error(ErrorKind::input, path,
+                        "claims to hold more texels than its bytes can; it is damaged");
         for (int c = 0; c < 3; ++c)
             if (!file.header().channels().findChannel(channel_name(layer, c)))
                 throw Error(ErrorKind::input, path,

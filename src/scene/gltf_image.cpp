@@ -68,14 +68,20 @@ Claim png_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
+/// What stb says of the last failure; it does not know all of them.
+std::string why_not()
+{
+    const char* reason = stbi_failure_reason();
+    return reason ? reason : "damaged data";
+}
+
 Claim jpeg_claim(const Bytes& bytes, const std::string& place)
 {
     int width = 0;
     int height = 0;
     int channels = 0;
     if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        fail(place,
-             std::string("is a JPEG without a readable header (") + stbi_failure_reason() + ")");
+        fail(place, std::string("is a JPEG without a readable header (") + why_not() + ")");
     Claim claim{std::uint64_t(width), std::uint64_t(height)};
     claim.possible = claim.width * claim.height <= kLargestJpegPixelsPerByte * bytes.size();
     return claim;
@@ -198,7 +204,7 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
         stbi_image_free);
     if (!pixels)
         fail(place, std::string("cannot be decoded as ") + (png ? "PNG" : "JPEG") + " (" +
-                        stbi_failure_reason() + ")");
+                        why_not() + ")");
     const std::size_t count = std::size_t(texture.width) * std::size_t(texture.height) * kChannels;
     texture.rgba.assign(pixels.get(), pixels.get() + count);
     return texture;
@@ -218,8 +224,7 @@ Image decode_hdr(const Bytes& bytes, const std::string& place)
                                &channels_in_file, image.channels),
         stbi_image_free);
     if (!pixels)
-        fail(place,
-             std::string("cannot be decoded as Radiance picture (") + stbi_failure_reason() + ")");
+        fail(place, std::string("cannot be decoded as Radiance picture (") + why_not() + ")");
     const std::size_t count =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
     image.values.assign(pixels.get(), pixels.get() + count);

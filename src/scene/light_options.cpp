@@ -17,6 +17,9 @@
 namespace lumel {
 namespace {
 
+/// [cd/m²] A hundred times what the sun's disc has; beyond it sums of light overflow.
+constexpr double kMostLuminance = 2e11;
+
 [[noreturn]] void refuse(const std::string& option, const std::string& what)
 {
     throw Error(ErrorKind::input, option, what);
@@ -145,6 +148,8 @@ void set_sky(LightOptions& options, const std::string& text)
     if (values.size() != 3 || *std::min_element(values.begin(), values.end()) < 0.0)
         refuse("--sky",
                quoted(text) + " is neither a file nor three numbers R,G,B of 0 or more in cd/m2");
+    if (*std::max_element(values.begin(), values.end()) > kMostLuminance)
+        refuse("--sky", quoted(text) + " is too bright: there is no such sky");
     options.sky_color = glm::vec3(values[0], values[1], values[2]);
 }
 

@@ -1,5 +1,8 @@
 #include <cmath>
+#include <cstring>
 #include <fstream>
+
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 
@@ -125,6 +128,31 @@ TEST(ExrFile, ATruncatedExrIsAnInputError)
     write_exr(folder / "a.exr", gradient(64, 64, 4), Precision::float32, {});
     std::filesystem::resize_file(folder / "a.exr", 900);
     EXPECT_THROW(read_exr(folder / "a.exr"), Error);
+}
+
+TEST(ExrFile, AHeaderThatClaimsFarMoreThanTheFileHoldsIsAnInputError)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "a.exr";
+    write_exr(path, gradient(4, 4, 4), Precision::float32, {});
+    std::ifstream in(path, std::ios::binary);
+    std::string bytes(std::istreambuf_iterator<char>(in), {});
+    for (const char* window : {"dataWindow", "displayWindow"}) {
+        // A name and the type "box2i", both ended by 0, a size of 4 bytes, two corners.
+        const std::size_t corner = bytes.find(window) + std::strlen(window) + 1 + 6 + 4;
+        for (const std::size_t k : {8u, 12u})
+            bytes.replace(corner + k, 4, std::string("\xff\x3f\x00\x00", 4));
+    }
+    std::ofstream(path, std::ios::binary) << bytes;
+    EXPECT_THROW(read_exr(path), Error);
+}
+
+TEST(ExrFile, APipeThatNobodyWritesToIsRefused)
+{
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "pipe.exr";
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    EXPECT_THROW(read_exr(path), Error);
 }
 
 TEST(ExrFile, APlaceThatCannotBeWrittenIsAnOutputError)

@@ -86,6 +86,17 @@ TEST(Images, HugeClaimsAreRefusedBeforeDecoding)
     EXPECT_TRUE(contains(error_with_image(jpeg), "bytes can hold"));
 }
 
+TEST(Images, ADeflateBlockOfNoKnownTypeIsAnError)
+{
+    Bytes png = small_png();
+    const Bytes mark = {'I', 'D', 'A', 'T'};
+    const auto data = std::search(png.begin(), png.end(), mark.begin(), mark.end());
+    ASSERT_NE(data, png.end());
+    constexpr std::ptrdiff_t kZlibHeader = 2;
+    data[std::ptrdiff_t(mark.size()) + kZlibHeader] = 0x07;  // the last block, of the reserved type
+    EXPECT_TRUE(contains(error_with_image(png), "cannot be decoded"));
+}
+
 TEST(Images, TruncatedFilesAreErrors)
 {
     const Bytes png = small_png();

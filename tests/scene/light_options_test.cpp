@@ -192,6 +192,7 @@ TEST(LightOptions, MistakesAreNamed)
     LightOptions options;
     EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,2"); }), "--sky"));
     EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,-2,1"); }), "0 or more"));
+    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1e39,0,0"); }), "too bright"));
     for (const char* text : {"", "1", "1,x", "1,2,3", "1,2,3,4", "1,91", "91,0,2024-06-21T12:00",
                              "0,181,2024-06-21T12:00"})
         EXPECT_NE(error_in([&] { set_sun(options, text); }), "") << text;
