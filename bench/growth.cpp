@@ -39,7 +39,7 @@ void grow(const Settings& settings)
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
         const HostScene host{world.scene, world.rays, world.atlas};
         const auto solver = make_solver({.device = device,
-                                         .world = gpu_world,
+                                         .world = &gpu_world,
                                          .lumels = world.lumels,
                                          .near = none,
                                          .host = &host},

@@ -110,7 +110,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
         const HostScene host{world.scene, world.rays, world.atlas};
         const NearField none{.first = std::vector<std::uint32_t>(world.lumels.lumels.size() + 1)};
         const auto solver = make_solver(
-            {.device = device, .world = warm, .lumels = world.lumels, .near = none, .host = &host},
+            {.device = device, .world = &warm, .lumels = world.lumels, .near = none, .host = &host},
             options);
         for (int i = 0; i < 8; ++i)
             solver->step();
@@ -131,7 +131,7 @@ std::vector<Row> race_solver(const Settings& settings, const Prepared& world,
     const HostScene host{world.scene, world.rays, world.atlas};
     const std::optional<LobeParticles> particles = particles_for(world, options);
     const auto solver = make_solver({.device = device,
-                                     .world = gpu_world,
+                                     .world = &gpu_world,
                                      .lumels = lit ? *lit : world.lumels,
                                      .near = near,
                                      .particles = particles ? &*particles : nullptr,

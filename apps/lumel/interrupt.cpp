@@ -34,6 +34,7 @@ void watch_interrupts()
 {
     watch(SIGINT);
     watch(SIGTERM);
+    watch(SIGHUP);
 }
 
 bool interrupted()

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "core/error.h"
+#include "interrupt.h"
 
 namespace {
 
@@ -22,6 +23,8 @@ int exit_code(ErrorKind kind)
         return kExitDevice;
     case ErrorKind::output:
         return kExitOutput;
+    case ErrorKind::stopped:
+        return interrupt_exit_code();
     }
     return kExitUnexpected;
 }
@@ -45,6 +48,10 @@ int main(int count, char** values)
             return fail(kExitOutput, "standard output cannot be written");
         return code;
     } catch (const Error& error) {
+        if (error.kind() == ErrorKind::stopped) {
+            std::fprintf(stderr, "%s\n", error.what());
+            return exit_code(error.kind());
+        }
         return fail(exit_code(error.kind()), error.what());
     } catch (const std::bad_alloc&) {
         return fail(kExitDevice,

@@ -114,7 +114,7 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
     const SolverInputs inputs{.device = device,
-                              .world = resident,
+                              .world = &resident,
                               .lumels = world.lumels,
                               .near = near,
                               .particles = particles ? &*particles : nullptr};

@@ -75,7 +75,7 @@ Gathered gather(const gpu::Device& device, const Prepared& world, const SolverOp
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     const NearField none = no_near_field(world.lumels);
-    const auto solver = make_solver({device, resident, world.lumels, none}, options);
+    const auto solver = make_solver({device, &resident, world.lumels, none}, options);
     Gathered gathered;
     gathered.watch.start();
     solve(*solver, options);

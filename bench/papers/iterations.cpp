@@ -94,7 +94,7 @@ void time_iterations(const IterationSettings& settings)
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
             const NearField none = no_near_field(world.lumels);
-            const auto solver = make_solver({device, resident, world.lumels, none}, options);
+            const auto solver = make_solver({device, &resident, world.lumels, none}, options);
             print_row(size, world.lumels.lumels.size(), scene,
                       cost_of_iteration(device, *solver, settings.iterations));
         }

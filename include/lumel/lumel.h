@@ -72,9 +72,10 @@ LUMEL_API int version() noexcept;
 // ---------------------------------------------------------------------------------------- errors
 
 enum class ErrorKind {
-    input,   ///< an argument, a file or a scene is not as it must be
-    device,  ///< there is no usable device, or it failed, or has too little memory
-    output,  ///< a file cannot be written
+    input,    ///< an argument, a file or a scene is not as it must be
+    device,   ///< there is no usable device, or it failed, or has too little memory
+    output,   ///< a file cannot be written
+    stopped,  ///< progress ended a bake before there was any light
 };
 
 /// what() is one sentence for the user: where, what is wrong, what to do.
@@ -301,7 +302,7 @@ struct Progress {
 };
 
 /// Called on the thread that bakes, at each stage and often while solving. False ends the bake
-/// early with the best solution so far. Must not throw.
+/// early with the best solution so far, or before there is one with Error{stopped}. Must not throw.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
 /// Of the light that arrives.

@@ -15,6 +15,8 @@ inline ErrorKind kind_of(lumel::ErrorKind kind)
         return ErrorKind::device;
     case lumel::ErrorKind::output:
         return ErrorKind::output;
+    case lumel::ErrorKind::stopped:
+        return ErrorKind::stopped;
     default:
         return ErrorKind::input;
     }

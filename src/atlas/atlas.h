@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/lumel.shared.h"
+#include "core/watch.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -43,7 +44,7 @@ struct Atlas {
 /// Lays the scene out. Charts are whole texels wide and high, so that the edges of rectangles
 /// coincide with edges of texels; parts thinner than a texel share the texels of a neighbour.
 /// Throws Error{input} if it cannot be made to fit.
-Atlas make_atlas(const Scene& scene, const AtlasOptions& options);
+Atlas make_atlas(const Scene& scene, const AtlasOptions& options, const Watch& watch = {});
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {
@@ -57,7 +58,7 @@ struct Lumels {
 
 /// Lifts every covered texel, however thinly covered, into a lumel. Where charts of a file's own
 /// layout meet in one texel, it belongs to the one that covers most of it.
-Lumels lift(const Scene& scene, const Atlas& atlas);
+Lumels lift(const Scene& scene, const Atlas& atlas, const Watch& watch = {});
 
 /// [texels][2]: front and back lumel of each texel, or kNoLumel.
 std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels);

@@ -318,7 +318,7 @@ void append_backs(std::size_t first, Lumels& lumels)
 
 }  // namespace
 
-Lumels lift(const Scene& scene, const Atlas& atlas)
+Lumels lift(const Scene& scene, const Atlas& atlas, const Watch& watch)
 {
     Lumels lumels;
     lumels.width = atlas.width;
@@ -332,6 +332,7 @@ Lumels lift(const Scene& scene, const Atlas& atlas)
     std::vector<Lifted> lifted;
     std::size_t chart_first = 0;
     for (std::size_t first = 0; first < texels.size(); first += kTexelsAtATime) {
+        tell(watch, double(first) / double(texels.size()));
         lifted.assign(std::min(kTexelsAtATime, texels.size() - first), {});
         parallel_for(lifted.size(), kGrain, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)

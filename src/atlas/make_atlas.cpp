@@ -20,8 +20,10 @@ namespace lumel {
 
 namespace {
 
-constexpr int kLargestSide = 16384;       // what common GPUs take as an image
-constexpr int kLargestGutter = 64;        // clean down to the sixth mip level
+constexpr int kLargestSide = 16384;  // what common GPUs take as an image
+constexpr int kLargestGutter = 64;   // clean down to the sixth mip level
+/// How far the work is, roughly, when its parts end.
+constexpr double kChecked = 0.1, kPlanned = 0.8, kPacked = 0.9;
 constexpr std::size_t kMaxMeshNotes = 8;  // more of the same is noise
 // Charts end this close to a texel's border end on it: rounding shall not open another texel.
 constexpr double kSnapDistance = 1e-3;
@@ -299,7 +301,7 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
 
 }  // namespace
 
-Atlas make_atlas(const Scene& scene, const AtlasOptions& requested)
+Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch& watch)
 {
     check(scene, requested);
     Atlas atlas;
@@ -312,6 +314,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested)
     }
 
     const std::vector<AuthoredReport> reports = check_all(scene, atlas.notes);
+    tell(watch, kChecked);
     // Lay out and pack.
     Plans plans;
     Packing packing;
@@ -319,8 +322,10 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested)
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
         plans = plan(scene, reports, options);
+        tell(watch, kPlanned);
         packing = pack(plans.size, options, atlas.notes);
     }
+    tell(watch, kPacked);
     atlas.width = atlas.height = packing.side;
     atlas.texels_per_metre = float(packing.density);
     for (const Plan& surface : plans.surfaces)

@@ -43,7 +43,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     if (dump) {
         stages.begin("dumping");
         write_dump(*dump, device,
-                   {setting.prepared, setting.world, setting.near, solution->irradiance},
+                   {setting.prepared, *setting.world, setting.near, solution->irradiance},
                    options.solver);
     }
 
@@ -54,7 +54,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
             log_warning("the directional layers say of sky, sun and lamps only how much light they "
                         "send, as if it came along the normal");
         directional = gather_directional(
-            device, setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
+            device, *setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
             solution->irradiance, directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.progress(fraction); });
     }

@@ -37,8 +37,8 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
     const SolveSize size{
         &prepared.lumels,
         near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
-    return {.staging = gpu::Staging::device_bytes(),
-            .world = World::device_bytes(prepared.lumels, occluders),
+    return {.staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
+            .world = needs_world(options) ? World::device_bytes(prepared.lumels, occluders) : 0,
             .direct_light = method_of(options.solver.method).finds_lights
                                 ? 0
                                 : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),

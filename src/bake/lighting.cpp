@@ -26,7 +26,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
     solution->lumels = std::move(changed);
     const Lumels& lumels = solution->lumels ? *solution->lumels : setting.prepared.lumels;
     solution->solver = make_solver({.device = device,
-                                    .world = setting.world,
+                                    .world = setting.world ? &*setting.world : nullptr,
                                     .lumels = lumels,
                                     .near = setting.near,
                                     .known = known,
@@ -92,7 +92,7 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
         return {};
     stages.begin("sky and lamps");
     DirectLight light =
-        direct_light(device, setting.world, setting.prepared.scene, setting.prepared.lumels,
+        direct_light(device, *setting.world, setting.prepared.scene, setting.prepared.lumels,
                      direct_light_options(options.solver, options.sky_directions),
                      [&](double fraction) { return stages.progress(fraction); });
     stages.note_times(light.times);

@@ -178,7 +178,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const std::optional<Lumels> lumels = shining(prepared.lumels, lamps.irradiance);
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
-    GlossyIllumination solver(device, setting.world, lumels ? *lumels : prepared.lumels,
+    GlossyIllumination solver(device, *setting.world, lumels ? *lumels : prepared.lumels,
                               setting.near, std::get<GlossyOptions>(options.bake.solver.method),
                               lamps.irradiance, particles);
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
@@ -188,7 +188,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     std::vector<glm::vec3> irradiance = solver.irradiance();
     add_light(irradiance, lamps.irradiance);
     if (dump)
-        write_dump(*dump, device, {prepared, setting.world, setting.near, irradiance},
+        write_dump(*dump, device, {prepared, *setting.world, setting.near, irradiance},
                    options.bake.solver);
     const SideMaps maps = finish_sides(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
     const Surfaces surfaces(prepared.scene);

@@ -22,6 +22,8 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         fraction = std::max(fraction, seconds / limits.max_seconds);
     // For the bar only: how fast the error falls with shots, between random and ideal.
     constexpr double kSlope = 0.65;
+    // And how far it is when there is a first estimate.
+    constexpr double kFirstEstimate = 0.25;
     double error = 1.0;
     if (limits.target_error > 0.0 && state.error > 0.0)
         error = std::min(error, limits.target_error / state.error);
@@ -29,7 +31,7 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         error = std::min(error, limits.target_dark_error / state.dark_error);
     if (error < 1.0)
         fraction = std::max(fraction, std::pow(error, 1.0 / kSlope));
-    return std::min(fraction, 1.0);
+    return std::min(std::max(fraction, kFirstEstimate * state.begun), 1.0);
 }
 
 Scene in_stage(Scene scene, Stages& stages)
@@ -52,11 +54,15 @@ NearField near_field_of(const Prepared& prepared, const SolverOptions& options, 
     return near;
 }
 
-const gpu::Device& upload_to(const gpu::Device& device, Stages& stages)
+std::optional<World> world_on(const gpu::Device& device, const Prepared& prepared,
+                              const BakeOptions& options, Stages& stages)
 {
     stages.watch(device);
+    if (!needs_world(options))
+        return {};
     stages.begin("uploading");
-    return device;
+    return std::optional<World>(std::in_place, device, prepared.scene, prepared.lumels,
+                                &prepared.atlas);
 }
 
 /// Estimates of the error as they come, each after twice the shooters of the one before.
@@ -83,6 +89,12 @@ private:
 
 }  // namespace
 
+bool needs_world(const BakeOptions& options)
+{
+    return method_of(options.solver.method).on_device || options.directional != Directional::none ||
+           !options.dump.empty();
+}
+
 std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
 {
     std::optional<LobeParticles> particles;
@@ -93,16 +105,19 @@ std::optional<LobeParticles> particles_for(const Prepared& prepared, const Solve
 
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
     : Setting(
-          std::move(scene), [&](const Scene& placed) { return make_atlas(placed, options.atlas); },
+          std::move(scene),
+          [&](const Scene& placed, const Watch& watch) {
+              return make_atlas(placed, options.atlas, watch);
+          },
           device, options, stages)
 {
 }
 
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
-    : prepared(in_stage(std::move(scene), stages), lay_out),
+    : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.watch()),
       near(near_field_of(prepared, options.solver, stages)),
-      world(upload_to(device, stages), prepared.scene, prepared.lumels, &prepared.atlas),
+      world(world_on(device, prepared, options, stages)),
       particles(particles_for(prepared, options.solver))
 {
 }
@@ -120,6 +135,8 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
             run.curve.push_back({state.shots, seconds, state.error});
         return stages.progress(solved_fraction(options, state, seconds), state.shots, state.error);
     });
+    if (!run.finished && solver.state().shots == 0)
+        throw_stopped();
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
                             method_of(options.method).shots, solver.state().iterations));
     stages.note_times(solver.times());

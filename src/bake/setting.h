@@ -26,6 +26,9 @@ void note_sizes(const Prepared& world, Stages& stages);
 /// shooters send it. The world must outlive them.
 std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options);
 
+/// Must the scene be on the device before it is solved? Not for methods on the host.
+bool needs_world(const BakeOptions& options);
+
 /// A scene on a device with all that a solver is made of. Stays where it was made.
 struct Setting {
     /// Throws Error.
@@ -38,7 +41,7 @@ struct Setting {
 
     Prepared prepared;
     NearField near;
-    World world;
+    std::optional<World> world;              ///< see needs_world
     std::optional<LobeParticles> particles;  ///< see particles_for
 
     /// The same for a solver, null if there are none.

@@ -21,7 +21,7 @@ std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting&
         if (!has_lights(lamps))
             continue;
         DirectLight light =
-            direct_light(device, setting.world, lamps, prepared.lumels,
+            direct_light(device, *setting.world, lamps, prepared.lumels,
                          direct_light_options(options.solver, options.sky_directions),
                          [&](double fraction) { return stages.progress(fraction); });
         known.direct = std::move(light.irradiance);
@@ -57,7 +57,7 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     std::vector<KnownSource> sources =
         known_sources(device, setting, options, solution->lamps, stages);
     stages.begin("solving");
-    auto solver = std::make_unique<RelightSolver>(device, setting.world, prepared.lumels,
+    auto solver = std::make_unique<RelightSolver>(device, *setting.world, prepared.lumels,
                                                   setting.near, options.solver, std::move(sources));
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();

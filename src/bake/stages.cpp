@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/usage.h"
 #include "gpu/device.h"
 #include "gpu/memory.h"
@@ -45,6 +46,19 @@ bool Stages::progress(double fraction, std::uint64_t shots, double error)
     now_.error = error;
     report();
     return !stopped_;
+}
+
+Watch Stages::watch()
+{
+    return [this](double fraction) {
+        if (!progress(fraction))
+            throw_stopped();
+    };
+}
+
+void throw_stopped()
+{
+    throw Error(ErrorKind::stopped, "", "stopped before there was any light; nothing is written");
 }
 
 void Stages::note(const std::string& text)

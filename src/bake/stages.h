@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/bake.h"
+#include "core/watch.h"
 #include "gpu/commands.h"
 #include "record/report.h"
 
@@ -12,6 +13,9 @@ namespace lumel {
 
 /// "12.3 MiB", or "1.2 KiB" if it is less than 1 MiB.
 std::string memory_text(std::uint64_t bytes);
+
+/// Throws the Error{stopped} of work that ended before there was a result.
+[[noreturn]] void throw_stopped();
 
 /// Follows a bake from stage to stage, and tells the progress function about it.
 class Stages {
@@ -22,6 +26,9 @@ public:
     void begin(const std::string& name);
     /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
     bool progress(double fraction, std::uint64_t shots = 0, double error = -1.0);
+    /// Tells how far the current stage is. Throws Error{stopped} if the caller wants to stop: for
+    /// stages before there is anything to keep.
+    Watch watch();
     /// Passes on a fact about the current stage, in one line.
     void note(const std::string& text);
     /// Notes what kernels took on the device [ms], longest first.

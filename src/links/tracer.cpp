@@ -20,6 +20,9 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// before it looks anything up, and direct light is seen for there: so near, neither the cells of a
 /// lumel nor its parts are fine enough.
 constexpr float kTooNear = 0.25f;
+/// Within so many sides what is met may be a sliver of a lumel that its cells know nothing of, as
+/// in a gap between two walls: light is looked up in a cell that sees it, or not at all.
+constexpr float kMayBeHidden = 1.0f;
 /// Reflections before that, at most.
 constexpr int kMostReflections = 4;
 /// Lookups are checked by rays this far above the surfaces, in sides of the lumel.
@@ -156,9 +159,14 @@ LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
         const glm::vec3 position = origin + hit.distance * direction;
         std::uint32_t cell = cells_.cell(j, position);
         const bool can_go_on = reflections < kMostReflections;
-        bool goes_on = can_go_on && hit.distance < kTooNear * std::max(size, lumel.size);
-        if (!goes_on && parts_.is_cut(j) && !seen_cell(j, position, seed, cell))
-            goes_on = can_go_on;
+        const float near = hit.distance / std::max(size, lumel.size);
+        bool goes_on = can_go_on && near < kTooNear;
+        if (!goes_on && (parts_.is_cut(j) || near < kMayBeHidden) &&
+            !seen_cell(j, position, seed, cell)) {
+            if (!can_go_on)
+                return Met::nothing;
+            goes_on = true;
+        }
         if (!goes_on) {
             ray.reflected += ray.weight * lumel.albedo * direct_.at(j, cell);
             ray.part = parts_.part(j, cell);

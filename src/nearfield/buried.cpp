@@ -11,6 +11,8 @@ namespace lumel {
 
 namespace {
 
+/// Lumels that a watched step looks at, and least that a core takes.
+constexpr std::size_t kLumelsPerStep = 8192, kGrain = 64;
 constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to test whether it is open
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
 constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
@@ -282,17 +284,21 @@ float apply(Lumels& lumels, const OpenPart& part)
 }  // namespace
 
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
-                               const std::vector<char>& chosen)
+                               const std::vector<char>& chosen, const Watch& watch)
 {
     std::vector<OpenPart> parts(lumels.lumels.size());
     {
         const WorldLumels world(scene, rays, lumels);
         const Look look{scene, rays, world, lumels};
-        parallel_for(world.size(), 64, [&](std::size_t begin, std::size_t end) {
+        const auto look_at = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const bool open = (!chosen.empty() && !chosen[i]) || looks_open(look, i);
                 parts[i] = open ? OpenPart{i, {}, 1.0f} : find_open_part(look, i);
             }
+        };
+        parallel_steps(world.size(), kLumelsPerStep, kGrain, look_at, [&](std::size_t done) {
+            tell(watch, double(done) / double(world.size()));
+            return true;
         });
     }
     std::vector<float> shares;

@@ -21,6 +21,6 @@ namespace lumel {
 /// Returns the open share of each lumel's area [N], 0 of buried ones. chosen [N]: changes these
 /// alone and leaves the others as they are, with a share of 1; empty: all.
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
-                               const std::vector<char>& chosen = {});
+                               const std::vector<char>& chosen = {}, const Watch& watch = {});
 
 }  // namespace lumel

@@ -53,6 +53,8 @@ constexpr double kTooUncertain = 1.25, kLeastDirect = 1.0 / 16.0;
 constexpr double kCostOfLink = 1.5;
 /// Bounds of direct light's share in the variance that is asked for.
 constexpr double kLeastShare = 0.1, kMostShare = 0.6;
+/// Part of the first round that direct light takes, for the bar only.
+constexpr double kDirectOfRound = 0.5;
 /// Mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
 /// Lumels that are darker than this share of the mean are dark.
@@ -136,6 +138,7 @@ LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
     : options_(options),
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
+      most_shots_(limits.max_shots),
       parts_wanted_(parts),
       lumels_(lumels),
       surfaces_(host.scene),
@@ -191,6 +194,17 @@ void LinkRadiosity::step()
     }
     }
     ++state_.iterations;
+    state_.begun = begun();
+}
+
+/// How much of the first round is done.
+double LinkRadiosity::begun() const
+{
+    if (state_.shots > 0)
+        return 1.0;
+    if (stage_ == Stage::direct)
+        return kDirectOfRound * direct_->fraction();
+    return kDirectOfRound + (1.0 - kDirectOfRound) * double(traced_) / double(tracer_->blocks());
 }
 
 void LinkRadiosity::cut()
@@ -210,6 +224,8 @@ void LinkRadiosity::cut()
 void LinkRadiosity::begin_round()
 {
     mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
+    if (most_shots_ > state_.shots)
+        mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
     traced_ = 0;
     stage_ = Stage::links;
@@ -434,19 +450,22 @@ void LinkRadiosity::combine()
         return;
     const std::vector<float> near = nearest();
     const ChartFilter filter(place_, world_, *parts_, near);
-    Estimates one, other, third, unused;
-    filter.filter(found[2], found[0], found[1], one, other);
-    filter.filter(found[0], found[2], found[1], third, unused);
-    // What is filtered wrongly can not be less than nothing: where it seems so, it is small.
-    std::vector<double> noise(count), wrong(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 d = one[i] - other[i];
-        noise[i] = double(glm::dot(d, d)) / 6.0;
-        wrong[i] = double(glm::dot(one[i] - found[0][i], other[i] - found[1][i]));
+    Estimates mean(count, glm::vec3(0.0f)), one, other;
+    std::vector<double> noise(count, 0.0), wrong(count, 0.0);
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        const Estimates &a = found[(k + 1) % kSolutions], &b = found[(k + 2) % kSolutions];
+        filter.filter(found[k], a, b, one, other);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec3 d = one[i] - other[i];
+            noise[i] += double(glm::dot(d, d)) / (6.0 * kSolutions);
+            wrong[i] += double(glm::dot(one[i] - a[i], other[i] - b[i])) / kSolutions;
+            mean[i] += (one[i] + other[i]) / (2.0f * kSolutions);
+        }
     }
     const auto sum_of = [](const std::vector<double>& values) {
         return std::accumulate(values.begin(), values.end(), 0.0);
     };
+    // What is filtered wrongly can not be less than nothing: where it seems so, it is small.
     const double all_wrong = sum_of(wrong);
     if (!(sum_of(noise) + std::max(all_wrong, 0.0) < sum_of(square_)))
         return;
@@ -454,8 +473,7 @@ void LinkRadiosity::combine()
     if (all_wrong > 0.0)
         for (std::size_t i = 0; i < count; ++i)
             square_[i] += wrong[i];
-    for (std::size_t i = 0; i < count; ++i)
-        indirect_[i] = (one[i] + other[i] + third[i]) / 3.0f;
+    indirect_ = std::move(mean);
 }
 
 /// Beside the error of what rays brought, that of direct light: the difference of two independent

@@ -57,6 +57,7 @@ private:
     void end_round();
     void balance(std::size_t solution);
     void go_on();
+    double begun() const;
     std::vector<Wanted> wanted() const;
     double missing() const;
     double share_of_direct(const Errors& now) const;
@@ -72,6 +73,7 @@ private:
 
     const LinksOptions options_;
     const double target_error_, target_dark_error_;
+    const std::uint64_t most_shots_;  ///< 0: no limit
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;

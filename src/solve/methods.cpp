@@ -322,16 +322,16 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
     if constexpr (std::is_same_v<Method, LinkRadiosity>)
         return std::make_unique<Method>(*in.host, in.lumels, own, options, in.parts);
     else if constexpr (std::is_same_v<Method, GlossyIllumination>)
-        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known,
+        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
                                         in.particles);
     else if constexpr (std::is_same_v<Method, GlobalDirections>)
-        return std::make_unique<Method>(in.device, in.world, in.lumels, own, in.known);
+        return std::make_unique<Method>(in.device, *in.world, in.lumels, own, in.known);
     else if constexpr (std::is_same_v<Method, GatherRadiosity>)
-        return std::make_unique<Method>(in.device, in.world, in.lumels, own, options.target_error);
+        return std::make_unique<Method>(in.device, *in.world, in.lumels, own, options.target_error);
     else if constexpr (std::is_same_v<Method, ProgressiveRadiosity>)
-        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own);
+        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own);
     else
-        return std::make_unique<Method>(in.device, in.world, in.lumels, in.near, own, in.known);
+        return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known);
 }
 
 template <class Method, class Options>
@@ -358,6 +358,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
+     .on_device = false,
      .finds_lights = true,
      .states_dark_error = true,
      .can_keep_sources = false,
@@ -373,6 +374,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kUsualRadius,
      .near_surroundings = false,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = false,
@@ -388,6 +390,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::glossy,
      .near_radius = kGlossyRadius,
      .near_surroundings = false,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = false,
@@ -403,6 +406,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = false,
@@ -419,6 +423,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = false,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = false,
@@ -434,6 +439,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = false,
@@ -450,6 +456,7 @@ constexpr MethodInfo kMethods[] = {
      .materials = MaterialModel::diffuse,
      .near_radius = kPatchRadius,
      .near_surroundings = true,
+     .on_device = true,
      .finds_lights = false,
      .states_dark_error = false,
      .can_keep_sources = true,

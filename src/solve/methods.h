@@ -48,7 +48,7 @@ struct HostScene {
 /// What a method works on. All must outlive it.
 struct SolverInputs {
     const gpu::Device& device;
-    const World& world;
+    const World* world;  ///< null for a method that is not on the device
     const Lumels& lumels;
     const NearField& near;  ///< may be empty for methods and schemes without a near field
     /// H [N] [lx] that lumels receive beside what the solver finds, or empty: the error it states
@@ -69,6 +69,7 @@ struct MethodInfo {
     MaterialModel materials;  ///< what it reads of them
     float near_radius;        ///< NearFieldOptions::radius that suits it; 0: it has no near field
     bool near_surroundings;   ///< NearFieldOptions::surroundings
+    bool on_device;           ///< needs the scene there
     bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
     bool states_dark_error;   ///< SolverState::dark_error
     bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight

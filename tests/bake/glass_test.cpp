@@ -64,7 +64,7 @@ TEST_P(Glass, TintsTheFloorBelowIt)
     const World world(device, room.scene, room.lumels, &room.atlas);
     const HostScene host{room.scene, room.rays, room.atlas};
     const auto solver = make_solver(
-        {.device = device, .world = world, .lumels = room.lumels, .near = near, .host = &host},
+        {.device = device, .world = &world, .lumels = room.lumels, .near = near, .host = &host},
         GetParam());
     EXPECT_TRUE(solve(*solver, GetParam()));
     const glm::dvec3 found = on_floor(room.lumels, solver->irradiance());

@@ -67,7 +67,7 @@ struct City {
     support::Solved solve(const SolverOptions& options) const
     {
         const NearField near = near_field_for(world.scene, world.rays, lit, options);
-        const auto solver = make_solver({device, resident, lit, near, direct}, options);
+        const auto solver = make_solver({device, &resident, lit, near, direct}, options);
         EXPECT_TRUE(lumel::solve(*solver, options));
         support::Solved solved{solver->irradiance(), solver->state()};
         add_light(solved.irradiance, direct);

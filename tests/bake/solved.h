@@ -53,7 +53,7 @@ inline Solved solve_scene(const Scene& scene, const RayScene& rays, const Lumels
     const auto& [near, device, world] = resident;
     const HostScene host{scene, rays, atlas ? *atlas : Atlas{}};
     const auto solver = make_solver({.device = device,
-                                     .world = world,
+                                     .world = &world,
                                      .lumels = lumels,
                                      .near = near,
                                      .host = atlas ? &host : nullptr},

@@ -98,23 +98,50 @@ TEST(Bake, CtrlCWritesTheBestSolutionAndExits130)
 {
     const Workplace place;
     const Outcome bake = run_lumel(small_bake(place.path("out"), {"--shots", "2000000000"}),
-                                   {.interrupt_at = "solving"});
+                                   {.interrupt_at = "rays per lumel"});
     EXPECT_EQ(bake.code, 130) << bake.err;
     EXPECT_EQ(place.listing(), inside("out"));
 }
 
-TEST(Bake, CtrlCUnderTheSkyLeavesANoteThatLightIsMissing)
+TEST(Bake, CtrlCBeforeThereIsLightLeavesWhatWasThere)
 {
     const Workplace place;
-    const Outcome bake =
-        run_lumel(small_bake(place.path("out"), {"--solver", "stochastic", "--shots", "64", "--sky",
-                                                 "1,1,1", "--sky-directions", "1000000"}),
-                  {.interrupt_at = "sky and lamps"});
-    EXPECT_EQ(bake.code, 130) << bake.err;
+    ASSERT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "64"})).code, 0);
+    const std::string before = bytes_of(place.path("out/lightmap.exr"));
+    struct Work {
+        std::string stage;
+        std::vector<std::string> options;
+    };
+    const std::vector<Work> works = {
+        {"charts", {"--size", "2048"}},
+        {"solving", {"--size", "1024"}},
+        {"sky and lamps",
+         {"--size", "32", "--solver", "stochastic", "--sky", "1,1,1", "--sky-directions",
+          "1000000"}},
+    };
+    for (const Work& work : works) {
+        std::vector<std::string> arguments = {"bake", own_scene("cornell-box.gltf"),
+                                              place.path("out"), "--preview-width", "0"};
+        arguments.insert(arguments.end(), work.options.begin(), work.options.end());
+        const Outcome bake = run_lumel(arguments, {.interrupt_at = work.stage});
+        EXPECT_EQ(bake.code, 130) << bake.err;
+        EXPECT_NE(bake.err.find("nothing is written"), std::string::npos) << bake.err;
+        EXPECT_EQ(place.listing(), inside("out"));
+        EXPECT_EQ(bytes_of(place.path("out/lightmap.exr")), before);
+    }
+}
+
+TEST(Bake, APreviewThatCannotBeMadeCostsNothingElse)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel({"bake", own_scene("cornell-box.gltf"), place.path("out"),
+                                    "--size", "32", "--preview-width", "6000"});
+    EXPECT_EQ(bake.code, 0) << bake.err;
+    EXPECT_NE(bake.err.find("preview.png"), std::string::npos) << bake.err;
+    EXPECT_TRUE(std::filesystem::exists(place.path("out/lightmap.exr")));
     const auto report = nlohmann::json::parse(bytes_of(place.path("out/report.json")));
-    EXPECT_EQ(report["solution"]["interrupted"], true);
-    ASSERT_FALSE(report["notes"].empty());
-    EXPECT_NE(report["notes"].back().get<std::string>().find("sky and lamps"), std::string::npos);
+    for (const auto& file : report["files"])
+        EXPECT_TRUE(std::filesystem::exists(place.path("out/" + file.get<std::string>()))) << file;
 }
 
 TEST(Bake, TheReportSaysWhatSkyAndLampsTookOnTheDevice)

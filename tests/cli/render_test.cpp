@@ -62,7 +62,7 @@ TEST(Render, CtrlCWritesWhatThereIsAndExits130)
     };
     const std::string endless = "2000000000";
     const std::vector<Work> works = {
-        {"solving", {"--shots", endless}},
+        {" shots", {"--shots", endless}},
         {"shooting for the eye", {"--shots", "64", "--eye-shots", endless}},
         {"following lobes", {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"}},
         {"path tracing", {"--paths", "1000000"}},
