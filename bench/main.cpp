@@ -8,14 +8,15 @@
 
 #include "bench/modes.h"
 
-int main(int argc, char** argv)
+namespace lumel::bench {
+namespace {
+
+void add_scene(CLI::App& app, Settings& settings)
 {
-    using namespace lumel;
-    using namespace lumel::bench;
-    Settings settings;
-    CLI::App app("Error against time for each method, on the same atlas");
     app.add_option("scene", settings.scene, "glTF scene")->capture_default_str();
-    app.add_option("--size", settings.size, "side of the atlas [texels]")->capture_default_str();
+    app.add_option("--size", settings.size, "side of the atlas [texels]")
+        ->take_last()  // bench/scoreboard gives its own first
+        ->capture_default_str();
     app.add_option("--lamp", settings.lamp, "adds a quad that shines down, for unlit scenes")
         ->delimiter(',')
         ->expected(6)
@@ -28,23 +29,60 @@ int main(int argc, char** argv)
            "--sun", [&](const std::string& text) { set_sun(settings.lights, text); },
            "sun, as in lumel bake")
         ->type_name("PLACE");
-    app.add_option("--sky-directions", settings.sky_directions,
-                   "directions from which the light of the sky is gathered")
-        ->capture_default_str();
+}
+
+/// What is measured instead of racing.
+void add_other_modes(CLI::App& app, Settings& settings)
+{
     app.add_option("--growth", settings.growth, "times shooting at these atlas sides instead")
         ->delimiter(',');
-    app.add_option("--reference", settings.reference, "EXR to compare with, made for this atlas");
+    app.add_option(
+           "--projections", settings.cuts,
+           "compares both projections instead, edges of triangles cut into this number of pieces")
+        ->delimiter(',');
+}
+
+void add_references(CLI::App& app, Settings& settings)
+{
     app.add_option("--reference-spp", settings.reference_spp,
-                   "samples of the reference made here; 0: none")
+                   "samples per lumel of each of the two references; 0: none")
+        ->check(CLI::NonNegativeNumber)
+        ->take_last()  // the same
         ->capture_default_str();
-    app.add_option("--save-reference", settings.save_reference, "EXR to keep that reference in");
-    app.add_option("--shots", settings.shots, "numbers of shooters at which the error is measured")
+    app.add_option("--references", settings.references,
+                   "keeps the references in files of this name and .1.exr, .2.exr, .guide.exr, and "
+                   "reads those that are there")
+        ->type_name("NAME");
+}
+
+/// An option that takes numbers above 0.
+template <class Value>
+void add_positive(CLI::App& app, const std::string& name, Value& value, const std::string& help)
+{
+    app.add_option(name, value, help)
+        ->delimiter(',')
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
+void add_race(CLI::App& app, Settings& settings)
+{
+    app.add_option("--solver", settings.racers,
+                   "what races: methods as lumel methods lists; path, a path tracer; prog, "
+                   "gathering through the lightmap pass after pass. The other modes take the first")
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--spp", settings.spp, "samples per lumel of the path tracer's rows")
-        ->delimiter(',')
-        ->capture_default_str();
-    app.add_option("--solver", settings.given.id, "as lumel methods lists")->capture_default_str();
+    add_positive(app, "--shots", settings.shots,
+                 "samples of the methods' rows: rays per lumel, shooters or what else they count");
+    add_positive(app, "--spp", settings.spp, "samples per lumel of the rows of path and prog");
+    add_positive(app, "--targets", settings.targets,
+                 "errors to race to [%]; rows end where all and dark lumels reach the least");
+    add_positive(app, "--seconds", settings.seconds,
+                 "processor time after which a method has no more rows");
+}
+
+void add_method_options(CLI::App& app, Settings& settings)
+{
     for (const SharedOption& option : options_of_methods()) {
         const std::string name = option.info->name;
         app.add_option_function<std::string>(
@@ -53,18 +91,31 @@ int main(int argc, char** argv)
                option.info->help)
             ->type_name(option.info->type);
     }
-    app.add_option(
-           "--projections", settings.cuts,
-           "compares both projections instead, edges of triangles cut into this number of pieces")
-        ->delimiter(',');
+    app.add_option("--sky-directions", settings.sky_directions,
+                   "directions from which the light of the sky is gathered")
+        ->capture_default_str();
     app.add_option("--near", settings.near_radius,
                    "near field radius [lumel sizes]; 0: as suits the solver")
         ->capture_default_str();
     app.add_option("--device", settings.device, "as lumel devices lists");
-    app.add_option("--target", settings.target, "relative RMSE to race to")->capture_default_str();
+}
+
+}  // namespace
+}  // namespace lumel::bench
+
+int main(int argc, char** argv)
+{
+    using namespace lumel::bench;
+    Settings settings;
+    CLI::App app("Error against time for each method, on the same atlas");
+    add_scene(app, settings);
+    add_race(app, settings);
+    add_references(app, settings);
+    add_method_options(app, settings);
+    add_other_modes(app, settings);
     CLI11_PARSE(app, argc, argv);
     try {
-        settings.given.options();  // what is wrong is said before the long work
+        settings.given.id = first_method(settings);
         if (!settings.cuts.empty())
             compare_projections(settings);
         else if (!settings.growth.empty())

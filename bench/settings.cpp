@@ -1,6 +1,9 @@
 #include "bench/settings.h"
 
+#include <algorithm>
 #include <numbers>
+
+#include "core/error.h"
 
 namespace lumel::bench {
 namespace {
@@ -24,7 +27,57 @@ void add_lamp(Scene& scene, const Lamp& lamp)
     scene.instances.push_back(instance);
 }
 
+bool is_competitor(std::string_view racer)
+{
+    return racer == kPathTracer || racer == kIteratedGather;
+}
+
+bool reads(std::string_view racer, std::string_view option)
+{
+    return is_competitor(racer) ? option == "seed" || option == "sampling"
+                                : method_of(racer).option(option) != nullptr;
+}
+
 }  // namespace
+
+Settings settings_of(const Settings& settings, std::string_view method)
+{
+    Settings own = settings;
+    own.given.id = method;
+    const MethodInfo& info = method_of(method);
+    std::erase_if(own.given.values, [&](const auto& given) { return !info.option(given.first); });
+    own.given.options();
+    return own;
+}
+
+std::string first_method(const Settings& settings)
+{
+    const auto first = std::find_if(settings.racers.begin(), settings.racers.end(),
+                                    [](const std::string& name) { return !is_competitor(name); });
+    return first == settings.racers.end() ? methods().front().id : *first;
+}
+
+void check_racers(const Settings& settings)
+{
+    const MaterialModel materials = method_of(first_method(settings)).materials;
+    const auto refuse = [](const std::string& where, const std::string& what) {
+        throw Error(ErrorKind::input, where, what);
+    };
+    for (const std::string& name : settings.racers) {
+        if (!is_competitor(name))
+            settings_of(settings, name);
+        const bool fits = name == kPathTracer ||
+                          (name == kIteratedGather ? materials == MaterialModel::diffuse
+                                                   : method_of(name).materials == materials);
+        if (!fits)
+            refuse("--solver " + name, "takes other materials than " + first_method(settings) +
+                                           "; let them race apart");
+    }
+    for (const auto& given : settings.given.values)
+        if (std::none_of(settings.racers.begin(), settings.racers.end(),
+                         [&](const std::string& name) { return reads(name, given.first); }))
+            refuse("--" + given.first, "is read by none of those that race");
+}
 
 Prepared prepare(const Settings& settings, int size)
 {

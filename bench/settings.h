@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lights/direct_light.h"
@@ -18,6 +19,9 @@ struct Lamp {
     float exitance;    ///< [lm/m²]
 };
 
+/// Competitors beside the methods.
+inline constexpr std::string_view kPathTracer = "path", kIteratedGather = "prog";
+
 struct Settings {
     std::string scene = "scenes/cornell-box.gltf";
     int size = 128;  ///< side of the atlas [texels]
@@ -27,20 +31,37 @@ struct Settings {
     std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
     int reference_spp = 4096;    ///< 0: none, nothing is compared
     std::string save_reference;  ///< EXR to keep the reference in
-    std::vector<std::uint64_t> shots{256, 512, 1024, 2048, 4096, 8192};
-    std::vector<int> spp{16, 64, 256};
-    std::vector<int> growth;  ///< atlas sides to time instead of racing
-    std::vector<int> cuts;    ///< comparing projections instead: pieces of each triangle edge
-    GivenMethod given;        ///< the method and its options
+    std::string references;      ///< how names of EXRs begin that keep a Truth; empty: none do
+    /// Methods and competitors.
+    std::vector<std::string> racers{"links", "stochastic", std::string(kPathTracer),
+                                    std::string(kIteratedGather)};
+    std::vector<std::uint64_t> shots{16,   32,   64,   128,   256,   512,  1024,
+                                     2048, 4096, 8192, 16384, 32768, 65536};
+    std::vector<int> spp{4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096};
+    std::vector<double> targets{5.0, 2.0, 1.0};  ///< errors to race to [%]
+    double seconds = 60.0;                       ///< processor time after which a method stops
+    std::vector<int> growth;                     ///< atlas sides to time instead of racing
+    std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
+    GivenMethod given;      ///< the method and its options
     std::string device;
     float near_radius = 0.0f;  ///< 0: as suits the solver
-    double target = 0.02;      ///< relative RMSE that the methods race to
 };
+
+/// For one method, with what it reads of the options that were given. Throws Error{input} for
+/// values that it does not take.
+Settings settings_of(const Settings& settings, std::string_view method);
+
+/// The first of the racers that is a method, else the default: the competitors take its options.
+std::string first_method(const Settings& settings);
+
+/// Throws Error{input} for racers that are not known or do not belong together, and for options
+/// that none of them reads.
+void check_racers(const Settings& settings);
 
 /// Solves without an end of its own: figures say when.
 inline SolverOptions solver_of(const Settings& settings)
 {
-    return {.method = settings.given.options()};
+    return {.method = settings.given.options(), .target_error = 0.0};
 }
 
 /// A method's options of what was given that it reads: figures compare several methods.

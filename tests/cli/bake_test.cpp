@@ -255,7 +255,7 @@ std::uint64_t memory(std::vector<std::string> options)
 TEST(Info, CountsTheMemoryOfDirectionalLightmaps)
 {
     const std::uint64_t plain = memory({}), sh1 = memory({"--directional", "sh1"});
-    EXPECT_GT(plain, 0u);
+    EXPECT_EQ(plain, 0u);  // the host solves it
     EXPECT_GT(sh1, plain);
     EXPECT_GT(memory({"--directional", "sh2"}), sh1);
 }
