@@ -6,7 +6,7 @@ namespace lumel {
 namespace {
 
 /// What is known of so many rays stays in the caches of a core.
-constexpr std::size_t kBatch = 1024;
+constexpr std::size_t kBatch = 256;
 
 class HostCaster final : public RayCaster {
 public:
