@@ -22,9 +22,10 @@ namespace {
 constexpr std::size_t kBatch = std::size_t(1) << 15;
 /// Rays of one dispatch, at most.
 constexpr std::size_t kMostRays = 4 * kBatch;
-/// A ray goes on so much farther than the surface that it has passed: rounding must not let it meet
-/// the same one again.
+/// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
+/// not meet it again.
 constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
+constexpr float kFar = std::numeric_limits<float>::max();
 
 /// The triangles of a scene as the device numbers them: parts that are solid, then those that may
 /// let light pass.
@@ -93,7 +94,8 @@ struct Going {
     {
         if (!(ray.far > near))
             return;
-        rays.push_back({ray.origin, near, ray.direction, ray.far});
+        // What lies at the very end of a ray counts, as it does on the host.
+        rays.push_back({ray.origin, near, ray.direction, std::min(kBehind * ray.far, kFar)});
         which.push_back(i);
     }
 };

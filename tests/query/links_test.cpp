@@ -48,7 +48,7 @@ TEST_F(LinksByQueries, LightTwoRoomsAsTheHostDoes)
 
 TEST_F(LinksByQueries, LightAFurnishedRoomAsTheHostDoes)
 {
-    expect_agreement(Prepared(support::scene_path("room"), {.size = 64}));
+    expect_agreement(Prepared(support::scene_path("room"), {.size = 96}));
 }
 
 TEST_F(LinksByQueries, PassGlassCutOutsAndVeilsAsTheHostDoes)

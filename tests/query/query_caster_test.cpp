@@ -78,6 +78,12 @@ TEST_F(QueryCaster, MeetsInTheCornellBoxWhatTheHostMeets)
     expect_agreement(device, world.scene);
 }
 
+TEST_F(QueryCaster, MeetsInTwoRoomsWhatTheHostMeets)
+{
+    const Prepared world(support::scene_path("two-rooms"), {.size = 16});
+    expect_agreement(device, world.scene);
+}
+
 TEST_F(QueryCaster, LetsPassWhatTheHostLetsPass)
 {
     expect_agreement(device, support::room_with_curtains());
