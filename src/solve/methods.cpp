@@ -88,7 +88,7 @@ constexpr auto filter = [](auto& o) -> auto&
 {
     return o.filter;
 };
-constexpr auto rays = [](auto& o) -> auto&
+constexpr auto ray_caster = [](auto& o) -> auto&
 {
     return o.rays;
 };
@@ -248,7 +248,7 @@ constexpr OptionInfo kLinksOptions[] = {
         {"filter", "on|off",
          "Average lumels with those around them that look alike; without it the result is exact in "
          "expectation"}),
-    choice<LinksOptions, kRays, rays>({"rays", "auto|host|query",
+    choice<LinksOptions, kRays, ray_caster>({"rays", "auto|host|query",
                                        "What casts the rays: the host, or ray queries of the "
                                        "device (VK_KHR_ray_query); auto: the "
                                        "device where it has them and is no CPU, else the host"}),
