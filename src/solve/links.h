@@ -10,6 +10,7 @@
 #include "links/sweeps.h"
 #include "links/tracer.h"
 #include "nearfield/solve_size.h"
+#include "rays/ray_caster.h"
 #include "scene/parts.h"
 #include "solve/options.h"
 #include "solve/solver.h"
