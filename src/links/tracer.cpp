@@ -70,6 +70,14 @@ struct LinkTracer::Wave {
     std::vector<RayHit> hits;            ///< [rays]
     std::vector<Arrival> arrivals;
 
+    // Of one reflection; kept so as to be allocated once.
+    std::vector<std::uint32_t> open;  ///< arrivals that look for a cell
+    std::vector<RaySpan> to_cells;
+    std::vector<glm::vec3> passing;  ///< [to_cells]
+    Looks looks;
+    std::vector<RaySpan> next_rays;
+    std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
+
     Wave() { begin(); }
     void begin()
     {
@@ -214,27 +222,26 @@ void LinkTracer::meet(Wave& wave) const
 /// sees. Paths that see none go on, as long as they may.
 void LinkTracer::find_seen_cells(Wave& wave) const
 {
-    std::vector<std::uint32_t> open;  // arrivals
+    std::vector<std::uint32_t>& open = wave.open;
+    open.clear();
     for (std::uint32_t a = 0; a < wave.arrivals.size(); ++a)
         if (!wave.arrivals[a].goes_on && parts_.is_cut(wave.arrivals[a].lumel))
             open.push_back(a);
-    std::vector<RaySpan> rays;
-    std::vector<glm::vec3> passing;
     while (!open.empty()) {
         // One ray for each that has a cell left.
-        rays.clear();
+        wave.to_cells.clear();
         std::erase_if(open, [&](std::uint32_t a) {
             Arrival& arrival = wave.arrivals[a];
             const std::optional<RaySpan> ray = ray_to_cell(arrival, wave.rays[arrival.ray].seed);
             if (ray)
-                rays.push_back(*ray);
+                wave.to_cells.push_back(*ray);
             else
                 arrival.goes_on = wave.reflections < kMostReflections;
             return !ray;
         });
-        passing.resize(rays.size());
-        place_.caster.passing(rays, passing);
-        auto passed = passing.begin();
+        wave.passing.resize(wave.to_cells.size());
+        place_.caster.passing(wave.to_cells, wave.passing);
+        auto passed = wave.passing.begin();
         std::erase_if(open, [&](std::uint32_t a) {
             const bool sees = *passed++ != glm::vec3(0.0f);
             if (!sees)
@@ -270,9 +277,9 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(Arrival& arrival, std::uint32_t s
 /// Ends paths at the parts that they met, or sends their reflections out.
 void LinkTracer::end_or_reflect(Wave& wave) const
 {
-    std::vector<RaySpan> rays;
-    std::vector<std::uint32_t> path_of;
-    Looks looks;
+    wave.next_rays.clear();
+    wave.next_path_of.clear();
+    wave.looks.clear();
     for (const Arrival& arrival : wave.arrivals) {
         const std::uint32_t p = wave.path_of[arrival.ray];
         Path& path = wave.paths[p];
@@ -286,16 +293,16 @@ void LinkTracer::end_or_reflect(Wave& wave) const
         path.weight *= albedo;
         if (path.weight == glm::vec3(0.0f))
             continue;
-        rays.push_back(reflect(wave, arrival, path, looks));
-        path_of.push_back(p);
+        wave.next_rays.push_back(reflect(wave, arrival, path, wave.looks));
+        wave.next_path_of.push_back(p);
     }
-    looks.cast(place_.caster);
-    for (std::uint32_t r = 0; r < rays.size(); ++r) {
-        Path& path = wave.paths[path_of[r]];
-        path.reflected += path.weight * direct_.light_of(looks, r * direct_.looks_around());
+    wave.looks.cast(place_.caster);
+    for (std::uint32_t r = 0; r < wave.next_rays.size(); ++r) {
+        Path& path = wave.paths[wave.next_path_of[r]];
+        path.reflected += path.weight * direct_.light_of(wave.looks, r * direct_.looks_around());
     }
-    wave.rays = std::move(rays);
-    wave.path_of = std::move(path_of);
+    wave.rays.swap(wave.next_rays);
+    wave.path_of.swap(wave.next_path_of);
 }
 
 /// Looks for light from where a path has arrived, and goes on from there.
