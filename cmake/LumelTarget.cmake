@@ -28,12 +28,14 @@ function(lumel_room name)
     target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${ROOM_SYSTEM})
 endfunction()
 
-# lumel_test(<name> [LABEL <label>] SOURCES … USES <room> … [PARTS "<part> <label> <filter>" …]):
+# lumel_test(<name> [LABEL <label>] SOURCES … USES <room> … [PARTS "<part> <label> <filter>" …]
+#            [UNDER <command> <argument> …]):
 # one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
 # (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.
+# UNDER: what ctest runs the program by.
 # Labels: `quick` ends in a minute with all others of its kind, `normal`, and `slow`.
 function(lumel_test name)
-    cmake_parse_arguments(TEST "" "LABEL" "SOURCES;USES;SYSTEM;PARTS" ${ARGN})
+    cmake_parse_arguments(TEST "" "LABEL" "SOURCES;USES;SYSTEM;PARTS;UNDER" ${ARGN})
     add_executable(${name} ${TEST_SOURCES})
     lumel_flags(${name} HEADERS lumel_test_headers)
     list(TRANSFORM TEST_USES PREPEND lumel_)
@@ -43,22 +45,29 @@ function(lumel_test name)
     foreach(part ${TEST_PARTS})
         string(REGEX MATCH "^([^ ]+) ([a-z]+) (.+)$" matched "${part}")
         set(filter ${CMAKE_MATCH_3})
-        lumel_test_entry(${name}.${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${name} --gtest_filter=${filter})
+        lumel_test_entry(${name}.${CMAKE_MATCH_1} ${CMAKE_MATCH_2} ${name} --gtest_filter=${filter}
+                         UNDER ${TEST_UNDER})
         string(APPEND rest ":${filter}")
     endforeach()
     if(NOT TEST_LABEL)
         set(TEST_LABEL normal)
     endif()
-    lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest})
+    lumel_test_entry(${name} ${TEST_LABEL} ${name} --gtest_filter=${rest} UNDER ${TEST_UNDER})
     list(TRANSFORM TEST_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
     list(JOIN sources " " sources)
     set_property(GLOBAL APPEND PROPERTY LUMEL_TEST_PROGRAMS "${name} $<TARGET_FILE:${name}> ${sources}")
 endfunction()
 
-# lumel_test_entry(<name> <label> <program> <argument> …): what ctest runs. ./test limits processor time;
-# the limit here, by the clock, is for what hangs.
+# lumel_test_entry(<name> <label> <program> <argument> … [UNDER <command> …]): what ctest runs. ./test limits
+# processor time; the limit here, by the clock, is for what hangs.
 function(lumel_test_entry name label program)
-    add_test(NAME ${name} COMMAND ${program} ${ARGN})
+    cmake_parse_arguments(ENTRY "" "" "UNDER" ${ARGN})
+    if(ENTRY_UNDER)
+        list(APPEND ENTRY_UNDER $<TARGET_FILE:${program}>)
+    else()
+        set(ENTRY_UNDER ${program})
+    endif()
+    add_test(NAME ${name} COMMAND ${ENTRY_UNDER} ${ENTRY_UNPARSED_ARGUMENTS})
     set_tests_properties(${name} PROPERTIES LABELS "${label}" TIMEOUT 7200
                          FAIL_REGULAR_EXPRESSION "Running 0 tests")
     if(label STREQUAL quick)

@@ -20,6 +20,9 @@ struct HostDevice {
     bool tessellation = false;     ///< the feature tessellationShader is on
     bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
     bool block_textures = false;   ///< the feature textureCompressionBC is on
+    /// VK_KHR_ray_query and what it needs are on, with the features rayQuery, accelerationStructure
+    /// and bufferDeviceAddress.
+    bool ray_queries = false;
 };
 
 /// Works on the host's device and queue, which stay the host's: it keeps its own work off the queue

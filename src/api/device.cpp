@@ -59,7 +59,8 @@ Device use_device(const HostDevice& host)
                                       .queue_family = host.queue_family,
                                       .tessellation = host.tessellation,
                                       .fragment_stores = host.fragment_stores,
-                                      .block_textures = host.block_textures};
+                                      .block_textures = host.block_textures,
+                                      .ray_queries = host.ray_queries};
         return Device(std::make_unique<DeviceImpl>(handles));
     });
 }

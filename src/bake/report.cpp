@@ -91,6 +91,7 @@ void add_solution(Report& report, const gpu::Device& device, const Solver& solve
     report.near_pairs = results.near_pairs;
     report.shots = results.shots;
     report.iterations = results.iterations;
+    report.rays = solver.rays();
     report.estimated_error = results.error;
     report.estimated_dark_error = results.dark_error;
     report.interrupted = results.interrupted;

@@ -5,6 +5,35 @@
 #include "gpu/staging.h"
 
 namespace lumel::gpu {
+namespace {
+
+VkBufferUsageFlags usage_of(Buffer::Place place)
+{
+    const VkBufferUsageFlags any =
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+        VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+    const VkBufferUsageFlags of_trees =
+        VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
+        VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    return place == Buffer::Place::addressed ? any | of_trees : any;
+}
+
+MemoryUse memory_use_of(Buffer::Place place)
+{
+    switch (place) {
+    case Buffer::Place::device:
+        return MemoryUse::array;
+    case Buffer::Place::host:
+        return MemoryUse::host;
+    case Buffer::Place::addressed:
+        return MemoryUse::addressed;
+    }
+    return MemoryUse::array;
+}
+
+}  // namespace
 
 Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Name& name)
     : device_(&device),
@@ -16,17 +45,12 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Nam
                         std::to_string(device.max_array_bytes() >> 20) +
                         " MiB this device allows; use a smaller --size");
     const VkBufferCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .size = bytes,
-        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                 VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT};
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage_of(place)};
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "vkCreateBuffer");
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
     try {
-        memory_ = device.memory().take(
-            requirements, place == Place::host ? MemoryUse::host : MemoryUse::array, name.text());
+        memory_ = device.memory().take(requirements, memory_use_of(place), name.text());
     } catch (...) {
         vkDestroyBuffer(device.handle(), buffer_, nullptr);
         throw;

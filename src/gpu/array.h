@@ -15,7 +15,9 @@ namespace lumel::gpu {
 /// Bytes in GPU memory, usable as storage, vertex, index and transfer buffer.
 class Buffer {
 public:
-    enum class Place { device, host };  ///< host: mapped, for read-backs and uploads
+    /// host: mapped, for read-backs and uploads. addressed: on the device, for what triangle trees
+    /// are made of.
+    enum class Place { device, host, addressed };
 
     Buffer(const Device& device, std::uint64_t bytes, Place place = Place::device,
            const Name& name = Name::of_line());

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "gpu/names.h"
+#include "gpu/triangle_tree.h"
 
 namespace lumel::gpu {
 namespace {
@@ -150,6 +151,8 @@ void Commands::bind(const Layout& layout, VkPipelineBindPoint point, std::span<c
     const std::span<const Slot> slots = layout.slots();
     std::vector<VkDescriptorBufferInfo> buffers(slots.size());
     std::vector<VkDescriptorImageInfo> images(slots.size());
+    std::vector<VkAccelerationStructureKHR> trees(slots.size());
+    std::vector<VkWriteDescriptorSetAccelerationStructureKHR> tree_writes(slots.size());
     std::vector<VkWriteDescriptorSet> writes;
     for (std::size_t i = 0; i < slots.size(); ++i) {
         const Slot& slot = slots[i];
@@ -161,6 +164,13 @@ void Commands::bind(const Layout& layout, VkPipelineBindPoint point, std::span<c
         if (binding.buffer) {
             buffers[i] = {binding.buffer->handle(), 0, VK_WHOLE_SIZE};
             write.pBufferInfo = &buffers[i];
+        } else if (binding.tree) {
+            trees[i] = binding.tree->handle();
+            tree_writes[i] = {.sType =
+                                  VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR,
+                              .accelerationStructureCount = 1,
+                              .pAccelerationStructures = &trees[i]};
+            write.pNext = &tree_writes[i];
         } else {
             check_texture(layout, slot, *binding.texture);
             images[i] = {binding.sampler->handle(), binding.texture->view(),
@@ -195,6 +205,14 @@ void Commands::dispatch_groups(const Pipeline& kernel, std::span<const Binding> 
                         " elements at once; use a smaller --size or a simpler scene");
     vkCmdDispatch(buffer_, std::uint32_t(groups), 1, 1);
     ++device_->recorded().dispatches;
+    barrier();
+}
+
+void Commands::build(const VkAccelerationStructureBuildGeometryInfoKHR& what,
+                     const VkAccelerationStructureBuildRangeInfoKHR* ranges)
+{
+    begin();
+    vkCmdBuildAccelerationStructuresKHR(buffer_, 1, &what, &ranges);
     barrier();
 }
 

@@ -69,6 +69,10 @@ public:
                         Shader::kGroupSize);
     }
 
+    /// Builds an acceleration structure; see TriangleTree.
+    void build(const VkAccelerationStructureBuildGeometryInfoKHR& what,
+               const VkAccelerationStructureBuildRangeInfoKHR* ranges);
+
     void fill(const Buffer& buffer, std::uint32_t word = 0);
     void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes);
     void copy_part(const Buffer& from, std::uint64_t from_byte, const Buffer& to,

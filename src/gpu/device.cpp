@@ -164,6 +164,32 @@ struct Features {
                                    .pNext = &v12};
 };
 
+/// What ray queries need beside, in a chain of its own.
+struct RayFeatures {
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR trees{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR queries{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR, .pNext = &trees};
+};
+
+constexpr const char* kRayExtensions[] = {VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
+                                          VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                          VK_KHR_RAY_QUERY_EXTENSION_NAME};
+
+bool has_ray_queries(VkPhysicalDevice physical)
+{
+    for (const char* extension : kRayExtensions)
+        if (!has_extension(physical, extension))
+            return false;
+    RayFeatures rays;
+    VkPhysicalDeviceVulkan12Features v12{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &rays.queries};
+    VkPhysicalDeviceFeatures2 have{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                   .pNext = &v12};
+    vkGetPhysicalDeviceFeatures2(physical, &have);
+    return rays.queries.rayQuery && rays.trees.accelerationStructure && v12.bufferDeviceAddress;
+}
+
 std::string missing_features(VkPhysicalDevice physical, std::uint32_t api_version)
 {
     if (api_version < kApiVersion)
@@ -324,18 +350,27 @@ Device::Device(const std::string& pick) : validation_(std::make_unique<Validatio
     features.v13.maintenance4 = VK_TRUE;
     features.v12.scalarBlockLayout = VK_TRUE;
     features.core.features.fullDrawIndexUint32 = VK_TRUE;
+    std::vector<const char*> extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+    RayFeatures rays;
+    can_query_rays_ = has_ray_queries(physical_);
+    if (can_query_rays_) {
+        extensions.insert(extensions.end(), std::begin(kRayExtensions), std::end(kRayExtensions));
+        features.v12.bufferDeviceAddress = VK_TRUE;
+        rays.trees.accelerationStructure = VK_TRUE;
+        rays.queries.rayQuery = VK_TRUE;
+        features.v13.pNext = &rays.queries;
+    }
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = queue_family_,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features.core,
                                   .queueCreateInfoCount = 1,
                                   .pQueueCreateInfos = &queue,
-                                  .enabledExtensionCount = 1,
-                                  .ppEnabledExtensionNames = &extension};
+                                  .enabledExtensionCount = std::uint32_t(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     volkLoadDevice(device_);
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
@@ -353,7 +388,8 @@ Device::Device(const HostDevice& host)
       owned_(false),
       can_tessellate_(host.tessellation),
       can_list_fragments_(host.fragment_stores),
-      can_read_blocks_(host.block_textures)
+      can_read_blocks_(host.block_textures),
+      can_query_rays_(host.ray_queries)
 {
     if (!instance_ || !physical_ || !device_ || !queue_)
         throw Error(ErrorKind::device, "", "the host gave a Vulkan handle that is null");
@@ -389,6 +425,14 @@ void Device::learn_limits()
     max_groups_ = properties.limits.maxComputeWorkGroupCount[0];
     standard_samples_ = properties.limits.standardSampleLocations == VK_TRUE;
     timestamp_period_ = double(properties.limits.timestampPeriod);
+    if (can_query_rays_) {
+        VkPhysicalDeviceAccelerationStructurePropertiesKHR trees{
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+        VkPhysicalDeviceProperties2 all{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                        .pNext = &trees};
+        vkGetPhysicalDeviceProperties2(physical_, &all);
+        scratch_alignment_ = trees.minAccelerationStructureScratchOffsetAlignment;
+    }
     timestamp_mask_ = ~std::uint64_t(0) >> (64 - timestamp_bits(physical_, queue_family_));
 }
 

@@ -41,6 +41,9 @@ struct HostDevice {
     bool tessellation = false;     ///< the feature tessellationShader is on
     bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
     bool block_textures = false;   ///< the feature textureCompressionBC is on
+    /// VK_KHR_ray_query and what it needs are on, with the features rayQuery, accelerationStructure
+    /// and bufferDeviceAddress.
+    bool ray_queries = false;
 };
 
 /// Entry points of VK_EXT_debug_utils, null where the instance lacks it.
@@ -85,6 +88,9 @@ public:
     bool can_tessellate() const { return can_tessellate_; }          ///< has tessellation shaders
     bool can_clip() const { return can_clip_; }                      ///< by planes of a shader
     bool can_read_blocks() const { return can_read_blocks_; }        ///< has textures of Pixel::bc1
+    bool can_query_rays() const { return can_query_rays_; }  ///< shaders may ask a TriangleTree
+    /// Of an address that trees are built at [bytes].
+    std::uint64_t scratch_alignment() const { return scratch_alignment_; }
     /// Are samples where Vulkan's standard has them?
     bool has_standard_samples() const { return standard_samples_; }
     /// Of arrays and images, as they asked for it: now, and the most at once.
@@ -128,7 +134,8 @@ private:
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;
     bool can_tessellate_ = false, can_list_fragments_ = false, can_clip_ = false,
-         can_read_blocks_ = false, standard_samples_ = false;
+         can_read_blocks_ = false, can_query_rays_ = false, standard_samples_ = false;
+    std::uint64_t scratch_alignment_ = 1;
     double timestamp_period_ = 1.0;  ///< [ns]
     std::uint64_t timestamp_mask_ = ~std::uint64_t(0);
     mutable Recorded recorded_;

@@ -113,7 +113,10 @@ bool Memory::take_from(Block& block, const VkMemoryRequirements& requirements, P
 
 Memory::Block* Memory::add_block(std::uint32_t type, MemoryUse use, std::uint64_t bytes)
 {
+    const VkMemoryAllocateFlagsInfo addresses{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                              .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
     const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .pNext = use == MemoryUse::addressed ? &addresses : nullptr,
                                     .allocationSize = bytes,
                                     .memoryTypeIndex = type};
     VkDeviceMemory memory = VK_NULL_HANDLE;

@@ -16,9 +16,10 @@ namespace lumel::gpu {
 /// What memory is used for. Each has blocks of its own: arrays and images in one block would have
 /// to keep VkPhysicalDeviceLimits::bufferImageGranularity apart.
 enum class MemoryUse {
-    array,  ///< on the device
-    image,  ///< on the device, with optimal tiling
-    host,   ///< visible to the host, coherent and mapped
+    array,      ///< on the device
+    addressed,  ///< on the device, for arrays that have an address
+    image,      ///< on the device, with optimal tiling
+    host,       ///< visible to the host, coherent and mapped
 };
 
 /// Memory that is held under one name.

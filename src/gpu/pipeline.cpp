@@ -31,6 +31,7 @@ VkDescriptorType descriptor_type(SlotKind kind)
 {
     return kind == SlotKind::array       ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
            : kind == SlotKind::constants ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+           : kind == SlotKind::tree      ? VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR
                                          : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 }
 

@@ -7,7 +7,8 @@
 //
 // with a type lumel::shaders::StochasticReceive that holds
 //
-//     Bindings   one member for each array and texture that the shader reaches, in the order of
+//     Bindings   one member for each array, texture and triangle tree that the shader reaches, in
+//     the order of
 //                their declarations; none may be left out
 //     Params     its push constants
 //     Mesh       of a raster pass: one member for each input of the vertex shader
@@ -28,7 +29,7 @@ namespace lumel::gpu {
 using Spirv = std::span<const std::uint32_t>;
 
 /// constants: a small array that every invocation reads at the same index (a uniform block).
-enum class SlotKind : std::uint8_t { array, constants, texture, uint_texture };
+enum class SlotKind : std::uint8_t { array, constants, texture, uint_texture, tree };
 
 /// Where a stage reads a member of its Bindings.
 struct Slot {
@@ -37,11 +38,14 @@ struct Slot {
     SlotKind kind;
 };
 
-/// An array, or a texture with a sampler, whatever it holds.
+class TriangleTree;
+
+/// An array, a texture with a sampler, whatever it holds, or a triangle tree.
 struct Binding {
     const Buffer* buffer = nullptr;
     const Target* texture = nullptr;
     const Sampler* sampler = nullptr;
+    const TriangleTree* tree = nullptr;
 };
 
 /// An array that a shader reads as elements of another type: codes in words, floats by fours.
@@ -84,6 +88,16 @@ public:
 private:
     const Target* target_;
     const Sampler* sampler_;
+};
+
+/// Triangles that a shader asks rays of.
+class TreeBinding {
+public:
+    TreeBinding(const TriangleTree& tree) : tree_(&tree) {}
+    operator Binding() const { return {.tree = tree_}; }
+
+private:
+    const TriangleTree* tree_;
 };
 
 /// Params of a shader without push constants.

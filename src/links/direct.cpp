@@ -102,6 +102,35 @@ struct DirectFinder::Found {
     std::uint64_t rays = 0;
 };
 
+/// Rays from a lumel to one source, or to several that share them: those of the second half follow
+/// those of the first.
+struct DirectFinder::Group {
+    std::uint32_t source;
+    bool alone;
+    std::uint32_t first, rays;  ///< looks, of each half
+};
+
+/// Lumels whose rays are cast together.
+struct DirectFinder::Wave {
+    std::size_t first = 0;                     ///< lumel, in the list of the pass
+    std::vector<std::uint32_t> lumels;         ///< that follow each other in it
+    std::vector<std::uint32_t> groups_before;  ///< [lumels + 1]
+    std::vector<Group> groups;
+    Looks looks;
+    std::vector<std::uint32_t> cells;  ///< [looks] of the lumel, that the ray leaves
+
+    explicit Wave(std::size_t from) { begin(from); }
+    void begin(std::size_t from)
+    {
+        first = from;
+        lumels.clear();
+        groups_before.assign(1, 0);
+        groups.clear();
+        looks.clear();
+        cells.clear();
+    }
+};
+
 /// One source of several, and what its light counts for the others.
 struct DirectFinder::Choice {
     std::uint32_t source;
@@ -166,42 +195,42 @@ DirectFinder::Choice DirectFinder::choose(const std::vector<float>& running, flo
 }
 
 /// Looks at a point of a source; factor: times its light, where it stands for others too.
-DirectFinder::Seen DirectFinder::look(const RayStart& start, std::size_t source, float factor,
-                                      const glm::vec2& at, std::uint32_t seed) const
+void DirectFinder::look(const RayStart& start, std::size_t source, float factor,
+                        const glm::vec2& at, std::uint32_t seed, Looks& looks) const
 {
-    Seen seen{sources_.sample(source, start, at)};
-    SourceSample& sample = seen.sample;
+    SourceSample sample = sources_.sample(source, start, at);
     if (factor != 1.0f) {
         sample.irradiance *= factor;
         sample.open.reset();
     }
-    if (sample.irradiance == glm::vec3(0.0f))
-        return seen;
-    seen.passing = std::isinf(sample.distance)
-                       ? place_.rays.passing_out(start.position, sample.direction, seed)
-                       : place_.rays.passing(start.position,
-                                             start.position + sample.distance * sample.direction,
-                                             place_.rays.lift(), seed);
-    return seen;
+    looks.add(sample,
+              std::isinf(sample.distance)
+                  ? ray_out(start.position, sample.direction, seed)
+                  : ray_between(start.position, start.position + sample.distance * sample.direction,
+                                place_.rays.lift(), seed));
 }
 
-glm::vec3 DirectFinder::light_at(const RayStart& start, float size, std::uint32_t seed) const
+std::uint32_t DirectFinder::looks_around() const
+{
+    return std::min(std::uint32_t(sources_.count()), kMostSought);
+}
+
+void DirectFinder::look_around(const RayStart& start, float size, std::uint32_t seed,
+                               Looks& looks) const
 {
     const auto place_on = [&](std::uint32_t k) {
         const std::uint32_t own = PathSamples::hash(seed, k);
         return glm::vec2(PathSamples::to_unit(own),
                          PathSamples::to_unit(PathSamples::hash(own, 1)));
     };
-    glm::vec3 light(0.0f);
     const auto add = [&](std::size_t source, float factor, std::uint32_t k) {
-        const Seen seen = look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k));
-        light += seen.passing * seen.sample.irradiance;
+        look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k), looks);
     };
     const auto count = std::uint32_t(sources_.count());
     if (count <= kMostSought) {
         for (std::uint32_t s = 0; s < count; ++s)
             add(s, 1.0f, s);
-        return light;
+        return;
     }
     // Some, by what they may send.
     std::vector<float> running(count);
@@ -213,59 +242,103 @@ glm::vec3 DirectFinder::light_at(const RayStart& start, float size, std::uint32_
             choose(running, (place_on(count + k).x + float(k)) / float(kMostSought));
         add(choice.source, choice.factor / float(kMostSought), k);
     }
+}
+
+glm::vec3 DirectFinder::light_of(const Looks& looks, std::uint32_t first) const
+{
+    glm::vec3 light(0.0f);
+    for (std::uint32_t look = first; look < first + looks_around(); ++look)
+        light += looks.passing(look) * looks.sample(look).irradiance;
     return light;
 }
 
-/// Adds what the rays to a source find, or to the rest of the sources together.
-void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
-                            Found& found) const
+/// Rays of a lumel to a source, or to the rest of the sources together.
+void DirectFinder::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more, Wave& wave) const
 {
     const bool many = more > 0, alone = !to.rest, small = alone && sources_.is_small(to.source);
     const std::uint32_t times = small ? kTimesToSmall : 1;
     const std::uint32_t begin = many ? times * taken_[i] >> to.halved : 0;
-    const std::uint32_t end = begin + times * (many ? more >> to.halved : kFewRays);
-    std::array<Sums, kCells> of_cells;
-    Sums of_both;
+    const std::uint32_t rays = times * (many ? more >> to.halved : kFewRays);
+    wave.groups.push_back({to.source, alone, wave.looks.size(), rays});
     for (std::uint32_t h = 0; h < 2; ++h) {
-        Sums sums;
         const std::uint32_t stream =
             PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
                               2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
-        for (std::uint32_t k = begin; k < end; ++k) {
+        for (std::uint32_t k = begin; k < begin + rays; ++k) {
             const PathSamples samples(stream, k);
             const RayStart start = starts_.start(i, samples.stratified(kStartPair));
             const Choice choice = alone ? Choice{to.source, 1.0f}
                                         : choose(*to.rest, samples.stratified(kChoicePair).x);
-            const Seen seen = look(start, choice.source, choice.factor,
-                                   samples.stratified(kSourcePair), samples.bits(kSourcePair));
-            for (Sums* into : {&sums, &of_both, &of_cells[start.cell]})
-                into->add(seen.sample, seen.passing);
+            look(start, choice.source, choice.factor, samples.stratified(kSourcePair),
+                 samples.bits(kSourcePair), wave.looks);
+            wave.cells.push_back(start.cell);
         }
+    }
+}
+
+/// The rays that lumel i has in this pass.
+void DirectFinder::add(std::uint32_t i, Wave& wave) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    std::vector<float> rest;
+    if (!(lumel.flags & kLumelBuried))
+        for (const RaysTo& to :
+             share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
+            add_rays(i, to, more_[i], wave);
+    wave.lumels.push_back(i);
+    wave.groups_before.push_back(std::uint32_t(wave.groups.size()));
+}
+
+/// Adds what the rays of a group have found.
+void DirectFinder::take(const Group& group, const Wave& wave, Found& found)
+{
+    std::array<Sums, kCells> of_cells;
+    Sums of_both;
+    for (std::uint32_t h = 0; h < 2; ++h) {
+        Sums sums;
+        const std::uint32_t first = group.first + h * group.rays;
+        for (std::uint32_t look = first; look < first + group.rays; ++look)
+            for (Sums* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
+                into->add(wave.looks.sample(look), wave.looks.passing(look));
         found.half[h] += sums.light();
     }
     found.rays += of_both.free + of_both.hidden;
     found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
     found.exact = found.exact && of_both.exact;
     if (of_both.free > 0)
-        found.seen |= 1u << (alone ? to.source % 32 : 31);
+        found.seen |= 1u << (group.alone ? group.source % 32 : 31);
     for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
         found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
 }
 
-DirectFinder::Found DirectFinder::find(std::uint32_t i, std::uint32_t more) const
+void DirectFinder::take(const Wave& wave)
 {
-    Found found;
-    const Lumel& lumel = place_.lumels.lumels[i];
-    if (lumel.flags & kLumelBuried)
-        return found;
-    std::vector<float> rest;
-    for (const RaysTo& to :
-         share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
-        add_rays(i, to, more, found);
-    // A ray for a cell tells something only if it tells all.
-    if (more == 0 && !found.exact)
-        found.cells.fill(0.5f * (found.half[0] + found.half[1]));
-    return found;
+    for (std::size_t k = 0; k < wave.lumels.size(); ++k) {
+        const std::uint32_t i = wave.lumels[k];
+        Found found;
+        for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
+            take(wave.groups[g], wave, found);
+        // A ray for a cell tells something only if it tells all.
+        if (more_[i] == 0 && !found.exact)
+            found.cells.fill(0.5f * (found.half[0] + found.half[1]));
+        keep(i, found, blocks_[(wave.first + k) / kBlock]);
+    }
+}
+
+/// Of the lumels in blocks [first, last) of a list.
+void DirectFinder::find(const std::vector<std::uint32_t>& lumels, std::size_t first,
+                        std::size_t last)
+{
+    const std::size_t begin = first * kBlock, end = std::min(last * kBlock, lumels.size());
+    Wave wave(begin);
+    for (std::size_t k = begin; k < end; ++k) {
+        add(lumels[k], wave);
+        if (wave.looks.size() < place_.caster.batch() && k + 1 < end)
+            continue;
+        wave.looks.cast(place_.caster);
+        take(wave);
+        wave.begin(k + 1);
+    }
 }
 
 /// Takes over what was found of lumel i; many rays are the mean of what all of them found.
@@ -300,12 +373,9 @@ bool DirectFinder::step()
     if (first_pass_ && sources_.count() == 0)
         return false;
     const std::size_t last_block = std::min(done_ + kBlocksPerStep, blocks_.size());
-    parallel_for(last_block - done_, 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = done_ + first; b < done_ + last; ++b) {
-            Block& block = blocks_[b];
-            for (std::size_t k = b * kBlock; k < std::min((b + 1) * kBlock, list.size()); ++k)
-                keep(list[k], find(list[k], more_[list[k]]), block);
-        }
+    const std::size_t grain = place_.caster.batch() / (kBlock * 2 * kFewRays);
+    parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
+        find(list, done_ + first, done_ + last);
     });
     done_ = last_block;
     if (done_ < blocks_.size())

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "links/looks.h"
 #include "links/sources.h"
 #include "nearfield/hit_lumels.h"
 
@@ -16,6 +17,7 @@ struct LinkScene {
     const Scene& scene;
     const Surfaces& surfaces;
     const RayScene& rays;
+    const RayCaster& caster;  ///< of the same rays
     const Atlas& atlas;
     const Lumels& lumels;
 };
@@ -47,8 +49,12 @@ public:
         const std::uint32_t index = varying_[lumel];
         return index == kSame ? mean(lumel) : cells_[index][cell];
     }
-    /// At a point that may be anywhere, by a ray or two [lx]. size: of the lumel there.
-    glm::vec3 light_at(const RayStart& start, float size, std::uint32_t seed) const;
+    /// A point that may be anywhere looks for light, with as many looks as any other such point.
+    /// size: of the lumel there.
+    void look_around(const RayStart& start, float size, std::uint32_t seed, Looks& looks) const;
+    std::uint32_t looks_around() const;  ///< of one point
+    /// The light of a point [lx], by its looks from `first` on once they are cast.
+    glm::vec3 light_of(const Looks& looks, std::uint32_t first) const;
     std::uint64_t rays() const { return rays_; }  ///< so far
 
 private:
@@ -64,10 +70,8 @@ private:
         std::uint32_t halved = 0;                  ///< how often its rays are
         const std::vector<float>* rest = nullptr;  ///< running sums of several that share them
     };
-    struct Seen {
-        SourceSample sample;
-        glm::vec3 passing{0.0f};  ///< what of it gets through [0…1]
-    };
+    struct Group;
+    struct Wave;
     struct Block {
         std::vector<std::uint32_t> lumel;
         std::vector<OfCells> cells;
@@ -76,11 +80,15 @@ private:
 
     std::vector<RaysTo> share_out_rays(const glm::vec3& at, float size,
                                        std::vector<float>& rest) const;
-    Seen look(const RayStart& start, std::size_t source, float factor, const glm::vec2& at,
-              std::uint32_t seed) const;
+    void look(const RayStart& start, std::size_t source, float factor, const glm::vec2& at,
+              std::uint32_t seed, Looks& looks) const;
     static Choice choose(const std::vector<float>& running, float at);
-    void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, Found& found) const;
-    Found find(std::uint32_t lumel, std::uint32_t more) const;
+    void add_rays(std::uint32_t lumel, const RaysTo& to, std::uint32_t more, Wave& wave) const;
+    void add(std::uint32_t lumel, Wave& wave) const;
+    static void take(const Group& group, const Wave& wave, Found& found);
+    void take(const Wave& wave);
+    void find(const std::vector<std::uint32_t>& lumels, std::size_t first_block,
+              std::size_t last_block);
     void keep(std::uint32_t lumel, const Found& found, Block& block);
     double mean_of_all() const;
     bool differs(std::size_t lumel, double mean) const;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <span>
 
 #include <glm/gtc/packing.hpp>
 
@@ -36,13 +38,60 @@ constexpr std::uint32_t kStartPair = 0, kDirectionPair = 1, kPassPair = 2, kFirs
 
 }  // namespace
 
-/// What a ray has gathered, and what is left of it.
-struct LinkTracer::Followed {
+/// A ray from a lumel with its reflections: what it has gathered, and what is left of it.
+struct LinkTracer::Path {
+    PathSamples samples;
+    std::uint32_t from;  ///< part that it left
+    float size;          ///< of the lumel that it left last [m]
     glm::vec3 weight{1.0f};
     glm::vec3 reflected{0.0f};  ///< of surfaces met [lx]
     glm::vec3 sky{0.0f};        ///< [lx]
-    std::uint32_t part = 0;
-    float nearest = kFar;  ///< [m] to what it met first
+    Met met = Met::nothing;
+    std::uint32_t part = 0;  ///< that it met
+    float nearest = kFar;    ///< [m] to what it met first
+};
+
+/// Where a ray has met a lumel.
+struct LinkTracer::Arrival {
+    std::uint32_t ray;  ///< of the wave
+    std::uint32_t lumel, cell;
+    glm::vec3 position;              ///< [m]
+    bool may_be_hidden;              ///< from cells of the lumel
+    bool goes_on;                    ///< reflected there
+    bool is_hidden = false;          ///< no cell sees it
+    std::uint32_t unseen_cells = 0;  ///< bit c: cell c was looked for, and is hidden
+};
+
+/// Paths that are followed together, a reflection at a time.
+struct LinkTracer::Wave {
+    std::vector<std::uint32_t> lumels;
+    std::vector<std::uint32_t> paths_before;  ///< [lumels + 1]
+    std::vector<Path> paths;                  ///< of one lumel after those of another
+
+    // Of paths that have not ended.
+    int reflections = 0;
+    std::vector<RaySpan> rays;
+    std::vector<std::uint32_t> path_of;  ///< [rays]
+    std::vector<RayHit> hits;            ///< [rays]
+    std::vector<Arrival> arrivals;
+
+    // Of one reflection; kept so as to be allocated once.
+    std::vector<std::uint32_t> open;  ///< arrivals that look for a cell
+    std::vector<RaySpan> to_cells;
+    std::vector<glm::vec3> passing;  ///< [to_cells]
+    Looks looks;
+    std::vector<RaySpan> next_rays;
+    std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
+
+    Wave() { begin(); }
+    void begin()
+    {
+        lumels.clear();
+        paths_before.assign(1, 0);
+        paths.clear();
+        rays.clear();
+        path_of.clear();
+    }
 };
 
 bool Gathered::is_closed() const
@@ -105,140 +154,254 @@ std::uint32_t LinkTracer::lumel_near(const RayHit& hit) const
     return best;
 }
 
-/// The cell whose point is nearest to a position among those that it sees. False: it sees none.
-bool LinkTracer::seen_cell(std::uint32_t j, const glm::vec3& position, std::uint32_t seed,
-                           std::uint32_t& cell) const
+/// Rays that lumel i sends out.
+void LinkTracer::add(std::uint32_t i, std::uint32_t rays, std::uint32_t stream, Wave& wave) const
 {
-    CellPoints points = cell_points(world_, cells_, j);
-    const float lift = std::max(kLift * world_[j].size, lift_);
-    const glm::vec3 from = position + lift * world_[j].normal;
-    while (points.used != 0) {
-        float least = kFar;
-        for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
-            const glm::vec3 apart = points.point[c].position - position;
-            if (points.has(c) && glm::dot(apart, apart) < least) {
-                least = glm::dot(apart, apart);
-                cell = c;
-            }
+    const bool buried = (place_.lumels.lumels[i].flags & kLumelBuried) != 0;
+    const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, stream), i);
+    for (std::uint32_t k = 0; k < (buried ? 0u : rays); ++k) {
+        const PathSamples samples(own, k);
+        const RayStart start = starts_.start(i, samples.stratified(kStartPair));
+        const glm::vec3 direction =
+            frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
+        if (start.cosine(direction) > 0.0f) {
+            wave.path_of.push_back(std::uint32_t(wave.paths.size()));
+            wave.rays.push_back(ray_out(start.position, direction, samples.bits(kPassPair)));
         }
-        const LumelPoint& point = points.point[cell];
-        if (place_.rays.sees(from, point.position + lift * point.normal, 0.0f, seed))
-            return true;
-        points.used &= ~(1u << cell);
+        wave.paths.push_back(
+            {.samples = samples, .from = parts_.part(i, start.cell), .size = world_[i].size});
     }
-    return false;
+    wave.lumels.push_back(i);
+    wave.paths_before.push_back(std::uint32_t(wave.paths.size()));
 }
 
-LinkTracer::Met LinkTracer::follow(std::uint32_t i, const RayStart& start,
-                                   const glm::vec3& first_direction, const PathSamples& samples,
-                                   Followed& ray) const
+void LinkTracer::follow(Wave& wave) const
 {
-    glm::vec3 origin = start.position, direction = first_direction;
-    float size = world_[i].size;
-    for (int reflections = 0;; ++reflections) {
-        const std::uint32_t pair = kFirstReflection + std::uint32_t(reflections) * kPerReflection;
-        const std::uint32_t seed = samples.bits(reflections == 0 ? kPassPair : pair);
-        RayHit hit;
-        const bool met = place_.rays.closest(origin, direction, 0.0f, kFar, seed, hit);
-        ray.weight *= hit.tint;
-        if (met && reflections == 0)
-            ray.nearest = hit.distance;
-        if (!met) {
-            (reflections == 0 ? ray.sky : ray.reflected) +=
-                ray.weight * kPi * sources_.rest_of_sky(direction);
-            return Met::sky;
+    for (wave.reflections = 0; !wave.rays.empty(); ++wave.reflections) {
+        wave.hits.resize(wave.rays.size());
+        place_.caster.closest(wave.rays, wave.hits);
+        meet(wave);
+        find_seen_cells(wave);
+        end_or_reflect(wave);
+    }
+}
+
+/// Ends paths that meet no lumel; the others arrive.
+void LinkTracer::meet(Wave& wave) const
+{
+    wave.arrivals.clear();
+    for (std::uint32_t r = 0; r < wave.rays.size(); ++r) {
+        const RaySpan& ray = wave.rays[r];
+        const RayHit& hit = wave.hits[r];
+        Path& path = wave.paths[wave.path_of[r]];
+        path.weight *= hit.tint;
+        if (hit.distance == RayCaster::kNothing) {
+            (wave.reflections == 0 ? path.sky : path.reflected) +=
+                path.weight * kPi * sources_.rest_of_sky(ray.direction);
+            path.met = Met::sky;
+            continue;
         }
+        if (wave.reflections == 0)
+            path.nearest = hit.distance;
+        path.met = Met::nothing;
         const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
         if (!hit.front && !place_.surfaces.all()[surface].double_sided)
-            return Met::nothing;
+            continue;
         const std::uint32_t j = lumel_near(hit);
-        if (j == kNoLumel)
-            return Met::lost;
-
-        const Lumel& lumel = place_.lumels.lumels[j];
-        const glm::vec3 position = origin + hit.distance * direction;
-        std::uint32_t cell = cells_.cell(j, position);
-        const bool can_go_on = reflections < kMostReflections;
-        const float near = hit.distance / std::max(size, lumel.size);
-        bool goes_on = can_go_on && near < kTooNear;
-        if (!goes_on && (parts_.is_cut(j) || near < kMayBeHidden) &&
-            !seen_cell(j, position, seed, cell)) {
-            if (!can_go_on)
-                return Met::nothing;
-            goes_on = true;
+        if (j == kNoLumel) {
+            path.met = Met::lost;
+            continue;
         }
-        if (!goes_on) {
-            ray.reflected += ray.weight * lumel.albedo * direct_.at(j, cell);
-            ray.part = parts_.part(j, cell);
-            return Met::part;
-        }
-        ray.weight *= lumel.albedo;
-        if (ray.weight == glm::vec3(0.0f))
-            return Met::nothing;
-        const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
-        origin = origin + direction * std::max(0.0f, hit.distance - lift_) + lift_ * normal;
-        ray.reflected += ray.weight * direct_.light_at({origin, normal, normal, cell}, lumel.size,
-                                                       samples.bits(pair));
-        direction = frame_about(normal) * by_cosine(samples.random(pair + 1));
-        size = lumel.size;
+        const glm::vec3 position = ray.origin + hit.distance * ray.direction;
+        const float sides = hit.distance / std::max(path.size, place_.lumels.lumels[j].size);
+        wave.arrivals.push_back(
+            {.ray = r,
+             .lumel = j,
+             .cell = cells_.cell(j, position),
+             .position = position,
+             .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
+             .goes_on = wave.reflections < kMostReflections && sides < kTooNear});
     }
 }
 
-void LinkTracer::trace_block(std::size_t b, const std::vector<std::uint16_t>& rays,
-                             std::uint32_t stream, Gathered& into) const
+/// In lumels of several parts, finds the cell whose point is nearest among those that the position
+/// sees. Paths that see none go on, as long as they may.
+void LinkTracer::find_seen_cells(Wave& wave) const
 {
-    LinkBlock& block = into.rounds.back()[b];
-    block.first.push_back(0);
-    block.first_weak.push_back(0);
-    std::vector<std::uint32_t> targets[kMostParts];
-    std::vector<WeakLink> weak[kMostParts];
-    const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
-    for (std::size_t o = b * kLinkBlock; o < end; ++o) {
-        const std::uint32_t i = order_[o];
-        const std::uint32_t first = parts_.first(i), parts = parts_.end(i) - first;
-        const bool buried = (place_.lumels.lumels[i].flags & kLumelBuried) != 0;
-        const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, stream), i);
-        for (std::uint32_t k = 0; k < (buried ? 0u : rays[i]); ++k) {
-            const PathSamples samples(own, k);
-            const RayStart start = starts_.start(i, samples.stratified(kStartPair));
-            const std::uint32_t p = parts_.part(i, start.cell) - first;
-            const glm::vec3 direction =
-                frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
-            Followed ray;
-            const Met met = start.cosine(direction) > 0.0f
-                                ? follow(i, start, direction, samples, ray)
-                                : Met::nothing;
-            into.nearest[first + p] = std::min(into.nearest[first + p], ray.nearest);
-            block.loses = block.loses || met != Met::part;
-            if (met == Met::lost)
-                continue;
-            ++into.rays[first + p];
-            into.reflected[first + p] += ray.reflected;
-            into.sky[first + p] += ray.sky;
-            if (met == Met::part && ray.weight == glm::vec3(1.0f))
-                targets[p].push_back(ray.part);
-            else if (met == Met::part)
-                weak[p].push_back({ray.part, glm::packF3x9_E1x5(ray.weight)});
-        }
-        for (std::uint32_t p = 0; p < parts; ++p) {
-            block.target.insert(block.target.end(), targets[p].begin(), targets[p].end());
-            block.weak.insert(block.weak.end(), weak[p].begin(), weak[p].end());
-            block.first.push_back(std::uint32_t(block.target.size()));
-            block.first_weak.push_back(std::uint32_t(block.weak.size()));
-            targets[p].clear();
-            weak[p].clear();
+    std::vector<std::uint32_t>& open = wave.open;
+    open.clear();
+    for (std::uint32_t a = 0; a < wave.arrivals.size(); ++a)
+        if (!wave.arrivals[a].goes_on && wave.arrivals[a].may_be_hidden)
+            open.push_back(a);
+    while (!open.empty()) {
+        // One ray for each that has a cell left.
+        wave.to_cells.clear();
+        std::erase_if(open, [&](std::uint32_t a) {
+            Arrival& arrival = wave.arrivals[a];
+            const std::optional<RaySpan> ray = ray_to_cell(arrival, wave.rays[arrival.ray].seed);
+            if (ray) {
+                wave.to_cells.push_back(*ray);
+                return false;
+            }
+            arrival.is_hidden = true;
+            arrival.goes_on = wave.reflections < kMostReflections;
+            return true;
+        });
+        wave.passing.resize(wave.to_cells.size());
+        place_.caster.passing(wave.to_cells, wave.passing);
+        auto passed = wave.passing.begin();
+        std::erase_if(open, [&](std::uint32_t a) {
+            const bool sees = *passed++ != glm::vec3(0.0f);
+            if (!sees)
+                wave.arrivals[a].unseen_cells |= 1u << wave.arrivals[a].cell;
+            return sees;
+        });
+    }
+}
+
+/// To the point of the nearest cell that is not known to be hidden, which becomes the arrival's;
+/// empty: there is none.
+std::optional<RaySpan> LinkTracer::ray_to_cell(Arrival& arrival, std::uint32_t seed) const
+{
+    const std::uint32_t j = arrival.lumel;
+    const CellPoints points = cell_points(world_, cells_, j);
+    const std::uint32_t left = points.used & ~arrival.unseen_cells;
+    if (left == 0)
+        return std::nullopt;
+    float least = kFar;
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c) {
+        const glm::vec3 apart = points.point[c].position - arrival.position;
+        if ((left >> c & 1u) != 0 && glm::dot(apart, apart) < least) {
+            least = glm::dot(apart, apart);
+            arrival.cell = c;
         }
     }
-    block.target.shrink_to_fit();
-    block.weak.shrink_to_fit();
+    const float lift = std::max(kLift * world_[j].size, lift_);
+    const LumelPoint& point = points.point[arrival.cell];
+    return ray_between(arrival.position + lift * world_[j].normal,
+                       point.position + lift * point.normal, 0.0f, seed);
+}
+
+/// Ends paths at the parts that they met, or sends their reflections out.
+void LinkTracer::end_or_reflect(Wave& wave) const
+{
+    wave.next_rays.clear();
+    wave.next_path_of.clear();
+    wave.looks.clear();
+    for (const Arrival& arrival : wave.arrivals) {
+        const std::uint32_t p = wave.path_of[arrival.ray];
+        Path& path = wave.paths[p];
+        const glm::vec3& albedo = place_.lumels.lumels[arrival.lumel].albedo;
+        if (arrival.is_hidden && !arrival.goes_on)
+            continue;
+        if (!arrival.goes_on) {
+            path.reflected += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
+            path.part = parts_.part(arrival.lumel, arrival.cell);
+            path.met = Met::part;
+            continue;
+        }
+        path.weight *= albedo;
+        if (path.weight == glm::vec3(0.0f))
+            continue;
+        wave.next_rays.push_back(reflect(wave, arrival, path, wave.looks));
+        wave.next_path_of.push_back(p);
+    }
+    wave.looks.cast(place_.caster);
+    for (std::uint32_t r = 0; r < wave.next_rays.size(); ++r) {
+        Path& path = wave.paths[wave.next_path_of[r]];
+        path.reflected += path.weight * direct_.light_of(wave.looks, r * direct_.looks_around());
+    }
+    wave.rays.swap(wave.next_rays);
+    wave.path_of.swap(wave.next_path_of);
+}
+
+/// Looks for light from where a path has arrived, and goes on from there.
+RaySpan LinkTracer::reflect(const Wave& wave, const Arrival& arrival, Path& path,
+                            Looks& looks) const
+{
+    const RaySpan& ray = wave.rays[arrival.ray];
+    const RayHit& hit = wave.hits[arrival.ray];
+    const auto pair_of = [](int reflections) {
+        return kFirstReflection + std::uint32_t(reflections) * kPerReflection;
+    };
+    const std::uint32_t pair = pair_of(wave.reflections);
+    const glm::vec3 normal = hit.front ? hit.normal : -hit.normal;
+    const glm::vec3 origin =
+        ray.origin + ray.direction * std::max(0.0f, hit.distance - lift_) + lift_ * normal;
+    path.size = place_.lumels.lumels[arrival.lumel].size;
+    direct_.look_around({origin, normal, normal, arrival.cell}, path.size, path.samples.bits(pair),
+                        looks);
+    return ray_out(origin, frame_about(normal) * by_cosine(path.samples.random(pair + 1)),
+                   path.samples.bits(pair_of(wave.reflections + 1)));
+}
+
+/// Takes over what the paths of one lumel have found.
+void LinkTracer::keep(const Wave& wave, std::size_t n, LinkBlock& block, Gathered& into) const
+{
+    const std::uint32_t first = parts_.first(wave.lumels[n]);
+    const std::uint32_t parts = parts_.end(wave.lumels[n]) - first;
+    const std::span<const Path> paths =
+        std::span(wave.paths)
+            .subspan(wave.paths_before[n], wave.paths_before[n + 1] - wave.paths_before[n]);
+    for (const Path& path : paths) {
+        into.nearest[path.from] = std::min(into.nearest[path.from], path.nearest);
+        block.loses = block.loses || path.met != Met::part;
+        if (path.met == Met::lost)
+            continue;
+        ++into.rays[path.from];
+        into.reflected[path.from] += path.reflected;
+        into.sky[path.from] += path.sky;
+    }
+    for (std::uint32_t p = first; p < first + parts; ++p) {
+        for (const Path& path : paths) {
+            if (path.from != p || path.met != Met::part)
+                continue;
+            if (path.weight == glm::vec3(1.0f))
+                block.target.push_back(path.part);
+            else
+                block.weak.push_back({path.part, glm::packF3x9_E1x5(path.weight)});
+        }
+        block.first.push_back(std::uint32_t(block.target.size()));
+        block.first_weak.push_back(std::uint32_t(block.weak.size()));
+    }
+}
+
+void LinkTracer::trace_blocks(std::size_t first, std::size_t last,
+                              const std::vector<std::uint16_t>& rays, std::uint32_t stream,
+                              Gathered& into) const
+{
+    const std::size_t begin = first * kLinkBlock;
+    const std::size_t end = std::min(last * kLinkBlock, order_.size());
+    for (std::size_t b = first; b < last; ++b) {
+        into.rounds.back()[b].first.push_back(0);
+        into.rounds.back()[b].first_weak.push_back(0);
+    }
+    Wave wave;
+    for (std::size_t o = begin, kept = begin; o < end; ++o) {
+        add(order_[o], rays[order_[o]], stream, wave);
+        if (wave.paths.size() < place_.caster.batch() && o + 1 < end)
+            continue;
+        follow(wave);
+        for (std::size_t n = 0; n < wave.lumels.size(); ++n, ++kept)
+            keep(wave, n, into.rounds.back()[kept / kLinkBlock], into);
+        wave.begin();
+    }
+    for (std::size_t b = first; b < last; ++b) {
+        into.rounds.back()[b].target.shrink_to_fit();
+        into.rounds.back()[b].weak.shrink_to_fit();
+    }
 }
 
 void LinkTracer::trace(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
                        std::uint32_t stream, Gathered& into) const
 {
-    parallel_for(last - first, 1, [&](std::size_t from, std::size_t to) {
-        for (std::size_t b = first + from; b < first + to; ++b)
-            trace_block(b, rays, stream, into);
+    const std::size_t end = std::min(last * kLinkBlock, order_.size());
+    std::size_t all = 1;
+    for (std::size_t o = first * kLinkBlock; o < end; ++o)
+        all += rays[order_[o]];
+    const std::size_t grain = place_.caster.batch() * (last - first) / all;
+    parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
+        trace_blocks(first + from, first + to, rays, stream, into);
     });
 }
 

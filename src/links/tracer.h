@@ -3,6 +3,7 @@
 // and the part that it meets is kept; all further bounces go over what is kept.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -68,16 +69,22 @@ public:
                std::uint32_t stream, Gathered& into) const;
 
 private:
-    struct Followed;
     enum class Met { part, sky, nothing, lost };
+    struct Path;
+    struct Arrival;
+    struct Wave;
 
-    Met follow(std::uint32_t lumel, const RayStart& start, const glm::vec3& direction,
-               const PathSamples& samples, Followed& ray) const;
+    void add(std::uint32_t lumel, std::uint32_t rays, std::uint32_t stream, Wave& wave) const;
+    void follow(Wave& wave) const;
+    void meet(Wave& wave) const;
+    void find_seen_cells(Wave& wave) const;
+    std::optional<RaySpan> ray_to_cell(Arrival& arrival, std::uint32_t seed) const;
+    void end_or_reflect(Wave& wave) const;
+    RaySpan reflect(const Wave& wave, const Arrival& arrival, Path& path, Looks& looks) const;
+    void keep(const Wave& wave, std::size_t lumel, LinkBlock& block, Gathered& into) const;
     std::uint32_t lumel_near(const RayHit& hit) const;
-    bool seen_cell(std::uint32_t lumel, const glm::vec3& position, std::uint32_t seed,
-                   std::uint32_t& cell) const;
-    void trace_block(std::size_t block, const std::vector<std::uint16_t>& rays,
-                     std::uint32_t stream, Gathered& into) const;
+    void trace_blocks(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
+                      std::uint32_t stream, Gathered& into) const;
 
     const LinkScene place_;
     const LightSources& sources_;

@@ -16,7 +16,7 @@ namespace {
 /// position (about 1e-7 of it), far below anything one could see.
 constexpr float kLift = 1e-5f;
 
-/// What Embree's geometry number stands for.
+/// What Embree's geometry number stands for, which is the part's.
 struct Part {
     const Scene* scene = nullptr;
     const Primitive* source = nullptr;
@@ -68,6 +68,11 @@ float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     return float(state >> 8) * 0x1p-24f;
 }
 
+glm::vec3 to_world(const glm::mat4& transform, const glm::vec3& position)
+{
+    return glm::vec3(transform * glm::vec4(position, 1.0f));
+}
+
 /// Look of a surface at a point of one of its triangles.
 MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float v)
 {
@@ -84,6 +89,17 @@ MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float 
     return sample_material(*part.scene, source.material, texcoord, color);
 }
 
+/// The tint of what passes a triangle; empty if a ray of this seed meets it.
+std::optional<glm::vec3> tint_through(const Part& part, std::uint32_t geometry,
+                                      std::uint32_t triangle, const glm::vec2& barycentric,
+                                      std::uint32_t seed)
+{
+    const MaterialSample look = look_at(part, triangle, barycentric.x, barycentric.y);
+    if (look.opacity >= 1.0f || hash_to_unit(seed, geometry, triangle) < look.opacity)
+        return std::nullopt;
+    return look.tint;
+}
+
 /// Embree's filter: does this candidate hit count?
 void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 {
@@ -91,18 +107,17 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
         return;
     const Part& part = *static_cast<const Part*>(candidate->geometryUserPtr);
     const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
-    const MaterialSample look = look_at(part, triangle, RTCHitN_u(candidate->hit, candidate->N, 0),
-                                        RTCHitN_v(candidate->hit, candidate->N, 0));
-    if (look.opacity >= 1.0f)
-        return;
-    auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
     const std::uint32_t geometry = RTCHitN_geomID(candidate->hit, candidate->N, 0);
-    if (hash_to_unit(context.seed, geometry, triangle) < look.opacity)
+    auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
+    const std::optional<glm::vec3> tint = tint_through(
+        part, geometry, triangle,
+        {RTCHitN_u(candidate->hit, candidate->N, 0), RTCHitN_v(candidate->hit, candidate->N, 0)},
+        context.seed);
+    if (!tint)
         return;
     candidate->valid[0] = 0;
-    if (look.tint != glm::vec3(1.0f))
-        context.pass(
-            {geometry, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), look.tint});
+    if (*tint != glm::vec3(1.0f))
+        context.pass({geometry, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), *tint});
 }
 
 QueryContext query_context(std::uint32_t seed)
@@ -190,7 +205,7 @@ void RayScene::Data::add(const Scene& scene, std::uint32_t instance, std::uint32
         check("storing the triangles for ray queries");
     }
     for (const glm::vec3& position : source.positions) {
-        const glm::vec3 world(transform * glm::vec4(position, 1.0f));
+        const glm::vec3 world = to_world(transform, position);
         for (int axis = 0; axis < 3; ++axis)
             *vertices++ = world[axis];
     }
@@ -239,22 +254,38 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
-                            std::uint32_t seed) const
+RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed)
 {
     const glm::vec3 path = to - from;
     const float distance = glm::length(path);
     if (distance <= 2.0f * offset)
+        return {.origin = from, .seed = seed};
+    return {from, offset, path / distance, distance - offset, seed};
+}
+
+RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed)
+{
+    return {from, 0.0f, direction, std::numeric_limits<float>::max(), seed};
+}
+
+glm::vec3 RayScene::passing(const RaySpan& ray) const
+{
+    if (!(ray.far > ray.near))
         return glm::vec3(1.0f);
-    return tint_along(data_->tree, make_ray(from, path / distance, offset, distance - offset),
-                      seed);
+    return tint_along(data_->tree, make_ray(ray.origin, ray.direction, ray.near, ray.far),
+                      ray.seed);
+}
+
+glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
+                            std::uint32_t seed) const
+{
+    return passing(ray_between(from, to, offset, seed));
 }
 
 glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,
                                 std::uint32_t seed) const
 {
-    constexpr float kFar = std::numeric_limits<float>::max();
-    return tint_along(data_->tree, make_ray(from, direction, 0.0f, kFar), seed);
+    return passing(ray_out(from, direction, seed));
 }
 
 bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
@@ -291,6 +322,59 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
         part.winding * glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
     hit.front = glm::dot(hit.normal, direction) < 0.0f;
     return true;
+}
+
+std::size_t RayScene::parts() const
+{
+    return data_->parts.size();
+}
+
+std::vector<glm::vec3> RayScene::positions(std::size_t part) const
+{
+    const Part& from = data_->parts[part];
+    const glm::mat4& transform = from.scene->instances[from.instance].transform;
+    std::vector<glm::vec3> positions;
+    positions.reserve(from.source->positions.size());
+    for (const glm::vec3& position : from.source->positions)
+        positions.push_back(to_world(transform, position));
+    return positions;
+}
+
+std::span<const std::uint32_t> RayScene::corners(std::size_t part) const
+{
+    return data_->parts[part].source->indices;
+}
+
+bool RayScene::may_let_pass(std::size_t part) const
+{
+    const Part& from = data_->parts[part];
+    return may_be_transparent(from.scene->materials[from.source->material], *from.source);
+}
+
+std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t triangle,
+                                           const glm::vec2& barycentric, std::uint32_t seed) const
+{
+    return tint_through(data_->parts[part], std::uint32_t(part), triangle, barycentric, seed);
+}
+
+RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2& barycentric,
+                     float distance, const glm::vec3& direction) const
+{
+    const Part& part = data_->parts[number];
+    const glm::mat4& transform = part.scene->instances[part.instance].transform;
+    glm::vec3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = to_world(
+            transform, part.source->positions[part.source->indices[3 * std::size_t(triangle) + k]]);
+    const glm::vec3 normal =
+        part.winding * glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    return {.instance = part.instance,
+            .primitive = part.primitive,
+            .triangle = triangle,
+            .barycentric = barycentric,
+            .distance = distance,
+            .normal = normal,
+            .front = glm::dot(normal, direction) < 0.0f};
 }
 
 glm::vec3 RayScene::low() const

@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -10,6 +13,21 @@
 #include "scene/scene.h"
 
 namespace lumel {
+
+/// What lies along a ray counts from `near` to `far`. One whose ends have met is clear.
+struct RaySpan {
+    glm::vec3 origin{0.0f};     ///< [m]
+    float near = 0.0f;          ///< [m]
+    glm::vec3 direction{0.0f};  ///< unit
+    float far = 0.0f;           ///< [m]
+    std::uint32_t seed = 0;     ///< of what surfaces let pass
+};
+
+/// From one point to another, both ends shortened by `offset` [m].
+RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed);
+
+/// Along a unit direction, however far.
+RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed);
 
 /// Where a ray meets the scene.
 struct RayHit {
@@ -49,10 +67,30 @@ public:
                       std::uint32_t seed) const;
     glm::vec3 passing_out(const glm::vec3& from, const glm::vec3& direction,
                           std::uint32_t seed) const;
+    glm::vec3 passing(const RaySpan& ray) const;
 
     /// First hit along a unit direction with distance in (near, far), or false.
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                  std::uint32_t seed, RayHit& hit) const;
+    bool closest(const RaySpan& ray, RayHit& hit) const
+    {
+        return closest(ray.origin, ray.direction, ray.near, ray.far, ray.seed, hit);
+    }
+
+    /// The triangles as who traces them elsewhere needs them: a part for each primitive of each
+    /// instance that has any.
+    std::size_t parts() const;
+    std::vector<glm::vec3> positions(std::size_t part) const;        ///< of vertices, world [m]
+    std::span<const std::uint32_t> corners(std::size_t part) const;  ///< [triangles][3] of these
+    bool may_let_pass(std::size_t part) const;                       ///< MASK, BLEND or glass
+
+    /// The tint of what passes a triangle at a point of it; empty if a ray of this seed meets it.
+    std::optional<glm::vec3> passing(std::size_t part, std::uint32_t triangle,
+                                     const glm::vec2& barycentric, std::uint32_t seed) const;
+
+    /// A hit, by what is known of it.
+    RayHit hit(std::size_t part, std::uint32_t triangle, const glm::vec2& barycentric,
+               float distance, const glm::vec3& direction) const;
 
     /// Corners of the world-space bounding box [m]; both 0 for a scene without triangles.
     glm::vec3 low() const;

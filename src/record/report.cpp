@@ -81,6 +81,8 @@ Json solution(const Report& report)
                    {"interrupted", report.interrupted}};
     if (report.directional_shots > 0)
         result["directional_shots"] = report.directional_shots;
+    if (!report.rays.empty())
+        result["rays"] = report.rays;
     if (report.estimated_error >= 0.0)
         result["estimated_error"] = report.estimated_error;
     if (report.estimated_dark_error >= 0.0)

@@ -2,6 +2,8 @@
 // type that is added up. Declares `plus`, which whoever includes this defines. The group's size,
 // declared before, is a power of two. May be included for one type only.
 
+#extension GL_EXT_control_flow_attributes : require
+
 #ifndef SUMMAND
 #error "group_sum.glsl: define SUMMAND"
 #endif
@@ -16,7 +18,7 @@ SUMMAND add_over_group(SUMMAND mine)
     const uint me = gl_LocalInvocationID.x;
     summands[me] = mine;
     barrier();
-    for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
+    [[dont_unroll]] for (uint width = gl_WorkGroupSize.x / 2u; width > 0u; width /= 2u) {
         if (me < width)
             summands[me] = plus(summands[me], summands[me + width]);
         barrier();

@@ -30,6 +30,7 @@
 #include "core/luminance.h"
 #include "links/deviation.h"
 #include "paths/samples.h"
+#include "query/query_caster.h"
 #include "solve/methods.h"
 
 namespace lumel {
@@ -114,6 +115,14 @@ std::vector<char> buried(const Lumels& lumels)
     return result;
 }
 
+std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
+{
+    const bool suits = device.can_query_rays() && device.info().type != "cpu";
+    return wanted == Rays::query || (wanted == Rays::automatic && suits)
+               ? cast_by_queries(device, rays)
+               : cast_on_host(rays);
+}
+
 /// Adds the time that something takes to a stage [ms].
 class Clock {
 public:
@@ -133,7 +142,7 @@ private:
 
 }  // namespace
 
-LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
+LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
                              const LinksOptions& options, const SolverOptions& limits, Parts parts)
     : options_(options),
       target_error_(limits.target_error),
@@ -142,7 +151,8 @@ LinkRadiosity::LinkRadiosity(const HostScene& host, const Lumels& lumels,
       parts_wanted_(parts),
       lumels_(lumels),
       surfaces_(host.scene),
-      place_{host.scene, surfaces_, host.rays, host.atlas, lumels},
+      caster_(caster_for(device, host.rays, options.rays)),
+      place_{host.scene, surfaces_, host.rays, *caster_, host.atlas, lumels},
       world_(host.scene, host.rays, lumels),
       cells_(world_),
       starts_(world_, cells_, host.rays.lift(), options.rule == SampleRule::centre),

@@ -10,6 +10,7 @@
 #include "links/sweeps.h"
 #include "links/tracer.h"
 #include "nearfield/solve_size.h"
+#include "rays/ray_caster.h"
 #include "scene/parts.h"
 #include "solve/options.h"
 #include "solve/solver.h"
@@ -23,9 +24,9 @@ struct HostScene;
 class LinkRadiosity final : public Solver {
 public:
     /// What is given must outlive it. limits: how far rounds should go. parts: of the light that
-    /// irradiance() has.
-    LinkRadiosity(const HostScene& host, const Lumels& lumels, const LinksOptions& options,
-                  const SolverOptions& limits, Parts parts);
+    /// irradiance() has. Throws Error{device} if the device should cast the rays, and cannot.
+    LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
+                  const LinksOptions& options, const SolverOptions& limits, Parts parts);
     ~LinkRadiosity() override;
 
     /// Bytes on the device: none. On the host it takes host_bytes.
@@ -37,6 +38,7 @@ public:
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
+    std::string rays() const override { return caster_->name(); }
 
 private:
     /// Two to state the error, and a third to filter them by.
@@ -77,6 +79,7 @@ private:
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;
+    std::unique_ptr<RayCaster> caster_;
     LinkScene place_;
     WorldLumels world_;
     Cells cells_;

@@ -41,6 +41,8 @@ constexpr Word<Projection> kProjections[] = {{"hemicube", Projection::hemicube},
 constexpr Word<Scheme> kSchemes[] = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 constexpr Word<Layers> kLayers[] = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
+constexpr Word<Rays> kRays[] = {
+    {"auto", Rays::automatic}, {"host", Rays::host}, {"query", Rays::query}};
 constexpr Word<bool> kSwitch[] = {{"on", true}, {"off", false}};
 constexpr Word<int> kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
 
@@ -85,6 +87,10 @@ constexpr auto projection = [](auto& o) -> auto&
 constexpr auto filter = [](auto& o) -> auto&
 {
     return o.filter;
+};
+constexpr auto ray_caster = [](auto& o) -> auto&
+{
+    return o.rays;
 };
 constexpr auto layers = [](auto& o) -> auto&
 {
@@ -242,6 +248,10 @@ constexpr OptionInfo kLinksOptions[] = {
         {"filter", "on|off",
          "Average lumels with those around them that look alike; without it the result is exact in "
          "expectation"}),
+    choice<LinksOptions, kRays, ray_caster>({"rays", "auto|host|query",
+                                       "What casts the rays: the host, or ray queries of the "
+                                       "device (VK_KHR_ray_query); auto: the "
+                                       "device where it has them and is no CPU, else the host"}),
 };
 
 constexpr OptionInfo kStochasticOptions[] = {
@@ -320,7 +330,7 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
 {
     const auto& own = std::get<Options>(options.method);
     if constexpr (std::is_same_v<Method, LinkRadiosity>)
-        return std::make_unique<Method>(*in.host, in.lumels, own, options, in.parts);
+        return std::make_unique<Method>(in.device, *in.host, in.lumels, own, options, in.parts);
     else if constexpr (std::is_same_v<Method, GlossyIllumination>)
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
                                         in.particles);

@@ -12,10 +12,18 @@
 
 namespace lumel {
 
+/// Who casts rays.
+enum class Rays {
+    automatic,  ///< the device where it has ray queries and is no CPU, else the host
+    host,
+    query,  ///< the device
+};
+
 struct LinksOptions {
     std::uint32_t seed = 1;
     SampleRule rule = SampleRule::area;
     bool filter = true;  ///< averages lumels with others of their chart that look alike
+    Rays rays = Rays::automatic;
 };
 
 struct StochasticOptions {

@@ -2,6 +2,7 @@
 // What every method at work offers.
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -27,6 +28,8 @@ public:
     virtual const gpu::StageTimes& times() const = 0;
     /// Longest submission so far [ms].
     virtual double longest_submission() const = 0;
+    /// Who casts its rays, "host" or "query"; empty if it casts none.
+    virtual std::string rays() const { return {}; }
 };
 
 /// Steps until a limit of the options is met or `go_on` returns false. Returns true unless

@@ -140,6 +140,8 @@ Interface join(const std::vector<Shader>& shaders)
 
 std::string binding_type(const Binding& binding)
 {
+    if (binding.kind == Kind::tree)
+        return "gpu::TreeBinding";
     const bool is_array = binding.kind == Kind::array || binding.kind == Kind::constants;
     return is_array ? "gpu::ArrayBinding<" + binding.element.name + ">" : "gpu::TextureBinding";
 }
@@ -155,6 +157,8 @@ const char* kind_name(Kind kind)
         return "texture";
     case Kind::uint_texture:
         return "uint_texture";
+    case Kind::tree:
+        return "tree";
     }
     return "";
 }

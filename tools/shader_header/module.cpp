@@ -35,6 +35,7 @@ enum Op : std::uint32_t {
     OpDecorate = 71,
     OpMemberDecorate = 72,
     OpExecutionModeId = 331,
+    OpTypeAccelerationStructureKHR = 5341,
 };
 enum Decoration : std::uint32_t {
     ArrayStride = 6,
@@ -198,6 +199,9 @@ void Reader::read(const Instruction& instruction)
     case OpVariable:
         variables_.push_back({o[1], o[0], o[2]});
         break;
+    case OpTypeAccelerationStructureKHR:
+        types_[o[0]] = instruction;
+        break;
     default:
         if (instruction.op >= OpTypeInt && instruction.op <= OpTypePointer)
             types_[o[0]] = instruction;
@@ -287,6 +291,10 @@ void Reader::add_binding(Module& module, const Variable& variable) const
     if (!number || !is_reached(variable.id))
         return;
     const std::uint32_t what = pointee(variable);
+    if (type(what).op == OpTypeAccelerationStructureKHR) {
+        module.bindings.push_back({*number, name(variable.id), Kind::tree, {}});
+        return;
+    }
     if (variable.storage == UniformConstant) {
         const std::uint32_t image =
             type(what).op == OpTypeSampledImage ? type(what).operands[1] : what;

@@ -20,7 +20,7 @@ struct Type {
     std::vector<Field> fields;  ///< of a struct
 };
 
-enum class Kind { array, constants, texture, uint_texture };
+enum class Kind { array, constants, texture, uint_texture, tree };
 
 struct Binding {
     std::uint32_t number;

@@ -1,0 +1,52 @@
+#pragma once
+// Looks from points at sources of light: asked one by one, answered together.
+
+#include <cstdint>
+#include <vector>
+
+#include "links/sources.h"
+#include "rays/ray_caster.h"
+
+namespace lumel {
+
+class Looks {
+public:
+    std::uint32_t size() const { return std::uint32_t(samples_.size()); }
+
+    /// Adds a look at what a source sends along a ray, which is not cast where that is nothing.
+    void add(const SourceSample& sample, const RaySpan& ray)
+    {
+        const bool dark = sample.irradiance == glm::vec3(0.0f);
+        ray_of_.push_back(dark ? kNoRay : std::uint32_t(rays_.size()));
+        samples_.push_back(sample);
+        if (!dark)
+            rays_.push_back(ray);
+    }
+    void cast(const RayCaster& caster)
+    {
+        passing_.resize(rays_.size());
+        caster.passing(rays_, passing_);
+    }
+    void clear()
+    {
+        samples_.clear();
+        ray_of_.clear();
+        rays_.clear();
+    }
+
+    const SourceSample& sample(std::size_t look) const { return samples_[look]; }
+    /// Once all are cast: what of it gets through [0…1].
+    glm::vec3 passing(std::size_t look) const
+    {
+        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : passing_[ray_of_[look]];
+    }
+
+private:
+    static constexpr std::uint32_t kNoRay = ~0u;
+    std::vector<SourceSample> samples_;  ///< [looks]
+    std::vector<std::uint32_t> ray_of_;  ///< [looks]
+    std::vector<RaySpan> rays_;
+    std::vector<glm::vec3> passing_;  ///< [rays]
+};
+
+}  // namespace lumel
