@@ -72,7 +72,7 @@ struct LinkTracer::Wave {
     int reflections = 0;
     std::vector<RaySpan> rays;
     std::vector<std::uint32_t> path_of;  ///< [rays]
-    std::vector<RayHit> hits;            ///< [rays]
+    std::vector<RayHit> hits;            ///< [rays or more]
     std::vector<Arrival> arrivals;
 
     // Of one reflection; kept so as to be allocated once.
@@ -178,8 +178,9 @@ void LinkTracer::add(std::uint32_t i, std::uint32_t rays, std::uint32_t stream, 
 void LinkTracer::follow(Wave& wave) const
 {
     for (wave.reflections = 0; !wave.rays.empty(); ++wave.reflections) {
-        wave.hits.resize(wave.rays.size());
-        place_.caster.closest(wave.rays, wave.hits);
+        const std::size_t count = wave.rays.size();
+        wave.hits.resize(std::max(wave.hits.size(), count));
+        place_.caster.closest(wave.rays, std::span(wave.hits).first(count));
         meet(wave);
         find_seen_cells(wave);
         end_or_reflect(wave);
