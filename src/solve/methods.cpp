@@ -248,10 +248,11 @@ constexpr OptionInfo kLinksOptions[] = {
         {"filter", "on|off",
          "Average lumels with those around them that look alike; without it the result is exact in "
          "expectation"}),
-    choice<LinksOptions, kRays, ray_caster>({"rays", "auto|host|query",
-                                       "What casts the rays: the host, or ray queries of the "
-                                       "device (VK_KHR_ray_query); auto: the "
-                                       "device where it has them and is no CPU, else the host"}),
+    choice<LinksOptions, kRays, ray_caster>(
+        {"rays", "auto|host|query",
+         "What casts the rays: the host, or ray queries of the "
+         "device (VK_KHR_ray_query); auto: the "
+         "device where it has them and is no CPU, else the host"}),
 };
 
 constexpr OptionInfo kStochasticOptions[] = {
