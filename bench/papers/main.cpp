@@ -23,6 +23,9 @@ namespace {
 constexpr int kPapersSize = 512;
 constexpr const char* kPapersMap = "512";
 
+/// What figures are of that name no other method.
+constexpr const char* kMethod = "stochastic";
+
 /// An option of methods, for those of the figure that read it.
 void add_given(CLI::App* figure, Settings& shared, const std::string& name)
 {
@@ -42,6 +45,7 @@ CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& 
                      Settings& shared)
 {
     CLI::App* figure = app.add_subcommand(name, title);
+    shared.given.id = kMethod;
     figure->add_option("scene", shared.scene, "glTF scene")->capture_default_str();
     figure->add_option("--device", shared.device, "as lumel devices lists");
     add_given(figure, shared, "hemicube");

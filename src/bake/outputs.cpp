@@ -108,6 +108,8 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
     stages.end();
     device.check_validation();
 
+    if (!written.preview)
+        folder.outdate(kPreview);
     const BakeRecord record = record_of(options, prepared, results, written);
     const Json report = to_json(bake_report(record, prepared, device, solver, results, stages));
     write_json(folder.path(kReportFile), report);

@@ -56,11 +56,15 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     const Prepared& prepared = setting.prepared;
     std::vector<KnownSource> sources =
         known_sources(device, setting, options, solution->lamps, stages);
+    if (stages.stopped())
+        throw_stopped();
     stages.begin("solving");
     auto solver = std::make_unique<RelightSolver>(device, *setting.world, prepared.lumels,
                                                   setting.near, options.solver, std::move(sources));
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
+    if (!solver->done() && (solver->state().shots == 0 || !solver->transport()))
+        throw_stopped();
     stages.note_times(solver->times());
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();

@@ -64,6 +64,9 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     BakeOptions options;
     options.sky_directions = baked.sky_directions;
     options.solver.method = baked.solver.method;
+    // What casts rays is not a part of the result, and this may be another device.
+    if (auto* links = std::get_if<LinksOptions>(&options.solver.method))
+        links->rays = Rays::automatic;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
         edit.now.scene, [&](const Scene&, const Watch&) { return edit.now.atlas; }, device, options,
@@ -151,6 +154,8 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
                               stages);
     }
+    if (written && !written->preview)
+        output.outdate(kPreview);
     stages.end();
     if (device)
         device->check_validation();

@@ -23,5 +23,6 @@ inline Watch part_of(const Watch& whole, double begin, double end)
         return {};
     return [&whole, begin, end](double fraction) { whole(begin + (end - begin) * fraction); };
 }
+Watch part_of(Watch&&, double, double) = delete;
 
 }  // namespace lumel

@@ -8,8 +8,7 @@
 // with a type lumel::shaders::StochasticReceive that holds
 //
 //     Bindings   one member for each array, texture and triangle tree that the shader reaches, in
-//     the order of
-//                their declarations; none may be left out
+//                the order of their declarations; none may be left out
 //     Params     its push constants
 //     Mesh       of a raster pass: one member for each input of the vertex shader
 //

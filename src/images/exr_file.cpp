@@ -32,8 +32,9 @@ namespace {
 constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
 constexpr std::int64_t kMaxTexels = std::int64_t(1) << 28;  // 16384², 4 GiB as floats
 
-// No compression of EXR packs more bytes into one: deflate's limit is 1032.
-constexpr std::int64_t kLargestRatio = 2048;
+// No compression of EXR packs more bytes into one, roughly: deflate's limit is 1032, and DWA puts
+// a cosine transform before it.
+constexpr std::int64_t kLargestRatio = 1 << 17;
 
 // Collects the file in memory, so that it can be written, and fail, in one place.
 class MemoryStream : public Imf::OStream {

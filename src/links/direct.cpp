@@ -428,6 +428,8 @@ bool DirectFinder::refine(double share, std::uint64_t most, const std::vector<do
         double left = 0.0;
         std::uint64_t rays = 0;
         for (const std::uint32_t i : order_) {
+            if (place_.lumels.lumels[i].flags & kLumelBuried)
+                continue;
             const std::uint32_t more = wanted(i, scale * deviation[i]);
             rays += 2 * std::uint64_t(more);
             left += more > 0 ? variance[i] * rays_of(i) / double(taken_[i] + more) : variance[i];
@@ -456,7 +458,9 @@ bool DirectFinder::refine(double share, std::uint64_t most, const std::vector<do
 
 double DirectFinder::fraction() const
 {
-    return blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
+    // Few rays, then many: each pass is about a half.
+    const double part = blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
+    return first_pass_ ? 0.5 * part : 0.5 + 0.5 * part;
 }
 
 double DirectFinder::mean_of_all() const

@@ -68,12 +68,12 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
-    tell_of_lights(builder.json, lights);
     cut_baked_primitives(builder.json, baked);
     const std::vector<std::size_t> materials = separate_materials(builder.json, baked);
     if (const auto old = outdated_lightmap(builder.json, document.json))
         builder.retire_texture(*old);
     builder.release();
+    tell_of_lights(builder.json, lights);  // what they refer to is no longer seen from now on
 
     const float scale = lightmap_scale(map);
     const std::vector<unsigned char> png =

@@ -1,5 +1,8 @@
 #include "scene/baked_lights.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lumel {
 namespace {
 
@@ -40,21 +43,46 @@ bool put_away(Json& object)
     return true;
 }
 
-void bring_back(Json& object)
+/// The lights that were put away from an object, or null.
+Json* put_away_from(Json& object)
 {
     if (!object.is_object())
-        return;
+        return nullptr;
     const auto extras = object.find(kExtras);
     if (extras == object.end() || !extras->is_object())
-        return;
+        return nullptr;
     const auto found = extras->find(kBaked);
-    if (found == extras->end() || !found->is_object())
+    return found == extras->end() || !found->is_object() ? nullptr : &*found;
+}
+
+void bring_back(Json& object)
+{
+    Json* found = put_away_from(object);
+    const auto extensions = object.find(kExtensions);
+    if (!found || (extensions != object.end() && !extensions->is_object()))
         return;
     Json lights = std::move(*found);
-    extras->erase(found);
-    if (extras->empty())
-        object.erase(extras);
+    Json& extras = object[kExtras];
+    extras.erase(kBaked);
+    if (extras.empty())
+        object.erase(kExtras);
     move_lights(lights, object[kExtensions]);  // moves all that is in `object`
+}
+
+/// Has a program changed the lists of lights since? What nodes refer to is then not known.
+bool is_outdated(Json& gltf)
+{
+    const Json* lists = put_away_from(gltf);
+    const auto extensions = gltf.find(kExtensions);
+    if (!lists)
+        return true;
+    if (extensions == gltf.end())
+        return false;
+    if (!extensions->is_object())
+        return true;
+    return std::any_of(std::begin(kLights), std::end(kLights), [&](const char* name) {
+        return lists->contains(name) && extensions->contains(name);
+    });
 }
 
 /// Calls visit(list) for the lists of objects that lights can be in, beside the root.
@@ -84,6 +112,8 @@ std::size_t put_away_lights(Json& gltf)
 
 void bring_back_lights(Json& gltf)
 {
+    if (is_outdated(gltf))
+        return;
     for_lists(gltf, [](Json& list, const std::string&) {
         for (Json& object : list)
             bring_back(object);

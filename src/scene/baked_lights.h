@@ -10,7 +10,8 @@ namespace lumel {
 /// `extras`, where no viewer looks. Returns how many lights nodes had.
 std::size_t put_away_lights(Json& gltf);
 
-/// Moves them back, as far as there are any.
+/// Moves them back, unless there are none or a program has since given the document lists of its
+/// own. `gltf` may be any JSON object.
 void bring_back_lights(Json& gltf);
 
 }  // namespace lumel

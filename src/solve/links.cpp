@@ -26,7 +26,9 @@
 #include <tuple>
 
 #include "atlas/morton.h"
+#include "core/error.h"
 #include "core/frame.h"
+#include "core/log.h"
 #include "core/luminance.h"
 #include "links/deviation.h"
 #include "paths/samples.h"
@@ -117,10 +119,16 @@ std::vector<char> buried(const Lumels& lumels)
 
 std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
 {
-    const bool suits = device.can_query_rays() && device.info().type != "cpu";
-    return wanted == Rays::query || (wanted == Rays::automatic && suits)
-               ? cast_by_queries(device, rays)
-               : cast_on_host(rays);
+    if (wanted == Rays::query)
+        return cast_by_queries(device, rays);
+    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu") {
+        try {
+            return cast_by_queries(device, rays);
+        } catch (const Error& error) {
+            log_info(std::string("the host casts the rays: ") + error.what());
+        }
+    }
+    return cast_on_host(rays);
 }
 
 /// Adds the time that something takes to a stage [ms].

@@ -143,6 +143,29 @@ TEST(GltfWrite, LampsThatAreBakedShineNoMoreButComeBackForALaterBake)
     }
 }
 
+TEST(GltfWrite, ProfilesOfLampsThatAreBakedKeepTheirData)
+{
+    const test::TemporaryFolder folder;
+    Json gltf = Json::parse(lamp_scene());
+    gltf["buffers"].push_back(
+        {{"byteLength", 58},
+         {"uri",
+          "data:application/octet-stream;base64,"
+          "SUVTTkE5MQpUSUxUPU5PTkUKMSAtMSAxIDIgMSAxIDIgMCAwIDAgMSAxIDEKMCA5MCAwIDMwIDMwCg=="}});
+    gltf["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 58}});
+    gltf["extensions"]["EXT_lights_ies"]["lights"] =
+        Json::array({{{"bufferView", 1}, {"mimeType", "application/x-ies-lm-63"}}});
+    gltf["nodes"][1]["extensions"]["EXT_lights_ies"]["light"] = 0;
+    std::ofstream(folder / "lamp.gltf") << gltf.dump();
+    const Scene scene = read_gltf(folder / "lamp.gltf");
+    ASSERT_EQ(scene.profiles.size(), 1u);
+    const Atlas atlas = test::corner_atlas(scene);
+    write_scene_glb(folder / "scene.glb", scene, atlas, test::any_map(atlas));
+    const Scene again = read_gltf(folder / "scene.glb");
+    ASSERT_EQ(again.profiles.size(), 1u);
+    EXPECT_EQ(again.profiles[0].candela, scene.profiles[0].candela);
+}
+
 TEST(GltfWrite, EveryTriangleOfEveryLoadableFileComesBackInItsPlace)
 {
     if (conformance_files().empty())
