@@ -78,6 +78,8 @@ bool Memory::take_of_type(std::uint32_t type, const VkMemoryRequirements& requir
 {
     const std::uint64_t heap =
         properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+    if (requirements.size > heap)  // VUID-vkAllocateMemory-pAllocateInfo-01713
+        return false;
     const std::uint64_t shared = std::min(kBlockBytes, heap / kBlocksInHeap);
     Block* block = nullptr;
     if (requirements.size <= shared / kShareOfBlock) {

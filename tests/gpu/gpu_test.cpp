@@ -204,6 +204,20 @@ TEST(Array, LargerThanTheDeviceAllowsSaysSo)
     EXPECT_THROW(Array<std::uint32_t>(device, device.max_array_bytes() / 4 + 1), Error);
 }
 
+TEST(Memory, LargerThanTheLargestHeapIsRefusedBeforeTheDriverIsAsked)
+{
+    const Device device;
+    VkPhysicalDeviceMemoryProperties properties;
+    vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties);
+    std::uint64_t largest = 0;
+    for (std::uint32_t i = 0; i < properties.memoryHeapCount; ++i)
+        largest = std::max(largest, properties.memoryHeaps[i].size);
+    const VkMemoryRequirements too_much{largest + 1, 1, ~0u};
+    for (const MemoryUse use : {MemoryUse::array, MemoryUse::image, MemoryUse::host})
+        EXPECT_THROW(device.memory().take(too_much, use, "too much"), Error);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 TEST(Commands, RunInTheOrderRecorded)
 {
     const Device device;
