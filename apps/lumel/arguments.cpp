@@ -85,6 +85,10 @@ const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
+const Choices<Sides> kSides = {{"auto", Sides::automatic},
+                               {"both", Sides::both},
+                               {"brighter", Sides::brighter},
+                               {"front", Sides::front}};
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
 
@@ -136,6 +140,15 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kLargestGutter));
+}
+
+/// Of what writes or measures lightmaps.
+void add_sides_option(CLI::App& app, AtlasOptions& atlas)
+{
+    add_choice(app, "--sides", atlas.sides, kSides,
+               "Of double-sided surfaces the lightmap shows both sides, with texels and a face for "
+               "each, where light may reach both (auto) or always (both); or one side, chart by "
+               "chart the brighter one (brighter) or the front (front)");
 }
 
 /// Light from outside, and what lamps are like.
@@ -310,6 +323,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     add_light_options(command, bake.options.lights);
     add_sky_directions_option(command, bake.options);
     add_atlas_options(command, bake.options.atlas);
+    add_sides_option(command, bake.options.atlas);
     command.option_defaults()->group(kMethodGroup);
     add_methods(command, method);
     add_stop_options(command, bake.options.solver);
@@ -565,6 +579,7 @@ CLI::App& add_reference(CLI::App& app, ReferenceArguments& reference)
     add_only_option(command, reference.reference.parts);
     add_light_options(command, reference.options.lights);
     add_atlas_options(command, reference.options.atlas);
+    add_sides_option(command, reference.options.atlas);
     add_half_option(command, reference.options.half);
     add_talk_options(command, reference.talk);
     return command;
@@ -577,6 +592,7 @@ CLI::App& add_info(CLI::App& app, InfoArguments& info, GivenMethod& method)
     command.add_option("scene", info.scene, "A .gltf or .glb file")->required()->type_name("FILE");
     add_light_options(command, info.options.lights);
     add_atlas_options(command, info.options.atlas);
+    add_sides_option(command, info.options.atlas);
     command.option_defaults()->group(kMethodGroup);
     add_methods(command, method);
     add_directional_option(command, info.options.directional);

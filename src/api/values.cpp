@@ -67,7 +67,8 @@ AtlasOptions checked_options(const AtlasSettings& settings)
     return {.texels_per_metre = density,
             .size = settings.size,
             .max_size = settings.max_size,
-            .gutter = settings.gutter};
+            .gutter = settings.gutter,
+            .sides = Sides::brighter};
 }
 
 Map map_of(Image&& image)

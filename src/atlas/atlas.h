@@ -3,6 +3,8 @@
 // texels to lumels. On the CPU, and the same scene gives the same bytes.
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,20 @@
 
 namespace lumel {
 
+/// What the map shows of double-sided surfaces.
+enum class Sides {
+    automatic,  ///< both, in texels of their own, where light may reach both
+    both,       ///< both, everywhere
+    brighter,   ///< one: chart by chart the side that is brighter on the whole
+    front,      ///< one: the front
+};
+
 struct AtlasOptions {
     float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`, or a side of 512 and more
     int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
     int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
     int gutter = 2;                 ///< empty texels kept between any two charts
+    Sides sides = Sides::automatic;
 };
 
 /// One primitive of one instance, laid out in the atlas. Vertices are split at chart borders.
@@ -37,14 +48,29 @@ struct Atlas {
     int height = 0;                 ///< [texels]
     float texels_per_metre = 0.0f;  ///< density of the charts we made
     std::uint32_t chart_count = 0;
-    std::vector<Surface> surfaces;   ///< in order of instance, then primitive
+    std::vector<Surface> surfaces;  ///< in order of instance, then primitive
+    /// [chart_count], or empty: where the map has the light of a chart's back, counted from its
+    /// front [texels]; 0 where both sides share their texels.
+    std::vector<glm::ivec2> back_shift;
+    bool shows_front = false;        ///< shared texels show the front, not the brighter side
     std::vector<std::string> notes;  ///< sentences for the user: overlaps, scaled density, …
 };
 
+/// A triangle of an instance.
+struct TriangleOf {
+    std::uint32_t instance, primitive, triangle;
+};
+
+/// Which charts, each given by its triangles, show both sides in texels of their own [charts].
+/// Asked before the map is packed. A chart may also be a whole layout of the file's.
+using ShowsBoth =
+    std::function<std::vector<char>(const Scene&, std::span<const std::vector<TriangleOf>>)>;
+
 /// Lays the scene out. Charts are whole texels wide and high, so that the edges of rectangles
 /// coincide with edges of texels; parts thinner than a texel share the texels of a neighbour.
-/// Throws Error{input} if it cannot be made to fit.
-Atlas make_atlas(const Scene& scene, const AtlasOptions& options, const Watch& watch = {});
+/// Throws Error{input} if it cannot be made to fit. shows_both: if empty, sides share texels.
+Atlas make_atlas(const Scene& scene, const AtlasOptions& options, const Watch& watch = {},
+                 const ShowsBoth& shows_both = {});
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {
@@ -54,6 +80,8 @@ struct Lumels {
     std::vector<Gloss> gloss;     ///< [N] gloss of their materials
     std::vector<Piece> pieces;    ///< [P]
     std::vector<float> coverage;  ///< [height][width] covered share × opacity of each texel, 0…1
+    std::vector<glm::ivec2> back_shift;  ///< as of the atlas
+    bool shows_front = false;            ///< as of the atlas
 };
 
 /// Lifts every covered texel, however thinly covered, into a lumel. Where charts of a file's own

@@ -8,6 +8,7 @@
 #include "atlas/atlas.h"
 #include "atlas/morton.h"
 #include "atlas/patch.h"
+#include "atlas/sides.h"
 #include "core/parallel.h"
 
 namespace lumel {
@@ -306,6 +307,7 @@ void append_backs(std::size_t first, Lumels& lumels)
         lumel.flags = kLumelBack;
         lumel.normal = -lumel.normal;
         lumels.lumels.push_back(lumel);
+        lumels.coverage[map_texel(lumels, lumel)] = lumels.coverage[lumel.texel];
         lumels.gloss.push_back(Gloss(lumels.gloss[i]));
         for (std::uint32_t p = 0; p < lumel.piece_count; ++p) {
             Piece piece = lumels.pieces[front_piece + p];
@@ -324,6 +326,8 @@ Lumels lift(const Scene& scene, const Atlas& atlas, const Watch& watch)
     lumels.width = atlas.width;
     lumels.height = atlas.height;
     lumels.coverage.assign(std::size_t(atlas.width) * atlas.height, 0.0f);
+    lumels.back_shift = atlas.back_shift;
+    lumels.shows_front = atlas.shows_front;
     const std::vector<Touch> touches = find_touches(scene, atlas);
     const std::vector<TexelTouches> texels = order_texels(atlas, touches);
 
@@ -360,8 +364,7 @@ std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels)
                                         kNoLumel);
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
-        lumel_of[2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0)] =
-            std::uint32_t(i);
+        lumel_of[2 * std::size_t(lumel.texel) + (is_back(lumel) ? 1 : 0)] = std::uint32_t(i);
     }
     return lumel_of;
 }

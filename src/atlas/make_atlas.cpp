@@ -23,7 +23,7 @@ namespace {
 constexpr int kLargestSide = 16384;  // what common GPUs take as an image
 constexpr int kLargestGutter = 64;   // clean down to the sixth mip level
 /// How far the work is, roughly, when its parts end.
-constexpr double kChecked = 0.1, kPlanned = 0.8, kPacked = 0.9;
+constexpr double kChecked = 0.1, kPlanned = 0.75, kSidesKnown = 0.85, kPacked = 0.9;
 constexpr std::size_t kMaxMeshNotes = 8;  // more of the same is noise
 // Charts end this close to a texel's border end on it: rounding shall not open another texel.
 constexpr double kSnapDistance = 1e-3;
@@ -280,6 +280,83 @@ void number_charts(const Scene& scene, Atlas& atlas)
     atlas.chart_count = std::uint32_t(centre.size());
 }
 
+std::uint32_t item_of(const Plan& plan, std::size_t triangle)
+{
+    return plan.first_item + (plan.authored ? 0u : plan.layout->chart[triangle]);
+}
+
+/// The triangles in each rectangle.
+std::vector<std::vector<TriangleOf>> triangles_of_items(const Plans& plans)
+{
+    std::vector<std::vector<TriangleOf>> triangles(plans.size.size());
+    for (const Plan& plan : plans.surfaces)
+        for (std::uint32_t t = 0; t < plan.layout->chart.size(); ++t)
+            triangles[item_of(plan, t)].push_back({plan.instance, plan.primitive, t});
+    return triangles;
+}
+
+/// The triangles of each primitive of each instance.
+std::vector<std::vector<TriangleOf>> triangles_of_surfaces(const Scene& scene)
+{
+    std::vector<std::vector<TriangleOf>> triangles;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Mesh& mesh = scene.meshes[std::size_t(scene.instances[i].mesh)];
+        for (std::uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+            triangles.emplace_back();
+            for (std::uint32_t t = 0; t < mesh.primitives[p].indices.size() / 3; ++t)
+                triangles.back().push_back({i, p, t});
+        }
+    }
+    return triangles;
+}
+
+/// True if the file's one layout of the whole scene can be kept: it has no place for backs.
+bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& reports,
+                      const ShowsBoth& shows_both, std::vector<std::string>& notes)
+{
+    if (!is_scene_wide(scene, reports))
+        return false;
+    if (!shows_both)
+        return true;
+    const std::vector<char> both = shows_both(scene, triangles_of_surfaces(scene));
+    if (std::find(both.begin(), both.end(), 1) == both.end())
+        return true;
+    notes.emplace_back("TEXCOORD_1 has no place for the light on the backs of double-sided "
+                       "surfaces, so each mesh is placed anew; --sides brighter keeps the layout");
+    return false;
+}
+
+/// Packs the rectangles, and one more of the same size for the back of each item that shows both
+/// sides. back: [items] the rectangle of its back, its own where it has none.
+Packing pack_sides(const Plans& plans, const std::vector<char>& shows_both,
+                   const AtlasOptions& options, std::vector<std::uint32_t>& back,
+                   std::vector<std::string>& notes)
+{
+    back.resize(plans.size.size());
+    std::iota(back.begin(), back.end(), 0u);
+    std::vector<glm::dvec2> sizes = plans.size;
+    for (std::size_t i = 0; i < shows_both.size(); ++i)
+        if (shows_both[i]) {
+            back[i] = std::uint32_t(sizes.size());
+            sizes.push_back(plans.size[i]);
+        }
+    return pack(sizes, options, notes);
+}
+
+/// Where the backs of charts are, from their fronts.
+std::vector<glm::ivec2> back_shifts(const Plans& plans, const Packing& packing,
+                                    const std::vector<std::uint32_t>& back, const Atlas& atlas)
+{
+    std::vector<glm::ivec2> shifts(atlas.chart_count, glm::ivec2(0));
+    for (std::size_t s = 0; s < plans.surfaces.size(); ++s)
+        for (std::size_t t = 0; t < atlas.surfaces[s].chart.size(); ++t) {
+            const std::uint32_t item = item_of(plans.surfaces[s], t);
+            shifts[atlas.surfaces[s].chart[t]] =
+                packing.rectangles[back[item]].corner - packing.rectangles[item].corner;
+        }
+    return shifts;
+}
+
 /// Checks the layouts that come with the file, and warns of those that cannot be used.
 std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::string>& notes)
 {
@@ -301,7 +378,8 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
 
 }  // namespace
 
-Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch& watch)
+Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch& watch,
+                 const ShowsBoth& shows_both)
 {
     check(scene, requested);
     Atlas atlas;
@@ -318,12 +396,16 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
     // Lay out and pack.
     Plans plans;
     Packing packing;
-    if (is_scene_wide(scene, reports)) {
+    std::vector<std::uint32_t> back;
+    if (keeps_scene_wide(scene, reports, shows_both, atlas.notes)) {
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
         plans = plan(scene, reports, options);
         tell(watch, kPlanned);
-        packing = pack(plans.size, options, atlas.notes);
+        const std::vector<char> both =
+            shows_both ? shows_both(scene, triangles_of_items(plans)) : std::vector<char>{};
+        tell(watch, kSidesKnown);
+        packing = pack_sides(plans, both, options, back, atlas.notes);
     }
     tell(watch, kPacked);
     atlas.width = atlas.height = packing.side;
@@ -331,6 +413,9 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
     for (const Plan& surface : plans.surfaces)
         atlas.surfaces.push_back(place(surface, plans, packing));
     number_charts(scene, atlas);
+    if (std::size_t(packing.rectangles.size()) > plans.size.size())
+        atlas.back_shift = back_shifts(plans, packing, back, atlas);
+    atlas.shows_front = options.sides == Sides::front;
     return atlas;
 }
 

@@ -11,7 +11,8 @@ namespace lumel {
 
 struct RenderOptions {
     /// The solution the picture is made from; its method is GlossyOptions.
-    BakeOptions bake{.solver = {.method = GlossyOptions{}}};
+    /// No map is shown: its sides may share their texels.
+    BakeOptions bake{.atlas = {.sides = Sides::brighter}, .solver = {.method = GlossyOptions{}}};
     int camera = -1;          ///< index into the file's cameras; -1: the first, or one chosen
     int width = 1280;         ///< [pixels]
     int height = 0;           ///< [pixels]; 0: by the camera's aspect

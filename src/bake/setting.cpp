@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/log.h"
+#include "prepare/lit_sides.h"
 #include "solve/methods.h"
 #include "solve/solver.h"
 
@@ -106,8 +107,9 @@ std::optional<LobeParticles> particles_for(const Prepared& prepared, const Solve
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
     : Setting(
           std::move(scene),
-          [&](const Scene& placed, const Watch& watch) {
-              return make_atlas(placed, options.atlas, watch);
+          [&](const Scene& placed, const RayScene& rays, const Watch& watch) {
+              return make_atlas(placed, options.atlas, watch,
+                                shows_both(options.atlas.sides, rays));
           },
           device, options, stages)
 {

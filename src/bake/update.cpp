@@ -69,8 +69,8 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
         links->rays = Rays::automatic;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
     const Setting setting(
-        edit.now.scene, [&](const Scene&, const Watch&) { return edit.now.atlas; }, device, options,
-        stages);
+        edit.now.scene, [&](const Scene&, const RayScene&, const Watch&) { return edit.now.atlas; },
+        device, options, stages);
     std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
     const SolverState state = solution->solver->state();
     row.solved_anew = true;

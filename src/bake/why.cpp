@@ -171,7 +171,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     const Prepared prepared(read_scene((fs::path(folder) / kSceneFile).string(),
                                        method_of(baked.solver.method).materials, baked.lights),
-                            [&](const Scene& scene, const Watch&) {
+                            [&](const Scene& scene, const RayScene&, const Watch&) {
                                 return written_atlas(scene, solution.side,
                                                      float(baked.texels_per_metre),
                                                      solution.charts);

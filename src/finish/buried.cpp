@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "atlas/sides.h"
 #include "finish/finish.h"
 #include "finish/grow.h"
 
@@ -27,8 +28,9 @@ void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers)
     std::vector<std::uint32_t> charts(count, kNoChart);
     std::vector<std::uint8_t> open(count), buried(count);
     for (const Lumel& lumel : lumels.lumels) {
-        charts[lumel.texel] = lumel.chart;
-        (lumel.flags & kLumelBuried ? buried : open)[lumel.texel] = 1;
+        const std::uint32_t texel = map_texel(lumels, lumel);
+        charts[texel] = map_chart(lumels, lumel);
+        (lumel.flags & kLumelBuried ? buried : open)[texel] = 1;
     }
 
     std::vector<TexelState> states(count, TexelState::outside);

@@ -37,14 +37,15 @@ FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& l
                          std::span<const glm::vec3> light,
                          std::span<const std::vector<glm::vec3>> layers);
 
-/// The lumel that each texel shows, kNoLumel where none: the mean of `light` decides between the
-/// sides of a double-sided surface, as in to_map. light [N]. Result [height][width].
+/// The lumel that each texel shows, kNoLumel where none: where the sides of a surface share their
+/// texels the mean of `light` decides, as in to_map. light [N]. Result [height][width].
 std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const glm::vec3> light);
 
 /// Writes one value per lumel into the atlas: RGB = value, A = coverage (0 where no surface is,
 /// at least 1/255 where one is, so that no covered texel loses its mark in 8 or 16 bits).
-/// A double-sided surface shows, chart by chart, the side whose mean value is the brighter one;
-/// the mean is by area over what is not buried, and equal sides show the front.
+/// Where both sides of a surface share their texels these show, chart by chart, the side whose mean
+/// value is the brighter one; the mean is by area over what is not buried, and equal sides show the
+/// front. With Lumels::shows_front they show the front.
 /// values [N]: per lumel, e.g. irradiance [lx].
 Image to_map(const Lumels& lumels, std::span<const glm::vec3> values);
 

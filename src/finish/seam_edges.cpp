@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "atlas/sides.h"
+
 namespace lumel {
 namespace {
 
@@ -104,7 +106,8 @@ std::vector<std::uint32_t> border_corners(const Surface& surface)
     return borders;
 }
 
-void add_borders(const Scene& scene, const Surface& surface, std::vector<Edge>& edges)
+/// turned: the surface is seen from its back.
+void add_borders(const Scene& scene, const Surface& surface, bool turned, std::vector<Edge>& edges)
 {
     const Instance& instance = scene.instances[surface.instance];
     const Primitive& primitive =
@@ -125,10 +128,10 @@ void add_borders(const Scene& scene, const Surface& surface, std::vector<Edge>& 
         Edge edge;
         for (int end = 0; end < 2; ++end) {
             const std::uint32_t vertex = surface.indices[corners[end]];
-            const glm::vec3 normal =
-                primitive.normals.empty()
-                    ? face
-                    : to_world_normal * primitive.normals[surface.source_vertex[vertex]];
+            const glm::vec3 normal = primitive.normals.empty()
+                                         ? face
+                                         : (turned ? -1.0f : 1.0f) * to_world_normal *
+                                               primitive.normals[surface.source_vertex[vertex]];
             edge.ends[end] = {position(corners[end]), glm::normalize(normal),
                               surface.texcoord[vertex]};
         }
@@ -181,8 +184,11 @@ bool torn(const Edge& a, const Edge& b)
 std::vector<Seam> find_seams(const Scene& scene, const Atlas& atlas)
 {
     std::vector<Edge> edges;
-    for (const Surface& surface : atlas.surfaces)
-        add_borders(scene, surface, edges);
+    for (const Surface& surface : atlas.surfaces) {
+        add_borders(scene, surface, false, edges);
+        if (has_own_back(atlas, surface))
+            add_borders(scene, own_back_of(atlas, surface), true, edges);
+    }
     weld(edges);
 
     // Link each edge to the next one that goes on smoothly; chains link all that coincide.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "atlas/sides.h"
 #include "core/luminance.h"
 #include "finish/finish.h"
 
@@ -32,13 +33,11 @@ struct SideMean {
 struct ChartSides {
     SideMean front, back;
 
-    bool shows_back() const { return !front.present || back.mean() > front.mean(); }
+    bool shows_back(bool prefers_front) const
+    {
+        return !front.present || (!prefers_front && back.mean() > front.mean());
+    }
 };
-
-bool is_back(const Lumel& lumel)
-{
-    return (lumel.flags & kLumelBack) != 0;
-}
 
 std::vector<ChartSides> chart_sides(const Lumels& lumels, std::span<const glm::vec3> values)
 {
@@ -62,8 +61,9 @@ std::vector<std::uint32_t> shown_lumels(const Lumels& lumels, std::span<const gl
     std::vector<std::uint32_t> shown(lumels.coverage.size(), kNoLumel);
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
-        if (is_back(lumel) == sides[lumel.chart].shows_back())
-            shown[lumel.texel] = std::uint32_t(i);
+        if (has_own_back(lumels.back_shift, lumel.chart) ||
+            is_back(lumel) == sides[lumel.chart].shows_back(lumels.shows_front))
+            shown[map_texel(lumels, lumel)] = std::uint32_t(i);
     }
     return shown;
 }

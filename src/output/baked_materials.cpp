@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace lumel {
@@ -220,18 +221,21 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
 {
     const Json originals = json.value("materials", Json::array());
     std::set<std::size_t> taken = materials_in_use(json);
-    std::map<std::pair<std::optional<std::size_t>, int>, std::size_t> copies;
+    std::map<std::tuple<std::optional<std::size_t>, int, bool>, std::size_t> copies;
     std::vector<std::size_t> all;
 
     // The first user of a material keeps it, if nothing unbaked needs it as it is.
-    const auto copy_of = [&](std::optional<std::size_t> material, int moved_texcoord) {
-        const auto [copy, is_new] = copies.try_emplace({material, moved_texcoord});
+    const auto copy_of = [&](std::optional<std::size_t> material, const BakedPrimitive& b) {
+        const auto [copy, is_new] =
+            copies.try_emplace({material, b.moved_texcoord, b.back.has_value()});
         if (!is_new)
             return copy->second;
         Json own = material ? originals.at(*material) : Json::object();
         drop_lightmap(own);
-        if (moved_texcoord != kNotMoved)
-            renumber_texcoord_1(own, moved_texcoord);
+        if (b.moved_texcoord != kNotMoved)
+            renumber_texcoord_1(own, b.moved_texcoord);
+        if (b.back)  // its other side is a surface of its own
+            own.erase("doubleSided");
         if (material && taken.insert(*material).second) {
             copy->second = *material;
             json["materials"][*material] = own;
@@ -244,8 +248,8 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
     };
     for (BakedPrimitive& b : baked) {
         for (const std::size_t material : b.file_materials)
-            b.copies[material] = copy_of(material, b.moved_texcoord);
-        b.material = copy_of(b.material, b.moved_texcoord);
+            b.copies[material] = copy_of(material, b);
+        b.material = copy_of(b.material, b);
     }
     return all;
 }

@@ -6,9 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "atlas/sides.h"
 #include "core/error.h"
 #include "output/baked_materials.h"
 #include "output/vertex_gather.h"
+#include "scene/split_sides.h"
 
 namespace lumel {
 namespace {
@@ -60,10 +62,13 @@ NodesOfMesh nodes_of_meshes(const Json& json)
 }
 
 // The file's primitive as a triangle list with its vertices split as in the surface.
-Json split_primitive(const Json& original, const BakedPrimitive& baked, const Atlas& atlas,
-                     VertexGather& gather)
+Json split_primitive(const Json& original, const BakedPrimitive& baked, const Surface& surface,
+                     bool turned, const Atlas& atlas, VertexGather& gather)
 {
-    const Surface& surface = *baked.surface;
+    const auto gathered = [&](const Json& accessor, const std::string& semantic) {
+        return turned ? gather.gather_turned(accessor, surface.source_vertex, semantic)
+                      : gather.gather(accessor, surface.source_vertex, semantic);
+    };
     Json primitive = original;
     Json attributes = Json::object();
     for (const auto& [name, accessor] : original.at("attributes").items()) {
@@ -74,12 +79,12 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const At
             continue;
         if (name == "TEXCOORD_1")
             kept_as = "TEXCOORD_" + std::to_string(baked.moved_texcoord);
-        attributes[kept_as] = gather.gather(accessor, surface.source_vertex, name);
+        attributes[kept_as] = gathered(accessor, name);
     }
     if (primitive.contains("targets"))
         for (Json& target : primitive["targets"])
             for (auto& [name, accessor] : target.items())
-                accessor = gather.gather(accessor, surface.source_vertex, name);
+                accessor = gathered(accessor, name);
 
     // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
     std::vector<glm::vec2> places;
@@ -99,6 +104,8 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const At
     for_variants(primitive, [&](Json& mapping) {
         mapping["material"] = baked.copies.at(mapping["material"].get<std::size_t>());
     });
+    if (baked.back)
+        mark_side(primitive, turned ? MarkedSide::back : MarkedSide::front);
     return primitive;
 }
 
@@ -115,6 +122,8 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
         const Json& nodes = document.json.at("nodes");
         BakedPrimitive baked;
         baked.surface = &surface;
+        if (has_own_back(atlas, surface))
+            baked.back = back_of(atlas, surface);
         baked.node = std::size_t(instance.node);
         if (baked.node >= nodes.size() || !nodes[baked.node].contains("mesh"))
             fail_changed(document.path);
@@ -154,8 +163,11 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
     for (const BakedPrimitive& b : baked) {
         const Json& original = builder.document().json.at("meshes")[b.mesh];
         const auto mesh = mesh_of_node.try_emplace(b.node, original).first;
-        mesh->second["primitives"][b.primitive] =
-            split_primitive(original["primitives"][b.primitive], b, atlas, gather);
+        const Json& source = original["primitives"][b.primitive];
+        Json& primitives = mesh->second["primitives"];
+        primitives[b.primitive] = split_primitive(source, b, *b.surface, false, atlas, gather);
+        if (b.back)
+            primitives.push_back(split_primitive(source, b, *b.back, true, atlas, gather));
     }
 
     // The first copy takes the place of its mesh where nothing else needs that.

@@ -18,10 +18,11 @@ inline constexpr int kNotMoved = -1;
 /// A primitive of the file that is baked for one instance.
 struct BakedPrimitive {
     const Surface* surface = nullptr;
-    std::size_t node = 0;                       ///< index into the file's nodes
-    std::size_t mesh = 0;                       ///< index into the file's meshes
-    std::size_t primitive = 0;                  ///< index into that mesh's primitives
-    int moved_texcoord = kNotMoved;             ///< new number of the old TEXCOORD_1
+    std::optional<Surface> back;     ///< where the map has light of its back in texels of its own
+    std::size_t node = 0;            ///< index into the file's nodes
+    std::size_t mesh = 0;            ///< index into the file's meshes
+    std::size_t primitive = 0;       ///< index into that mesh's primitives
+    int moved_texcoord = kNotMoved;  ///< new number of the old TEXCOORD_1
     std::optional<std::size_t> material;        ///< in the file; after separate_materials: its copy
     std::vector<std::size_t> file_materials;    ///< the same and those of its variants
     std::map<std::size_t, std::size_t> copies;  ///< file material to its copy
@@ -35,7 +36,8 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
 /// Empties primitives whose every use is baked, so that their data can be released.
 void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked);
 
-/// Puts the split triangle lists in: a mesh per instance, bound to its node.
+/// Puts the split triangle lists in: a mesh per instance, bound to its node. Where the map has both
+/// sides the front is single-sided, and a turned copy of it follows at the end of the mesh.
 void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
                             const Atlas& atlas);
 

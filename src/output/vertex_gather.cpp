@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "core/error.h"
 
@@ -44,6 +45,26 @@ double component(ComponentType type, const std::uint8_t* element, std::size_t c)
     return component_as<float>(element + c * 4);
 }
 
+template <class T>
+void negate_as(std::uint8_t* bytes)
+{
+    // The least whole number has no opposite.
+    const double value = std::max(component_as<T>(bytes), -double(std::numeric_limits<T>::max()));
+    const T negated = static_cast<T>(-value);
+    std::memcpy(bytes, &negated, sizeof negated);
+}
+
+// Of a signed format, as those of directions are.
+void negate(ComponentType type, std::uint8_t* element, std::size_t c)
+{
+    if (type == ComponentType::i8)
+        negate_as<std::int8_t>(element + c);
+    else if (type == ComponentType::i16)
+        negate_as<std::int16_t>(element + c * 2);
+    else if (type == ComponentType::f32)
+        negate_as<float>(element + c * 4);
+}
+
 void add_bounds(Json& accessor, const AccessorData& data, const std::vector<std::uint8_t>& bytes,
                 std::size_t stride)
 {
@@ -76,17 +97,33 @@ const AccessorData& VertexGather::data_of(std::size_t accessor)
 std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                                  const std::string& semantic)
 {
+    return gather(accessor, vertices, semantic, Negated::nothing);
+}
+
+std::size_t VertexGather::gather_turned(const Json& accessor,
+                                        const std::vector<std::uint32_t>& vertices,
+                                        const std::string& semantic)
+{
+    return gather(accessor, vertices, semantic,
+                  semantic == "NORMAL"    ? Negated::all
+                  : semantic == "TANGENT" ? Negated::last
+                                          : Negated::nothing);
+}
+
+std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
+                                 const std::string& semantic, Negated negated)
+{
     const auto source = accessor.get<std::size_t>();
     const std::size_t order = orders_.try_emplace(vertices, orders_.size()).first->second;
     const bool with_bounds = semantic == "POSITION" && !vertices.empty();
-    const auto [place, is_new] = gathered_.try_emplace({source, order, with_bounds});
+    const auto [place, is_new] = gathered_.try_emplace({source, order, with_bounds, negated});
     if (is_new)
-        place->second = add_gathered(source, vertices, with_bounds);
+        place->second = add_gathered(source, vertices, with_bounds, negated);
     return place->second;
 }
 
 std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::uint32_t> vertices,
-                                       bool with_bounds)
+                                       bool with_bounds, Negated negated)
 {
     const AccessorData& data = data_of(source);
     const std::size_t stride = stride_of(data);
@@ -97,6 +134,9 @@ std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::
                         "has changed while it was baked; bake it again");
         std::memcpy(bytes.data() + i * stride, data.bytes.data() + vertices[i] * data.element_size,
                     data.element_size);
+        for (std::size_t c = 0; negated != Negated::nothing && c < data.components; ++c)
+            if (negated == Negated::all || c + 1 == data.components)
+                negate(data.component_type, bytes.data() + i * stride, c);
     }
 
     // Keep the other properties of the accessor: its format, name and extras.

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "nearfield/buried.h"
+#include "prepare/lit_sides.h"
 
 namespace lumel {
 namespace {
@@ -30,7 +31,9 @@ void check_camera(const Scene& scene, int camera)
 Prepared::Prepared(Scene given, const AtlasOptions& options, const Watch& watch)
     : Prepared(
           std::move(given),
-          [&](const Scene& placed, const Watch& part) { return make_atlas(placed, options, part); },
+          [&](const Scene& placed, const RayScene& among, const Watch& part) {
+              return make_atlas(placed, options, part, shows_both(options.sides, among));
+          },
           {}, watch)
 {
 }
@@ -38,7 +41,7 @@ Prepared::Prepared(Scene given, const AtlasOptions& options, const Watch& watch)
 Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury, const Watch& watch)
     : scene(std::move(given)),
       rays(scene),
-      atlas(lay_out(scene, part_of(watch, kRaysReady, kLaidOut))),
+      atlas(lay_out(scene, rays, part_of(watch, kRaysReady, kLaidOut))),
       lumels(lift(scene, atlas, part_of(watch, kLaidOut, kLifted)))
 {
     if (lumels.lumels.empty())

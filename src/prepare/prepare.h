@@ -23,7 +23,7 @@ struct Prepared {
     Prepared(Scene scene, const AtlasOptions& options, const Watch& watch = {});
     /// The same with an atlas that `lay_out` makes of the scene, and with `bury` in place of
     /// mark_buried; its result is `open`.
-    using LayOut = std::function<Atlas(const Scene&, const Watch&)>;
+    using LayOut = std::function<Atlas(const Scene&, const RayScene&, const Watch&)>;
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {}, const Watch& watch = {});
     /// Reads it first.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "atlas/sides.h"
 #include "gpu/commands.h"
 #include "preview/preview.raster.h"
 #include "preview/preview.shared.h"
@@ -24,7 +25,7 @@ struct Vertices {
     struct Range {
         std::uint32_t first, count;
     };
-    std::map<int, Range> materials;
+    std::map<std::pair<int, std::uint32_t>, Range> ranges;  ///< by material and kBack…
 };
 
 glm::vec2 texture_place(const Primitive& primitive, const TextureUse& use, std::uint32_t vertex)
@@ -59,16 +60,24 @@ void append(Vertices& out, const Scene& scene, const Atlas& atlas, const Surface
 Vertices gather(const Scene& scene, const Atlas& atlas)
 {
     Vertices out;
-    for (int material = 0; material < int(scene.materials.size()); ++material) {
+    std::map<std::pair<int, std::uint32_t>, std::vector<const Surface*>> surfaces;
+    for (const Surface& surface : atlas.surfaces) {
+        const Mesh& mesh = scene.meshes[scene.instances[surface.instance].mesh];
+        const int material = mesh.primitives[surface.primitive].material;
+        const std::uint32_t back = has_own_back(atlas, surface) ? kBackIsAnother
+                                   : scene.materials[std::size_t(material)].double_sided
+                                       ? kBackIsAlike
+                                       : kBackIsBlack;
+        surfaces[{material, back}].push_back(&surface);
+    }
+    for (const auto& [key, list] : surfaces) {
         const auto first = std::uint32_t(out.indices.size());
-        for (const Surface& surface : atlas.surfaces) {
-            const Mesh& mesh = scene.meshes[scene.instances[surface.instance].mesh];
-            if (mesh.primitives[surface.primitive].material == material)
-                append(out, scene, atlas, surface);
+        for (const Surface* surface : list) {
+            append(out, scene, atlas, *surface);
+            if (has_own_back(atlas, *surface))
+                append(out, scene, atlas, back_of(atlas, *surface));
         }
-        const auto count = std::uint32_t(out.indices.size()) - first;
-        if (count > 0)
-            out.materials[material] = {first, count};
+        out.ranges[key] = {first, std::uint32_t(out.indices.size()) - first};
     }
     return out;
 }
@@ -201,14 +210,14 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
     const gpu::Raster<shaders::Preview> raster(device, {.color_pixel = gpu::Pixel::rgba32});
     gpu::Commands commands(device);
     commands.begin_pass(&color, depth, {0, 0, wide, high});
-    for (const auto& [index, range] : vertices.materials) {
-        const Material& material = scene.materials[std::size_t(index)];
+    for (const auto& [key, range] : vertices.ranges) {
+        const Material& material = scene.materials[std::size_t(key.first)];
         // Blended surfaces are drawn where they are more there than not.
         const float cutoff = material.alpha_mode == AlphaMode::opaque ? -1.0f
                              : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff
                                                                       : 0.5f;
         const PreviewParams params{projection(view, diagonal), material.base_color,
-                                   material.emitted, cutoff, material.double_sided ? 1u : 0u};
+                                   material.emitted, cutoff, key.second};
         const TextureUse& base = material.base_color_texture;
         const TextureUse& emissive = material.emissive_texture;
         commands

@@ -15,12 +15,12 @@ layout(location = 0) out vec4 radiance;
 void main()
 {
     const vec4 base = texture(base_color, look.xy) * p.base_color * color;
-    if (base.a < p.cutoff)
+    if (base.a < p.cutoff || (p.back == kBackIsAnother && !gl_FrontFacing))
         discard;
     const vec3 albedo = clamp(base.rgb, 0.0, 1.0);
     const vec3 arriving = textureLod(irradiance, lightmap, 0.0).rgb;
     const vec3 reflected = albedo * arriving / 3.14159265358979;
-    const bool shows = gl_FrontFacing || p.double_sided != 0u;
+    const bool shows = gl_FrontFacing || p.back == kBackIsAlike;
     const vec3 emitted = p.emitted * texture(emissive, look.zw).rgb;
     radiance = vec4(shows ? reflected + emitted : vec3(0.0), 1.0);
 }

@@ -3,13 +3,17 @@
 #include "core/shared.h"
 LUMEL_SHARED_BEGIN
 
+LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
+LUMEL_CONST uint kBackIsAlike = 1u;    ///< they show the light of the front
+LUMEL_CONST uint kBackIsAnother = 2u;  ///< a face of its own shows it
+
 /// Push constants of preview.vert and preview.frag: one material.
 struct PreviewParams {
-    mat4 camera;        ///< world to clip space, reversed z
-    vec4 base_color;    ///< linear, multiplies the texture
-    vec3 emitted;       ///< [cd/m²], multiplies the texture
-    float cutoff;       ///< transparent below; < 0: opaque
-    uint double_sided;  ///< 1: back faces are seen
+    mat4 camera;      ///< world to clip space, reversed z
+    vec4 base_color;  ///< linear, multiplies the texture
+    vec3 emitted;     ///< [cd/m²], multiplies the texture
+    float cutoff;     ///< transparent below; < 0: opaque
+    uint back;        ///< kBackIsBlack, kBackIsAlike or kBackIsAnother
 };
 
 LUMEL_SHARED_END

@@ -25,6 +25,7 @@ void each_atlas_setting(Options& options, const Visit& visit)
     visit("size", options.size, kSides);
     visit("max-size", options.max_size, kSides);
     visit("gutter", options.gutter, kSides);
+    visit("sides", options.sides);
 }
 
 template <class Record, class Visit>

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "atlas/atlas.h"
 #include "atlas/sample_rule.h"
 #include "directional/directional.h"
 #include "scene/parts.h"
@@ -30,6 +31,12 @@ inline constexpr std::array<Word<Directional>, 3> kWords<Directional> = {
 template <>
 inline constexpr std::array<Word<Parts>, 3> kWords<Parts> = {
     {{"all", Parts::all}, {"direct", Parts::direct}, {"indirect", Parts::indirect}}};
+
+template <>
+inline constexpr std::array<Word<Sides>, 4> kWords<Sides> = {{{"auto", Sides::automatic},
+                                                              {"both", Sides::both},
+                                                              {"brighter", Sides::brighter},
+                                                              {"front", Sides::front}}};
 
 template <class Value>
 std::string word_of(Value value)

@@ -8,6 +8,7 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_extensions.h"
+#include "scene/split_sides.h"
 
 namespace lumel {
 
@@ -104,8 +105,10 @@ GltfDocument load_gltf_document(const std::string& path)
     GltfDocument document;
     document.path = path;
     document.json = parse_json(path, file.data() + chunks.json_offset, chunks.json_size);
-    if (document.json.is_object())
+    if (document.json.is_object()) {
         bring_back_lights(document.json);
+        join_sides(document.json);
+    }
     const JsonView root = document.root();
     root.as_object();
     check_asset(root);

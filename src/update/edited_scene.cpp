@@ -129,7 +129,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
                          const BakeRecord& baked)
     : before(
           std::move(scene_before),
-          [&](const Scene& scene, const Watch&) {
+          [&](const Scene& scene, const RayScene&, const Watch&) {
               return written_atlas(scene, solution.side, float(baked.texels_per_metre),
                                    solution.charts);
           },
@@ -140,7 +140,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
       balls(changed_balls(before.scene, scene_now, matches)),
       now(
           std::move(scene_now),
-          [&](const Scene& scene, const Watch&) {
+          [&](const Scene& scene, const RayScene&, const Watch&) {
               return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
           },
           [&](const Scene& scene, const RayScene& rays, Lumels& lumels) {

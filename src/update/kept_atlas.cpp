@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "atlas/sides.h"
 #include "core/error.h"
 
 namespace lumel {
@@ -18,16 +19,16 @@ float snapped(float texel)
     return std::abs(texel - border) < kSnap ? border : texel;
 }
 
-std::uint32_t chart_at(const Atlas& atlas, const ChartMap& charts, const glm::vec2& texel)
+std::uint32_t chart_at(const Atlas& atlas, const StoredCharts& charts, const glm::vec2& texel)
 {
     const auto cell = [](float at, int side) { return std::clamp(int(at), 0, side - 1); };
-    return charts[std::size_t(cell(texel.y, atlas.height)) * std::size_t(atlas.width) +
-                  std::size_t(cell(texel.x, atlas.width))];
+    return charts.of_texel[std::size_t(cell(texel.y, atlas.height)) * std::size_t(atlas.width) +
+                           std::size_t(cell(texel.x, atlas.width))];
 }
 
 /// The charts of a surface's triangles, from the texels that they cover.
 std::vector<std::uint32_t> charts_of(const Surface& surface, const Atlas& atlas,
-                                     const ChartMap& charts)
+                                     const StoredCharts& charts)
 {
     std::vector<std::uint32_t> chart;
     for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3) {
@@ -57,9 +58,11 @@ public:
           sums_(std::size_t(side_ + 1) * std::size_t(side_ + 1), 0)
     {
         std::vector<char> taken(std::size_t(side_) * std::size_t(side_), 0);
-        for (const Surface& surface : atlas.surfaces)
-            for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3)
-                take(surface, k, gutter, taken);
+        for (const Surface& surface : atlas.surfaces) {
+            take_all(surface, gutter, taken);
+            if (has_own_back(atlas, surface))
+                take_all(own_back_of(atlas, surface), gutter, taken);
+        }
         for (int y = 0; y < side_; ++y)
             for (int x = 0; x < side_; ++x)
                 sums_[at(x + 1, y + 1)] =
@@ -82,6 +85,12 @@ private:
     std::size_t at(int x, int y) const
     {
         return std::size_t(y) * std::size_t(side_ + 1) + std::size_t(x);
+    }
+
+    void take_all(const Surface& surface, int gutter, std::vector<char>& taken) const
+    {
+        for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3)
+            take(surface, k, gutter, taken);
     }
 
     /// The triangle's rectangle: charts fill theirs well enough.
@@ -149,16 +158,19 @@ void add_beside(Atlas& atlas, Atlas fresh, int gutter)
         atlas.surfaces.push_back(std::move(surface));
     }
     atlas.chart_count += fresh.chart_count;
+    if (!atlas.back_shift.empty())
+        atlas.back_shift.resize(atlas.chart_count, glm::ivec2(0));
 }
 
 }  // namespace
 
-Atlas written_atlas(const Scene& scene, int side, float texels_per_metre, const ChartMap& charts)
+Atlas written_atlas(const Scene& scene, int side, float texels_per_metre,
+                    const StoredCharts& charts)
 {
     Atlas atlas;
     atlas.width = atlas.height = side;
     atlas.texels_per_metre = texels_per_metre;
-    for (const std::uint32_t chart : charts)
+    for (const std::uint32_t chart : charts.of_texel)
         if (chart != kNoChart)
             atlas.chart_count = std::max(atlas.chart_count, chart + 1);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -183,6 +195,10 @@ Atlas written_atlas(const Scene& scene, int side, float texels_per_metre, const 
         }
     }
     ++atlas.chart_count;
+    atlas.shows_front = charts.shows_front;
+    atlas.back_shift = charts.back_shift;
+    if (!atlas.back_shift.empty())
+        atlas.back_shift.resize(atlas.chart_count, glm::ivec2(0));
     return atlas;
 }
 

@@ -8,16 +8,23 @@
 
 namespace lumel {
 
-/// Number of the chart that each texel belongs to, kNoChart where none.
-using ChartMap = std::vector<std::uint32_t>;  // [height][width]
 inline constexpr std::uint32_t kNoChart = ~0u;
+
+/// The charts of a bake.
+struct StoredCharts {
+    std::vector<std::uint32_t> of_texel;  ///< [height][width] number, kNoChart where there is none
+    std::vector<glm::ivec2> back_shift;   ///< [charts] as of the atlas
+    bool shows_front = false;             ///< as of the atlas
+};
 
 /// The atlas of side × side texels that `scene`, as written by write_scene_glb, has in TEXCOORD_1.
 /// charts: of the same atlas. Throws Error{input} if the scene has no such coordinates.
-Atlas written_atlas(const Scene& scene, int side, float texels_per_metre, const ChartMap& charts);
+Atlas written_atlas(const Scene& scene, int side, float texels_per_metre,
+                    const StoredCharts& charts);
 
 /// An atlas for the edited scene: what was there before keeps its texels; what is new gets a place
-/// where there is room, beside the rest if there is none. Throws Error{input} if it gets too large.
+/// where there is room, beside the rest if there is none; its sides share their texels. Throws
+/// Error{input} if it gets too large.
 Atlas kept_atlas(const Scene& before, const Atlas& atlas, const Scene& after,
                  const Matches& matches, int gutter);
 

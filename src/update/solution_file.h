@@ -11,8 +11,8 @@ namespace lumel {
 
 /// What the file says, texel by texel.
 struct StoredSolution {
-    int side = 0;                        ///< of the atlas [texels]
-    ChartMap charts;                     ///< [side][side]
+    int side = 0;  ///< of the atlas [texels]
+    StoredCharts charts;
     std::vector<glm::vec3> front, back;  ///< [side][side] H [lx], 0 where there is no such lumel
     std::vector<glm::vec3> open;         ///< [side][side] open shares: of fronts, of backs
 
@@ -28,7 +28,8 @@ struct StoredSolution {
 };
 
 /// R, G, B: H [lx] of fronts; A: the number of the chart, from 1; layer "back": H of backs; layer
-/// "open": Prepared::open of fronts in R, of backs in G. 32-bit float. irradiance [N], open [N].
+/// "open": Prepared::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the
+/// chart in R and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N].
 /// Throws Error{output}.
 void write_solution(const std::string& path, const Lumels& lumels,
                     const std::vector<glm::vec3>& irradiance, const std::vector<float>& open);

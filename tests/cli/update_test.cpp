@@ -20,10 +20,15 @@ constexpr double kAlike = 0.02;      // relative RMSE; that of two bakes with ot
 /// A finished bake of the Cornell box, and edits of its scene.
 class Bake {
 public:
-    explicit Bake(const std::vector<std::string>& more = {})
+    using Edit = std::function<void(Json&)>;
+
+    /// prepare: what differs from the Cornell box in this bake and in all that follow it.
+    explicit Bake(
+        const std::vector<std::string>& more = {}, const Edit& prepare = [](Json&) {})
+        : prepare_(prepare)
     {
-        std::vector<std::string> arguments = {"bake", own_scene("cornell-box.gltf"), folder(),
-                                              "--error", "1"};
+        std::vector<std::string> arguments = {"bake", scene_file([](Json&) {}), folder(), "--error",
+                                              "1"};
         append_common(arguments);
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome outcome = run_lumel(arguments);
@@ -34,12 +39,9 @@ public:
     std::string map() const { return place.path("out/lightmap.exr"); }
 
     /// The report of an update for the scene as `edit` leaves it.
-    Json follow(const std::function<void(Json&)>& edit,
-                const std::vector<std::string>& more = {}) const
+    Json follow(const Edit& edit, const std::vector<std::string>& more = {}) const
     {
-        Json scene = Json::parse(bytes_of(own_scene("cornell-box.gltf")));
-        edit(scene);
-        return update(place.file("edited.gltf", scene.dump()), more);
+        return update(scene_file(edit), more);
     }
 
     Json update(const std::string& scene, const std::vector<std::string>& more = {}) const
@@ -84,6 +86,16 @@ public:
     const Workplace place;
 
 private:
+    std::string scene_file(const Edit& edit) const
+    {
+        Json scene = Json::parse(bytes_of(own_scene("cornell-box.gltf")));
+        prepare_(scene);
+        edit(scene);
+        return place.file("edited.gltf", scene.dump());
+    }
+
+    Edit prepare_;
+
     static void append_common(std::vector<std::string>& arguments)
     {
         for (const char* word : {"--size", kSide, "--preview-width", "0", "-q"})
@@ -159,6 +171,27 @@ TEST(Update, AnEditOfTheBakesOwnSceneWillDo)
         other.update(other.place.file("moved.glb", bytes_of(bake.place.path("out/scene.glb"))));
     EXPECT_EQ(again["update"]["moved"], 1);
     EXPECT_LE(Bake::apart(bake.map(), other.map()), 0.001);
+}
+
+void make_double_sided(Json& scene)
+{
+    for (Json& material : scene["materials"])
+        material["doubleSided"] = true;
+}
+
+TEST(Update, KnowsTwoSidesOfAWallAsOne)
+{
+    const Bake bake({"--sky", "1,1,1", "--sky-directions", "64"}, make_double_sided);
+    const std::string before = bake.place.file("before.exr", bytes_of(bake.map()));
+    const Json same =
+        bake.update(bake.place.file("copy.glb", bytes_of(bake.place.path("out/scene.glb"))));
+    EXPECT_EQ(same["update"]["particles"], 0);
+    const Json there = bake.follow(move_block);
+    EXPECT_EQ(there["update"]["moved"], 1);
+    EXPECT_EQ(there["update"]["appeared"], 0);
+    EXPECT_GT(Bake::apart(before, bake.map()), 0.02);
+    bake.follow([](Json&) {});
+    EXPECT_LE(Bake::apart(bake.map(), before), kAlike);
 }
 
 TEST(Update, WhatVanishesLeavesNoShadow)

@@ -425,5 +425,67 @@ TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
                  Error);
 }
 
+// Each of the scene's surfaces has its back at another place of the map.
+Atlas with_own_backs(Atlas atlas)
+{
+    atlas.back_shift.assign(atlas.chart_count, glm::ivec2(1, 2));
+    return atlas;
+}
+
+/// The file as viewers read it, who know nothing of our marks.
+std::string without_marks(const std::string& path, const std::string& copy)
+{
+    const std::vector<char> bytes = test::bytes_of(path);
+    std::string text(bytes.begin(), bytes.end());
+    const std::string mark = "\"lumel_side\"", unknown = "\"other_side\"";
+    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos;)
+        text.replace(at, mark.size(), unknown);
+    std::ofstream(copy, std::ios::binary) << text;
+    return copy;
+}
+
+TEST(GltfWrite, HasAFaceForEachSideAndIsReadAsDoubleSidedAgain)
+{
+    const test::TemporaryFolder folder;
+    Json file = Json::parse(std::ifstream(support::source_path("scenes/cornell-box.gltf")));
+    for (Json& material : file["materials"])
+        material["doubleSided"] = true;
+    std::ofstream(folder / "in.gltf") << file;
+    const Scene scene = read_gltf(folder / "in.gltf");
+    const Atlas atlas = with_own_backs(test::corner_atlas(scene));
+    write_scene_glb(folder / "out.glb", scene, atlas, test::any_map(atlas), {});
+
+    // As any viewer has it: two single-sided faces, turned away from each other, the second at the
+    // place of the back.
+    const Scene viewed = read_gltf(without_marks(folder / "out.glb", folder / "viewed.glb"));
+    for (const Material& material : viewed.materials)
+        EXPECT_FALSE(material.double_sided);
+    ASSERT_EQ(viewed.instances.size(), scene.instances.size());
+    for (const Instance& instance : viewed.instances) {
+        const Mesh& mesh = viewed.meshes[std::size_t(instance.mesh)];
+        ASSERT_EQ(mesh.primitives.size(), 2u);
+        const Primitive &front = mesh.primitives[0], &back = mesh.primitives[1];
+        ASSERT_EQ(front.indices.size(), back.indices.size());
+        for (std::size_t k = 0; k < front.indices.size(); ++k) {
+            const std::uint32_t a = front.indices[k], b = back.indices[k % 3 == 0   ? k
+                                                                       : k % 3 == 1 ? k + 1
+                                                                                    : k - 1];
+            EXPECT_EQ(front.positions[a], back.positions[b]);
+            EXPECT_EQ(front.normals[a], -back.normals[b]);
+            const glm::vec2 apart = (back.texcoords[1][b] - front.texcoords[1][a]) *
+                                    glm::vec2(atlas.width, atlas.height);
+            EXPECT_NEAR(apart.x, 1.0f, 1e-3f);
+            EXPECT_NEAR(apart.y, 2.0f, 1e-3f);
+        }
+    }
+
+    const Scene read = read_gltf(folder / "out.glb");
+    for (const Instance& instance : read.instances) {
+        const Mesh& mesh = read.meshes[std::size_t(instance.mesh)];
+        ASSERT_EQ(mesh.primitives.size(), 1u);
+        EXPECT_TRUE(read.materials[std::size_t(mesh.primitives[0].material)].double_sided);
+    }
+}
+
 }  // namespace
 }  // namespace lumel

@@ -1,0 +1,153 @@
+// Light on both sides of surfaces without thickness, and where the map has it.
+
+#include "../support/box_lumels.h"
+#include "../support/lamps.h"
+#include "atlas/sides.h"
+#include "finish/finish.h"
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kSun = 1000.0f;    // [lx]
+constexpr float kBulb = 50.0f;     // [cd]
+constexpr double kSunHeight = 0.8; // sine of its elevation
+
+/// A closed room whose walls are a single sheet each, with a closed block on its floor.
+Scene paper_house(bool double_sided, bool bulb, bool sun)
+{
+    Scene scene;
+    const support::Quad look{.albedo = glm::vec3(0.7f)};
+    for (const support::Quad& wall : support::box_walls({0, 0, 0}, {4, 3, 4}, true, look))
+        support::add_quad(scene, wall);
+    for (const support::Quad& face :
+         support::box_walls({1.0f, 0.0f, 1.0f}, {1.8f, 0.9f, 1.8f}, false, look))
+        support::add_quad(scene, face);
+    for (Material& material : scene.materials)
+        material.double_sided = double_sided;
+    for (Mesh& mesh : scene.meshes)
+        for (Primitive& primitive : mesh.primitives)
+            primitive.texcoords[1].clear();
+    if (bulb)
+        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::point, kBulb,
+                                                  {3.0f, 2.0f, 3.0f}, {0, -1, 0}));
+    if (sun)
+        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::directional, kSun,
+                                                  {0, 0, 0}, {0.6f, -float(kSunHeight), 0.0f}));
+    return scene;
+}
+
+constexpr std::uint32_t kCeiling = 3, kFirstOfBlock = 6;  // instances
+
+const SolverOptions kLinks{.method = LinksOptions{}, .target_error = 0.01};
+
+double mean(const Prepared& world, const std::vector<glm::vec3>& light, std::uint32_t instance,
+            bool back)
+{
+    double sum = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Lumel& lumel = world.lumels.lumels[i];
+        if (lumel.instance != instance || is_back(lumel) != back)
+            continue;
+        sum += double(light[i].g) * double(lumel.area);
+        area += double(lumel.area);
+    }
+    return sum / area;
+}
+
+TEST(Sides, ShowIndoorLightIndoorsAndDaylightOutdoors)
+{
+    const Prepared house(paper_house(true, true, true), AtlasOptions{.size = 96});
+    const Prepared room(paper_house(false, true, false), AtlasOptions{.size = 96});
+    const std::vector<glm::vec3> light = support::solve_scene(house, kLinks).irradiance,
+                                 indoors = support::solve_scene(room, kLinks).irradiance;
+    const Image map = finish_map(house.scene, house.atlas, house.lumels, light);
+    // As lumels have it: what is seen from inside is as if there was no sun, and the roof has the
+    // sun alone.
+    const double ceiling = mean(room, indoors, kCeiling, false);
+    EXPECT_NEAR(mean(house, light, kCeiling, false), ceiling, 0.02 * ceiling);
+    EXPECT_NEAR(mean(house, light, kCeiling, true), kSun * kSunHeight, 1e-3 * kSun);
+    // As the map has it, each side at its own place.
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Lumel& lumel = house.lumels.lumels[i];
+        if (lumel.instance != kCeiling)
+            continue;
+        const std::uint32_t texel = map_texel(house.lumels, lumel);
+        const double shown = double(map.values[4 * std::size_t(texel) + 1]);
+        if (is_back(lumel)) {
+            EXPECT_NEAR(shown, kSun * kSunHeight, 1e-2 * kSun) << texel;
+        } else {
+            EXPECT_LT(shown, 0.5 * kSun * kSunHeight) << texel;
+        }
+        EXPECT_GT(map.values[4 * std::size_t(texel) + 3], 0.0f);
+    }
+}
+
+std::vector<char> charts_with_own_back(const Prepared& world, std::uint32_t first_instance,
+                                       std::uint32_t end_instance)
+{
+    std::vector<char> own;
+    for (const Surface& surface : world.atlas.surfaces)
+        if (surface.instance >= first_instance && surface.instance < end_instance)
+            own.push_back(has_own_back(world.atlas, surface));
+    return own;
+}
+
+/// The same under a sky, which all walls see from outside.
+Scene house_under_sky()
+{
+    Scene scene = paper_house(true, true, true);
+    scene.sky = support::even_sky(glm::vec3(100.0f));
+    return scene;
+}
+
+TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
+{
+    const std::vector<char> all(6, 1), none(6, 0), roof_and_sunny_wall = {1, 0, 0, 1, 0, 0};
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), all);
+    EXPECT_EQ(charts_with_own_back(house, kFirstOfBlock, 12), none) << "a closed solid";
+    const Prepared sunny(paper_house(true, true, true), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(sunny, 0, kFirstOfBlock), roof_and_sunny_wall);
+    const Prepared dark(paper_house(true, false, true), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(dark, 0, kFirstOfBlock), none) << "no light inside";
+    const Prepared void_outside(paper_house(true, true, false), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
+}
+
+TEST(Sides, AreAsAskedFor)
+{
+    const auto own = [](Sides sides) {
+        const Prepared house(paper_house(true, true, true),
+                             AtlasOptions{.size = 96, .sides = sides});
+        return charts_with_own_back(house, 0, 12);
+    };
+    EXPECT_EQ(own(Sides::both), std::vector<char>(12, 1));
+    EXPECT_EQ(own(Sides::brighter), std::vector<char>(12, 0));
+    EXPECT_EQ(own(Sides::front), std::vector<char>(12, 0));
+}
+
+TEST(Sides, OfTheFrontAloneShowTheFront)
+{
+    const Prepared house(paper_house(true, true, true),
+                         AtlasOptions{.size = 64, .sides = Sides::front});
+    std::vector<glm::vec3> light;
+    for (const Lumel& lumel : house.lumels.lumels)
+        light.emplace_back(is_back(lumel) ? 2.0f : 1.0f);
+    const Image map = to_map(house.lumels, light);
+    for (std::size_t texel = 0; texel < house.lumels.coverage.size(); ++texel)
+        EXPECT_EQ(map.values[4 * texel], house.lumels.coverage[texel] > 0.0f ? 1.0f : 0.0f);
+}
+
+TEST(Sides, ShareNoTexel)
+{
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    std::vector<int> lumels_at(house.lumels.coverage.size(), 0);
+    for (const Lumel& lumel : house.lumels.lumels)
+        if (lumel.instance < kFirstOfBlock)
+            ++lumels_at[map_texel(house.lumels, lumel)];
+    EXPECT_EQ(*std::max_element(lumels_at.begin(), lumels_at.end()), 1);
+}
+
+}  // namespace
+}  // namespace lumel
