@@ -12,9 +12,8 @@ bool has_own_back(std::span<const glm::ivec2> back_shift, std::uint32_t chart)
 
 bool has_own_back(const Atlas& atlas, const Surface& surface)
 {
-    return std::any_of(surface.chart.begin(), surface.chart.end(), [&](std::uint32_t chart) {
-        return has_own_back(atlas.back_shift, chart);
-    });
+    return std::any_of(surface.chart.begin(), surface.chart.end(),
+                       [&](std::uint32_t chart) { return has_own_back(atlas.back_shift, chart); });
 }
 
 std::uint32_t map_texel(const Lumels& lumels, const Lumel& lumel)

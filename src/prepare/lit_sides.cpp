@@ -10,13 +10,15 @@
 namespace lumel {
 namespace {
 
-/// Walks from a side until one finds light: at least so many, and about as many more in all as
-/// areas ask for.
-constexpr std::uint32_t kLeastWalks = 16, kMostWalks = 512;
+/// Walks from a side: at least so many, and about as many more in all as areas ask for.
+constexpr std::uint32_t kLeastWalks = 32, kMostWalks = 512;
 constexpr double kSharedWalks = 1 << 15;
+/// A side is lit if one of so many walks finds light: what gets through cracks into furniture is
+/// less, and nobody sees it.
+constexpr std::uint32_t kWalksForLight = 64;
 constexpr std::uint32_t kMostSteps = 24;  ///< of a walk
-/// Walks begin away from the edges of their triangle by this share of it: next to an edge they could
-/// begin beyond the neighbouring wall.
+/// Walks begin away from the edges of their triangle by this share of it: next to an edge they
+/// could begin beyond the neighbouring wall.
 constexpr float kInset = 0.01f;
 /// And go on from this share of a ray before its end, a place that is surely on this side.
 constexpr float kBefore = 1e-3f;
@@ -77,8 +79,7 @@ public:
         const glm::vec3 point = a + uv.x * (b - a) + uv.y * (c - a);
         const glm::mat3 linear(scene_.instances[triangle.instance].transform);
         const bool turned = back != (glm::determinant(linear) < 0.0f);
-        const glm::vec3 normal =
-            glm::normalize((turned ? -1.0f : 1.0f) * glm::cross(b - a, c - a));
+        const glm::vec3 normal = glm::normalize((turned ? -1.0f : 1.0f) * glm::cross(b - a, c - a));
         return {glm::mix(point, (a + b + c) / 3.0f, kInset) + lift * normal, normal};
     }
 
@@ -156,13 +157,14 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
         const double share = sides[chart].area() / all;
         const auto walks = std::uint32_t(
             std::clamp(kSharedWalks * share, double(kLeastWalks), double(kMostWalks)));
-        for (std::uint32_t walk = 0; walk < walks; ++walk) {
+        std::uint32_t wanted = std::max(1u, walks / kWalksForLight);
+        for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
             const std::uint32_t key =
                 mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMostSteps;
-            if (finds_light(scene, rays, sides[chart].start(back, walk, walks, rays.lift()), key))
-                return true;
+            wanted -=
+                finds_light(scene, rays, sides[chart].start(back, walk, walks, rays.lift()), key);
         }
-        return false;
+        return wanted == 0;
     };
     parallel_for(charts.size(), 16, [&](std::size_t first, std::size_t last) {
         for (std::size_t chart = first; chart < last; ++chart)
@@ -181,9 +183,9 @@ ShowsBoth shows_both(Sides sides, const RayScene& rays)
         return [](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
             std::vector<char> both;
             for (const std::vector<TriangleOf>& chart : charts)
-                both.push_back(std::any_of(
-                    chart.begin(), chart.end(),
-                    [&](const TriangleOf& at) { return is_double_sided(scene, at); }));
+                both.push_back(std::any_of(chart.begin(), chart.end(), [&](const TriangleOf& at) {
+                    return is_double_sided(scene, at);
+                }));
             return both;
         };
     return {};

@@ -10,8 +10,8 @@
 namespace lumel {
 
 /// [charts] 1 for double-sided charts both of whose sides light may reach. Light reaches a side if
-/// one of some random walks from it sees a lamp, the sky or what glows. From the inside of a closed
-/// solid none does.
+/// enough of some random walks from it find a lamp, the sky or what glows. From the inside of a
+/// closed solid none does.
 std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
                                     std::span<const std::vector<TriangleOf>> charts);
 

@@ -7,8 +7,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char *kExtras = "extras", *kSide = "lumel_side", *kFront = "front",
-                     *kBack = "back";
+constexpr const char *kExtras = "extras", *kSide = "lumel_side", *kFront = "front", *kBack = "back";
 
 std::optional<MarkedSide> mark_of(const Json& primitive)
 {

@@ -9,9 +9,9 @@
 namespace lumel {
 namespace {
 
-constexpr float kSun = 1000.0f;    // [lx]
-constexpr float kBulb = 50.0f;     // [cd]
-constexpr double kSunHeight = 0.8; // sine of its elevation
+constexpr float kSun = 1000.0f;     // [lx]
+constexpr float kBulb = 50.0f;      // [cd]
+constexpr double kSunHeight = 0.8;  // sine of its elevation
 
 /// A closed room whose walls are a single sheet each, with a closed block on its floor.
 Scene paper_house(bool double_sided, bool bulb, bool sun)
@@ -29,11 +29,11 @@ Scene paper_house(bool double_sided, bool bulb, bool sun)
         for (Primitive& primitive : mesh.primitives)
             primitive.texcoords[1].clear();
     if (bulb)
-        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::point, kBulb,
-                                                  {3.0f, 2.0f, 3.0f}, {0, -1, 0}));
+        scene.lights.push_back(
+            support::make_lamp(PunctualLight::Kind::point, kBulb, {3.0f, 2.0f, 3.0f}, {0, -1, 0}));
     if (sun)
-        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::directional, kSun,
-                                                  {0, 0, 0}, {0.6f, -float(kSunHeight), 0.0f}));
+        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::directional, kSun, {0, 0, 0},
+                                                  {0.6f, -float(kSunHeight), 0.0f}));
     return scene;
 }
 
