@@ -14,7 +14,7 @@ namespace lumel {
 
 /// Of the form of report.json, in its member "format". What reads it back refuses all others. 1,
 /// which the file did not say, had all settings as strings.
-inline constexpr int kReportFormat = 3;
+inline constexpr int kReportFormat = 4;
 
 /// One stage of the bake, in order.
 struct StageTime {

@@ -6,6 +6,7 @@
 
 #include "atlas/sample_rule.h"
 #include "directional/directional.h"
+#include "images/lightmap_format.h"
 #include "scene/parts.h"
 #include "json/json_view.h"
 
@@ -30,6 +31,12 @@ inline constexpr std::array<Word<Directional>, 3> kWords<Directional> = {
 template <>
 inline constexpr std::array<Word<Parts>, 3> kWords<Parts> = {
     {{"all", Parts::all}, {"direct", Parts::direct}, {"indirect", Parts::indirect}}};
+template <>
+inline constexpr std::array<Word<LightmapFormat>, 4> kWords<LightmapFormat> = {
+    {{"ktx2", LightmapFormat::ktx2},
+     {"rgb9e5", LightmapFormat::rgb9e5},
+     {"png", LightmapFormat::png},
+     {"none", LightmapFormat::none}}};
 
 template <class Value>
 std::string word_of(Value value)
