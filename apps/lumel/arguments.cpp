@@ -84,6 +84,10 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 const Choices<SampleRule> kSampleRules = {{"area", SampleRule::area},
                                           {"centre", SampleRule::centre}};
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
+const Choices<LightmapFormat> kLightmapFormats = {{"ktx2", LightmapFormat::ktx2},
+                                                  {"rgb9e5", LightmapFormat::rgb9e5},
+                                                  {"png", LightmapFormat::png},
+                                                  {"none", LightmapFormat::none}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
 const Choices<Sides> kSides = {{"auto", Sides::automatic},
                                {"both", Sides::both},
@@ -265,6 +269,22 @@ void add_keep_lights_option(CLI::App& app, bool& keep_lights)
                  "Keep lamps and skies of the scene in scene.glb, though their light is baked");
 }
 
+void add_scene_file_options(CLI::App& app, BakeOptions& options)
+{
+    app.option_defaults()->group(kLightmapGroup);
+    add_choice(
+        app, "--lightmap-format", options.lightmap_format, kLightmapFormats,
+        "Lightmap inside scene.glb: half floats in KTX2, shared exponents in KTX2, 8-bit PNG "
+        "alone, or none beside lightmap.exr")
+        ->default_str("ktx2");
+    app.add_option("--baked-size", options.baked_size,
+                   "Largest side in texels of the texture of scene-baked.glb, which is as dense as "
+                   "the textures of the scene where that is larger than the lightmap")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(1, kLargestAtlas));
+}
+
 void add_half_option(CLI::App& app, bool& half)
 {
     app.option_defaults()->group(kLightmapGroup);
@@ -330,6 +350,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     add_device_option(command, bake.options.device);
     add_half_option(command, bake.options.half);
     add_keep_lights_option(command, bake.options.keep_lights);
+    add_scene_file_options(command, bake.options);
     add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);

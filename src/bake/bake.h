@@ -7,7 +7,9 @@
 
 #include "atlas/atlas.h"
 #include "directional/directional.h"
+#include "images/lightmap_format.h"
 #include "lights/direct_light.h"
+#include "record/bake_record.h"
 #include "scene/light_options.h"
 #include "scene/parts.h"
 #include "solve/options.h"
@@ -20,9 +22,11 @@ struct BakeOptions {
     SolverOptions solver;
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
-    Parts parts = Parts::all;                     ///< of the light that arrives
-    bool half = false;                            ///< lightmap.exr in half precision
-    bool keep_lights = false;                     ///< that are baked in scene.glb too
+    Parts parts = Parts::all;                               ///< of the light that arrives
+    bool half = false;                                      ///< lightmap.exr in half precision
+    bool keep_lights = false;                               ///< that are baked in scene.glb too
+    LightmapFormat lightmap_format = LightmapFormat::ktx2;  ///< of scene.glb
+    int baked_size = kBakedSize;  ///< largest side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
     std::string dump;  ///< folder for intermediate images, see dump.h; empty: none

@@ -1,12 +1,15 @@
 #include "bake/outputs.h"
 
+#include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "bake/directional_layers.h"
 #include "bake/reference.h"
 #include "bake/report.h"
 #include "core/error.h"
 #include "core/log.h"
+#include "finish/fine_radiance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
@@ -37,7 +40,7 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
 }  // namespace
 
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, std::span<const Layer> directional)
+                const Prepared& prepared, float exposure, std::span<const Layer> directional)
 {
     std::map<std::string, std::string> metadata = {
         {"quantity", "irradiance"},         {"unit", "lx"},
@@ -47,29 +50,47 @@ float write_map(const OutputFolder& folder, const std::string& name, const Image
         metadata.merge(directional_metadata());
     write_exr(folder.path(name + ".exr"), map, half ? Precision::float16 : Precision::float32,
               metadata, directional);
-    const float exposure = choose_exposure(map);
+    if (exposure <= 0.0f)
+        exposure = choose_exposure(map);
     write_png(folder.path(name + ".png"), tone_map(map, exposure));
     return exposure;
 }
 
 namespace {
 
-/// A picture that cannot be made costs no more than itself.
-bool write_preview(const OutputFolder& folder, const gpu::Device& device, const Prepared& prepared,
-                   const Image& map, int width)
+/// The picture of a bake [cd/m²]. One that cannot be made costs no more than itself.
+std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& prepared,
+                                  const Image& map, int width)
 {
     try {
         const View view = choose_view(prepared.scene, prepared.rays);
-        write_png(
-            folder.path(kPreview),
-            tone_map(render_preview(device, prepared.scene, prepared.atlas, map, view, width)));
-        return true;
+        return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
     } catch (const Error& error) {
-        if (error.kind() == ErrorKind::output)
-            throw;
         log_warning(std::string("there is no ") + kPreview + ": " + error.what());
-        return false;
+        return std::nullopt;
     }
+}
+
+/// One exposure for all that shows the bake [1/lx]: white paint under H lx sends H / π, and shows
+/// exposure × H. It suits the picture, or what surfaces send where there is none.
+float exposure_of(const std::optional<Image>& picture, const Image& radiance)
+{
+    const bool seen = picture && bright_end(*picture) > 0.0f;
+    return choose_exposure(seen ? *picture : radiance) * std::numbers::inv_pi_v<float>;
+}
+
+/// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
+Image baked_texture(const BakeOptions& options, const Prepared& prepared, const Image& map,
+                    const Image& radiance)
+{
+    const int wanted = texture_density(prepared.scene, prepared.atlas);
+    const int scale = std::clamp(options.baked_size / prepared.atlas.width, 1, wanted);
+    if (scale < wanted)
+        log_info("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
+                 " % of their density, as --baked-size is " + std::to_string(options.baked_size) +
+                 "; scene.glb keeps all of it");
+    return scale == 1 ? radiance
+                      : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
 }
 
 }  // namespace
@@ -83,18 +104,27 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     const Image& map = maps.light;
     const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
                                       radiance_of(prepared.lumels, irradiance));
-    WrittenLight written{
-        .exposure = write_map(folder, kLightmap, map, options.half, prepared, maps.layers)};
+    std::optional<Image> picture;
+    if (device && options.preview_width > 0) {
+        stages.begin("preview");
+        picture = draw_preview(*device, prepared, map, options.preview_width);
+    }
+    stages.begin("writing");
+    const WrittenLight written{.exposure = exposure_of(picture, radiance),
+                               .preview = picture.has_value()};
+    const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
+    if (picture)
+        write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
+    write_map(folder, kLightmap, map, options.half, prepared, written.exposure, maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
     // Where only indirect light is baked, viewers add the direct light of lamps themselves.
     write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
-                     .exposure = written.exposure});
-    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, radiance);
-    if (device && options.preview_width > 0) {
-        stages.begin("preview");
-        written.preview = write_preview(folder, *device, prepared, map, options.preview_width);
-    }
+                     .exposure = written.exposure,
+                     .format = options.lightmap_format});
+    write_baked_glb(
+        folder.path("scene-baked.glb"), prepared.scene, prepared.atlas,
+        tone_map(baked_texture(options, prepared, map, radiance), exposure_of_radiance));
     return written;
 }
 

@@ -32,14 +32,15 @@ struct Results {
     DirectionalLight directional;  ///< empty if not asked for
 };
 
-/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking. Returns
-/// the exposure of the latter [1/lx].
+/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking.
+/// exposure of the latter [1/lx], 0: that suits the map. Returns it.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, std::span<const Layer> directional = {});
+                const Prepared& prepared, float exposure = 0.0f,
+                std::span<const Layer> directional = {});
 
 /// What write_light() wrote.
 struct WrittenLight {
-    float exposure = 0.0f;  ///< of lightmap.png [1/lx]
+    float exposure = 0.0f;  ///< of all pictures [1/lx]
     bool preview = false;
 };
 

@@ -132,6 +132,8 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .directional = options.directional,
                       .half = options.half,
                       .keep_lights = options.keep_lights,
+                      .lightmap_format = options.lightmap_format,
+                      .baked_size = options.baked_size,
                       .side = prepared.atlas.width,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),
                       .shots = results.shots,

@@ -148,6 +148,8 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         BakeOptions files;
         files.half = baked.half;
         files.keep_lights = baked.keep_lights;
+        files.lightmap_format = baked.lightmap_format;
+        files.baked_size = baked.baked_size;
         files.parts = baked.parts;
         files.preview_width = options.preview_width;
         output.outdate(kMatrixFile);

@@ -1,5 +1,5 @@
 #pragma once
-// EXR and PNG files.
+// EXR, PNG and KTX2 files.
 
 #include <map>
 #include <span>
@@ -39,6 +39,17 @@ void write_png(const std::string& path, const Image& image);
 /// The same PNG in memory. Values outside 0…1 are clamped.
 std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding = PngEncoding::srgb);
 
+/// How a texel of a KTX2 file holds RGB.
+enum class FloatTexel {
+    half,             ///< three half floats and a fourth of 1: 8 bytes, 0.05 % [VK_FORMAT 97]
+    shared_exponent,  ///< 9 bits each and one exponent: 4 bytes, 0.2 % of the largest [123]
+};
+
+/// KTX2 file in memory: linear Rec. 709, no mipmaps, compressed by Zstandard, the first row on top.
+/// What a texel cannot hold stays at its largest number (65504 or 65408) or at 0. 3 or 4 channels,
+/// of which the fourth is not written. Throws Error{output}.
+std::vector<unsigned char> encode_ktx2(const Image& image, FloatTexel texel);
+
 /// Tone-mapped copy for looking at: exposure from the map's bright end, filmic shoulder, sRGB.
 /// `exposure` 0: chosen from the covered texels. Alpha stays as it is.
 Image tone_map(const Image& linear, float exposure = 0.0f);
@@ -56,8 +67,9 @@ float display_from_linear(float exposed);
 /// The exact sRGB curve (IEC 61966-2-1): linear 0…1 to code 0…1.
 float srgb_from_linear(float linear);
 
-/// Of the libraries that write EXR and PNG: "3.1.5".
+/// Of the libraries that write EXR, PNG and KTX2: "3.1.5".
 std::string openexr_version();
 std::string libpng_version();
+std::string zstd_version();
 
 }  // namespace lumel

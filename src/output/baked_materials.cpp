@@ -12,6 +12,7 @@ namespace lumel {
 namespace {
 
 constexpr const char* kLightmap = "MOZ_lightmap";
+constexpr const char* kOwnExtras = "lumel";
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
 
@@ -49,6 +50,8 @@ void drop_lightmap(Json& material)
 {
     if (material.contains("extensions"))
         material["extensions"].erase(kLightmap);
+    if (material.contains("extras") && material["extras"].is_object())
+        material["extras"].erase(kOwnExtras);
 }
 
 std::set<std::size_t> materials_in_use(const Json& json)
@@ -262,11 +265,14 @@ std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& origi
     for_texture_uses(materials,
                      [&](const Json& use) { used.insert(use["index"].get<std::size_t>()); });
     for (const std::size_t old : lightmap_textures(original.value("materials", none))) {
-        const auto shows_its_image = [&](const Json& texture) {
-            return texture.contains("source") && texture["source"] == textures.at(old)["source"];
+        const std::set<std::size_t> images = images_of(textures.at(old));
+        const auto shows_them = [&](const Json& texture) {
+            const std::set<std::size_t> others = images_of(texture);
+            return std::any_of(others.begin(), others.end(),
+                               [&](std::size_t image) { return images.contains(image); });
         };
-        if (!used.contains(old) && textures.at(old).contains("source") &&
-            std::count_if(textures.begin(), textures.end(), shows_its_image) == 1)
+        if (!used.contains(old) && !images.empty() &&
+            std::count_if(textures.begin(), textures.end(), shows_them) == 1)
             return old;
     }
     return std::nullopt;
@@ -278,6 +284,13 @@ void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::s
     for (const std::size_t material : materials)
         json["materials"][material]["extensions"][kLightmap] = {
             {"index", texture}, {"texCoord", 1}, {"intensity", intensity}};
+}
+
+void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials,
+                      const std::string& file)
+{
+    for (const std::size_t material : materials)
+        extras_of(json["materials"][material])[kOwnExtras] = {{"lightmap", file}, {"texCoord", 1}};
 }
 
 void reduce_to_core(Json& json, const std::vector<std::size_t>& materials)

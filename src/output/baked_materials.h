@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "output/baked_meshes.h"
@@ -40,6 +41,11 @@ std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& origi
 /// Binds the lightmap by MOZ_lightmap. `intensity` [lx]: irradiance of a white texel.
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,
                    float intensity);
+
+/// Names the map [lx] in the extras of materials, for viewers of a file whose MOZ_lightmap a tool
+/// has dropped.
+void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials,
+                      const std::string& file);
 
 /// Makes the materials black and everything else core glTF: extensions go, and so do textures
 /// and images that are then unused. Call before the builder releases.

@@ -125,6 +125,21 @@ std::set<std::size_t> used_accessors(const Json& json)
     return used;
 }
 
+std::set<std::size_t> images_of(const Json& texture)
+{
+    std::set<std::size_t> images;
+    for_objects(texture, [&](const Json& object) { insert_index(object, "source", images); });
+    return images;
+}
+
+Json& extras_of(Json& part)
+{
+    Json& extras = part["extras"];
+    if (!extras.is_null() && !extras.is_object())
+        extras = Json{{"value", std::move(extras)}};
+    return extras;
+}
+
 GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), document_(document) {}
 
 void GlbBuilder::release()
@@ -224,13 +239,23 @@ std::size_t GlbBuilder::add_accessor(Json accessor)
 
 void GlbBuilder::retire_texture(std::size_t texture)
 {
-    const auto image = json["textures"].at(texture).at("source").get<std::size_t>();
-    json["images"].at(image) = Json::object();
+    for (const std::size_t image : images_of(json["textures"].at(texture))) {
+        json["images"].at(image) = Json::object();
+        free_images_.insert(image);
+    }
     free_textures_.insert(texture);
-    free_images_.insert(image);
 }
 
-std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png)
+std::size_t GlbBuilder::add_image(const std::string& name, const char* type,
+                                  std::span<const std::uint8_t> file)
+{
+    return put(
+        json["images"], free_images_,
+        {{"name", name}, {"mimeType", type}, {"bufferView", add_view(file, ViewTarget::none)}});
+}
+
+std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png,
+                                    std::span<const std::uint8_t> ktx2)
 {
     const Json sampler = {{"magFilter", kLinear},
                           {"minFilter", kLinear},
@@ -242,12 +267,11 @@ std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std
     if (same == samplers.end())
         samplers.push_back(sampler);
 
-    const std::size_t image = put(json["images"], free_images_,
-                                  {{"name", name},
-                                   {"mimeType", "image/png"},
-                                   {"bufferView", add_view(png, ViewTarget::none)}});
-    return put(json["textures"], free_textures_,
-               {{"name", name}, {"sampler", sampler_index}, {"source", image}});
+    Json texture = {
+        {"name", name}, {"sampler", sampler_index}, {"source", add_image(name, "image/png", png)}};
+    if (!ktx2.empty())
+        texture["extensions"]["KHR_texture_basisu"]["source"] = add_image(name, "image/ktx2", ktx2);
+    return put(json["textures"], free_textures_, std::move(texture));
 }
 
 std::vector<std::uint8_t> GlbBuilder::finish()

@@ -35,9 +35,11 @@ public:
                          std::size_t stride = 0);
     std::size_t add_accessor(Json accessor);
     /// Appends a PNG, a bilinear and clamping sampler, and the texture that joins them; takes the
-    /// place of the retired texture if there is one.
-    std::size_t add_texture(const std::string& name, std::span<const std::uint8_t> png);
-    /// Lets go of a texture and its image, which nothing else may use. Call before release().
+    /// place of the retired texture if there is one. `ktx2`: the same in KTX2, which loaders that
+    /// know KHR_texture_basisu take instead; or empty.
+    std::size_t add_texture(const std::string& name, std::span<const std::uint8_t> png,
+                            std::span<const std::uint8_t> ktx2 = {});
+    /// Lets go of a texture and its images, which nothing else may use. Call before release().
     void retire_texture(std::size_t texture);
 
     /// The finished file. Throws Error{output} if it is beyond GLB's 4 GiB.
@@ -49,6 +51,8 @@ private:
     void copy_views();
     void embed_images();
     std::size_t append(std::span<const std::uint8_t> bytes);
+    std::size_t add_image(const std::string& name, const char* type,
+                          std::span<const std::uint8_t> file);
 
     const GltfDocument& document_;
     std::vector<std::uint8_t> binary_;
@@ -57,6 +61,12 @@ private:
 
 /// Every accessor that meshes, skins, animations and instancing of a glTF refer to.
 std::set<std::size_t> used_accessors(const Json& json);
+
+/// Images that a texture shows, for itself or by extensions.
+std::set<std::size_t> images_of(const Json& texture);
+
+/// The extras of a part of a glTF as an object; extras that are none become its member "value".
+Json& extras_of(Json& part);
 
 /// Calls visit(object) for `value` and every object inside it, but not inside extras.
 template <class Value, class Visit>

@@ -1,6 +1,8 @@
 #include "output/gltf_write.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/files.h"
@@ -13,20 +15,36 @@
 namespace lumel {
 namespace {
 
-// Light beyond this multiple of the bright end is shown white by any sensible exposure; storing
-// it would take the few bits of the PNG away from everything else.
-constexpr float kLargestOverBright = 2.0f;
+constexpr const char* kMapBeside = "lightmap.exr";
+
+// A PNG clips where exposure × irradiance is beyond this: a surface of albedo 0.25 is just below
+// white there. To store more would take its few bits away from everything else.
+constexpr float kLargestExposed = 4.0f;
+// Half floats and shared exponents have all their digits down to 2^-14: with no more than this over
+// the 99.9th percentile as the unit, a ten-thousandth of the percentile is off by 0.3 % at most.
+constexpr float kLargestOverHigh = 8.0f;
+constexpr double kHigh = 0.999;
+// Nor may the brightest be beyond what they hold.
+constexpr float kLargestFloat = 65000.0f;
 
 // Irradiance of a white texel.
-float lightmap_scale(const Image& map)
+float lightmap_scale(const Image& map, std::optional<float> exposure)
 {
-    float brightest = 0.0f;
+    std::vector<float> lit;
     for (std::size_t i = 0; i < map.values.size(); i += 4)
         if (map.values[i + 3] > 0.0f)
-            brightest = std::max({brightest, map.values[i], map.values[i + 1], map.values[i + 2]});
+            lit.push_back(std::max({map.values[i], map.values[i + 1], map.values[i + 2], 0.0f}));
+    const float brightest = lit.empty() ? 0.0f : *std::max_element(lit.begin(), lit.end());
     if (!(brightest > 0.0f))
         return 1.0f;
-    return std::min(brightest, kLargestOverBright * bright_end(map));
+    const auto high = lit.begin() + std::ptrdiff_t(kHigh * double(lit.size() - 1));
+    std::nth_element(lit.begin(), high, lit.end());
+    float scale = brightest;
+    if (const float exposed = exposure.value_or(choose_exposure(map)); exposed > 0.0f)
+        scale = std::min(scale, kLargestExposed / exposed);
+    if (*high > 0.0f)
+        scale = std::min(scale, kLargestOverHigh * *high);
+    return std::max(scale, brightest / kLargestFloat);
 }
 
 // RGB only, multiplied by `scale`: coverage means nothing to a viewer.
@@ -46,10 +64,18 @@ void tell_of_lights(Json& gltf, const SceneLights& lights)
     if (lights.exposure)
         told["exposure"] = *lights.exposure;
     told["bakedLights"] = lights.keep ? 0 : put_away_lights(gltf);
-    Json& extras = gltf["asset"]["extras"];
-    if (!extras.is_null() && !extras.is_object())
-        extras = Json{{"value", std::move(extras)}};
-    extras["lumel"] = std::move(told);
+    extras_of(gltf["asset"])["lumel"] = std::move(told);
+}
+
+std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale, LightmapFormat format)
+{
+    const Image texels = without_alpha(map, 1.0f / scale);
+    std::vector<unsigned char> ktx2;
+    if (format == LightmapFormat::ktx2)
+        ktx2 = encode_ktx2(texels, FloatTexel::half);
+    if (format == LightmapFormat::rgb9e5)
+        ktx2 = encode_ktx2(texels, FloatTexel::shared_exponent);
+    return builder.add_texture("lightmap", encode_png(texels, PngEncoding::linear), ktx2);
 }
 
 void write(const std::string& path, GlbBuilder& builder)
@@ -75,16 +101,18 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
     builder.release();
     tell_of_lights(builder.json, lights);  // what they refer to is no longer seen from now on
 
-    const float scale = lightmap_scale(map);
-    const std::vector<unsigned char> png =
-        encode_png(without_alpha(map, 1.0f / scale), PngEncoding::linear);
     place_baked_primitives(builder, baked, atlas);
-    bind_lightmap(builder.json, materials, builder.add_texture("lightmap", png), scale);
+    if (lights.format != LightmapFormat::none) {
+        const float scale = lightmap_scale(map, lights.exposure);
+        bind_lightmap(builder.json, materials, add_lightmap(builder, map, scale, lights.format),
+                      scale);
+    }
+    tell_of_lightmap(builder.json, materials, kMapBeside);
     write(path, builder);
 }
 
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& radiance)
+                     const Image& shown)
 {
     const GltfDocument document = load_gltf_document(scene.path);
     GlbBuilder builder(document);
@@ -95,7 +123,7 @@ void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& a
     reduce_to_core(builder.json, materials);
     builder.release();
 
-    const std::vector<unsigned char> png = encode_png(without_alpha(tone_map(radiance), 1.0f));
+    const std::vector<unsigned char> png = encode_png(without_alpha(shown, 1.0f));
     place_baked_primitives(builder, baked, atlas);
     erase_extensions(builder.json);
     bind_emission(builder.json, materials, builder.add_texture("baked light", png));

@@ -12,6 +12,7 @@
 
 #include "atlas/atlas.h"
 #include "core/image.h"
+#include "images/lightmap_format.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -19,16 +20,19 @@ namespace lumel {
 /// What scene.glb says of light.
 struct SceneLights {
     bool keep = false;              ///< lamps and skies of the input
-    std::optional<float> exposure;  ///< that suits the map [1/lx]
+    std::optional<float> exposure;  ///< that suits the scene [1/lx]
+    LightmapFormat format = LightmapFormat::ktx2;
 };
 
 /// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
 /// material; the extension is listed in extensionsUsed only, so that a viewer without it shows
-/// the scene unlit. The PNG holds irradiance / intensity, 8 bits, linear; intensity [lx] is the
-/// brightest covered texel, but at most twice the map's bright end (see bright_end), beyond which
+/// the scene unlit. Texels hold irradiance / intensity. The texture has two images: a KTX2 that
+/// clips nothing, bound by KHR_texture_basisu, and for loaders without it an 8-bit linear PNG.
+/// intensity [lx] is the brightest covered texel, but at most what the exposure shows white; there
 /// the PNG clips. As in three.js, the radiance that a surface reflects is
 ///     albedo / π × texel × intensity.
-/// `map`: irradiance [lx], RGBA. Throws Error.
+/// extras.lumel of each baked material names the map that stands beside the file too: tools that
+/// drop the extension keep extras. `map`: irradiance [lx], RGBA. Throws Error.
 ///
 /// Lamps and skies of the input are baked: they go to extras (see scene/baked_lights.h), unless
 /// `lights` keeps them. asset.extras.lumel says how many, and has the exposure.
@@ -36,11 +40,11 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
                      const Image& map, const SceneLights& lights = {});
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
-/// metallic and rough, so that it reflects nothing, and emits a texture on TEXCOORD_1: the
-/// radiance map under tone_map's exposure and curve, 8 bits, sRGB. Cut-outs and blending keep
-/// their alpha. Lights and material extensions are left out: the light is in the colours.
-/// `radiance`: reflected plus emitted [cd/m²], RGBA. Throws Error.
+/// metallic and rough, so that it reflects nothing, and emits a texture on TEXCOORD_1, 8
+/// bits, sRGB. Cut-outs and blending keep their alpha. Lights and material extensions are left
+/// out: the light is in the colours. `shown`: what surfaces send, as tone_map shows it, RGBA, of
+/// any density. Throws Error.
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
-                     const Image& radiance);
+                     const Image& shown);
 
 }  // namespace lumel

@@ -37,6 +37,8 @@ void each_setting(Record& record, const Visit& visit)
     visit("directional", record.directional);
     visit("half", record.half);
     visit("keep-lights", record.keep_lights);
+    visit("lightmap-format", record.lightmap_format);
+    visit("baked-size", record.baked_size, kSides);
 }
 
 [[noreturn]] void refuse(const std::string& folder, const std::string& what)

@@ -9,6 +9,7 @@
 
 #include "atlas/atlas.h"
 #include "directional/directional.h"
+#include "images/lightmap_format.h"
 #include "record/report.h"
 #include "scene/light_options.h"
 #include "scene/parts.h"
@@ -19,6 +20,10 @@ namespace lumel {
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
                             *kSolutionFile = "solution.exr", *kPreview = "preview.png";
+
+/// What the side of the texture of scene-baked.glb is limited to, unless another is asked for or
+/// the lightmap is larger [texels].
+inline constexpr int kBakedSize = 2048;
 
 struct BakeRecord {
     std::string scene;       ///< name of the file, without its folder
@@ -32,6 +37,8 @@ struct BakeRecord {
     Directional directional = Directional::none;
     bool half = false;
     bool keep_lights = false;
+    LightmapFormat lightmap_format = LightmapFormat::ktx2;
+    int baked_size = kBakedSize;
 
     int side = 0;                   ///< of the square atlas [texels]
     double texels_per_metre = 0.0;  ///< as laid out
@@ -39,7 +46,7 @@ struct BakeRecord {
     double error = -1.0;       ///< estimated relative error, < 0: not known
     double dark_error = -1.0;  ///< the same of dark lumels, see SolverState
     bool interrupted = false;
-    std::optional<float> exposure;   ///< of lightmap.png [1/lx]
+    std::optional<float> exposure;   ///< of its pictures [1/lx]
     std::vector<std::string> files;  ///< written
 };
 

@@ -17,11 +17,9 @@ std::string lumel_version()
 
 std::map<std::string, std::string> library_versions()
 {
-    return {{"Embree", embree_version()},
-            {"OpenBLAS", blas::openblas_version()},
-            {"OpenEXR", openexr_version()},
-            {"libpng", libpng_version()},
-            {"oneTBB", tbb_version()}};
+    return {{"Embree", embree_version()},   {"OpenBLAS", blas::openblas_version()},
+            {"OpenEXR", openexr_version()}, {"libpng", libpng_version()},
+            {"zstd", zstd_version()},       {"oneTBB", tbb_version()}};
 }
 
 std::string local_time()

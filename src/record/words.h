@@ -7,6 +7,7 @@
 #include "atlas/atlas.h"
 #include "atlas/sample_rule.h"
 #include "directional/directional.h"
+#include "images/lightmap_format.h"
 #include "scene/parts.h"
 #include "json/json_view.h"
 
@@ -31,6 +32,12 @@ inline constexpr std::array<Word<Directional>, 3> kWords<Directional> = {
 template <>
 inline constexpr std::array<Word<Parts>, 3> kWords<Parts> = {
     {{"all", Parts::all}, {"direct", Parts::direct}, {"indirect", Parts::indirect}}};
+template <>
+inline constexpr std::array<Word<LightmapFormat>, 4> kWords<LightmapFormat> = {
+    {{"ktx2", LightmapFormat::ktx2},
+     {"rgb9e5", LightmapFormat::rgb9e5},
+     {"png", LightmapFormat::png},
+     {"none", LightmapFormat::none}}};
 
 template <>
 inline constexpr std::array<Word<Sides>, 4> kWords<Sides> = {{{"auto", Sides::automatic},

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 
 #include <gtest/gtest.h>
 
+#include "../support/ktx2.h"
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
 #include "core/error.h"
@@ -311,7 +313,8 @@ TEST_F(TwoQuads, NamesExtrasAndLightsAreKept)
 TEST_F(TwoQuads, TheLightmapIsBoundByAnOptionalExtension)
 {
     const Json json = lit(file());
-    EXPECT_EQ(json["extensionsUsed"], Json({"MOZ_lightmap"}));  // its lamps are baked
+    // Its lamps are baked.
+    EXPECT_EQ(json["extensionsUsed"], Json({"KHR_texture_basisu", "MOZ_lightmap"}));
     EXPECT_FALSE(json.contains("extensionsRequired"));
     const Json& primitive =
         json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()]["primitives"][0];
@@ -321,6 +324,102 @@ TEST_F(TwoQuads, TheLightmapIsBoundByAnOptionalExtension)
     EXPECT_EQ(lightmap["intensity"].get<float>(), 131.0f);
     const Json& texture = json["textures"][lightmap["index"].get<std::size_t>()];
     EXPECT_EQ(json["images"][texture["source"].get<std::size_t>()]["mimeType"], "image/png");
+}
+
+// What tools that drop the extension leave.
+TEST_F(TwoQuads, ExtrasOfBakedMaterialsNameTheMapBesideTheFile)
+{
+    Json noted = file();
+    noted["materials"][0]["extras"] = {{"note", "mine"}};
+    const Json json = lit(noted);
+    std::size_t baked = 0;
+    for (const Json& material : json["materials"]) {
+        EXPECT_EQ(material["extras"]["note"], "mine");
+        if (!material.value("extensions", Json::object()).contains("MOZ_lightmap"))
+            continue;
+        ++baked;
+        EXPECT_EQ(material["extras"]["lumel"],
+                  Json({{"lightmap", "lightmap.exr"}, {"texCoord", 1}}));
+    }
+    EXPECT_EQ(baked, 1u);
+    EXPECT_FALSE(json["materials"][0]["extras"].contains("lumel"));
+}
+
+/// Light from 0.01 to 10^6 lx: most of it dim, a thousandth of it very bright.
+Image wide_map(const Atlas& atlas)
+{
+    Image map = test::any_map(atlas);
+    const std::size_t texels = map.values.size() / 4;
+    for (std::size_t i = 0; i < texels; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            map.values[4 * i + c] = i * 2000 < texels ? 1e6f
+                                                      : std::exp2(float(i % 1371) * 0.01f - 6.6f) *
+                                                            (1.0f + 0.3f * float(c));
+    return map;
+}
+
+/// The lightmap in a scene.glb as a loader of KHR_texture_basisu reads it [lx].
+Image bound_map(const std::string& path)
+{
+    const GltfDocument document = load_gltf_document(path);
+    const Json& json = document.json;
+    for (const Json& material : json["materials"]) {
+        if (!material.contains("extensions"))
+            continue;
+        const Json& lightmap = material["extensions"]["MOZ_lightmap"];
+        const Json& texture = json["textures"][lightmap["index"].get<std::size_t>()];
+        const Json& ktx2 = texture["extensions"]["KHR_texture_basisu"];
+        const Json& image = json["images"][ktx2["source"].get<std::size_t>()];
+        EXPECT_EQ(image["mimeType"], "image/ktx2");
+        const Json& view = json["bufferViews"][image["bufferView"].get<std::size_t>()];
+        Image map = test::decode_ktx2(std::span(document.buffers[0])
+                                          .subspan(view["byteOffset"].get<std::size_t>(),
+                                                   view["byteLength"].get<std::size_t>()));
+        for (float& value : map.values)
+            value *= lightmap["intensity"].get<float>();
+        return map;
+    }
+    throw std::runtime_error("no material has a lightmap");
+}
+
+TEST_F(TwoQuads, TheBoundLightmapIsWithinAPercentOverTheWholeRangeAndClipsNothing)
+{
+    const Scene read = scene(file());
+    const Atlas atlas = test::corner_atlas(read, 128);
+    const Image map = wide_map(atlas);
+    std::vector<float> values;
+    for (std::size_t i = 0; i < map.values.size(); ++i)
+        if (i % 4 != 3)
+            values.push_back(map.values[i]);
+    const std::vector<float> given = values;
+    const auto high = values.begin() + std::ptrdiff_t(0.999 * double(values.size()));
+    std::nth_element(values.begin(), high, values.end());
+    for (const LightmapFormat format : {LightmapFormat::ktx2, LightmapFormat::rgb9e5})
+        for (const float exposure : {1e-6f, 0.01f, 100.0f}) {
+            write_scene_glb(folder_ / "scene.glb", read, atlas, map,
+                            {.exposure = exposure, .format = format});
+            const Image bound = bound_map(folder_ / "scene.glb");
+            ASSERT_EQ(bound.values.size(), given.size());
+            std::size_t checked = 0;
+            for (std::size_t i = 0; i < given.size(); ++i)
+                if (given[i] >= 1e-4f * *high) {
+                    ++checked;
+                    ASSERT_NEAR(bound.values[i], given[i], 0.01f * given[i]);
+                }
+            EXPECT_GT(checked, given.size() / 2);
+        }
+}
+
+TEST_F(TwoQuads, WithoutAFormatNoMapIsInTheFile)
+{
+    const Scene read = scene(file());
+    const Atlas atlas = test::corner_atlas(read);
+    write_scene_glb(folder_ / "scene.glb", read, atlas, test::any_map(atlas),
+                    {.format = LightmapFormat::none});
+    const Json json = load_gltf_document(folder_ / "scene.glb").json;
+    EXPECT_FALSE(json.contains("extensionsUsed"));
+    EXPECT_EQ(json["images"].size(), 1u);
+    EXPECT_EQ(json["materials"][1]["extras"]["lumel"]["lightmap"], "lightmap.exr");
 }
 
 TEST_F(TwoQuads, AColourThatWasReadThroughTexcoord1MovesWithItsTexcoords)
@@ -408,7 +507,7 @@ TEST_F(TwoQuads, BakingAgainReplacesTheOlderLightmap)
     const Atlas atlas = test::corner_atlas(again);
     write_scene_glb(folder_ / "again.glb", again, atlas, test::any_map(atlas));
     const Json json = load_gltf_document(folder_ / "again.glb").json;
-    EXPECT_EQ(json["images"].size(), 2u);
+    EXPECT_EQ(json["images"].size(), 3u);
     EXPECT_EQ(json["textures"].size(), 2u);
     EXPECT_EQ(json["samplers"].size(), 1u);
     EXPECT_EQ(test::bytes_of(folder_ / "again.glb").size(), first.size());
