@@ -31,7 +31,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     OutputFolder output(folder);
     std::optional<OutputFolder> dump;
     if (!options.dump.empty())
-        dump.emplace(options.dump);
+        dump.emplace(options.dump, "dump");
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);

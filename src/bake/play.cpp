@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -236,6 +237,15 @@ Scene read_start(const std::string& path, const Animation& animation, const Play
     return scene;
 }
 
+/// What an earlier, longer film has left beyond these frames.
+void outdate_beyond(OutputFolder& output, const std::string& folder, int frames)
+{
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    for (int frame = frames; fs::exists(fs::path(folder) / frame_name(frame), ignored); ++frame)
+        output.outdate(frame_name(frame));
+}
+
 /// Makes the film if it can; else prints how to make it.
 bool film(const OutputFolder& output, double fps)
 {
@@ -291,10 +301,12 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
         write_png(output.path(row->file), image);
         rows.push_back(*row);
     }
+    if (rows.empty())
+        throw_stopped();
     options.exposure = player.exposure();
 
     stages.begin("finishing");
-    const bool filmed = !rows.empty() && !stages.stopped() && film(output, options.fps);
+    const bool filmed = !stages.stopped() && film(output, options.fps);
     stages.end();
     device.check_validation();
     const int written = int(rows.size());
@@ -306,6 +318,9 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     report.files.emplace_back(kReportFile);
     const Json json = to_json(report);
     write_json(output.path(kReportFile), json);
+    outdate_beyond(output, folder, written);
+    if (!filmed)
+        output.outdate(kFilm);
     output.commit();
     return {written, stages.seconds(), stages.stopped(), json_text(json)};
 }

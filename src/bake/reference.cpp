@@ -29,6 +29,8 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
                 !stages.progress(fraction, std::uint64_t(fraction * reference.samples_per_lumel));
             return !stopped;
         });
+    if (irradiance.empty())
+        throw_stopped();
 
     stages.begin("finishing");
     return write_reference(output, options, reference, prepared, irradiance, stopped, stages);
@@ -38,10 +40,13 @@ Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& 
                           const glm::ivec2& size, int paths, std::uint32_t seed, Stages& stages)
 {
     stages.begin("path tracing");
-    return reference_image(
+    Image image = reference_image(
         scene, rays, view,
         {.width = size.x, .height = size.y, .samples_per_pixel = paths, .seed = seed},
         [&](double fraction) { return stages.progress(fraction); });
+    if (image.values.empty())
+        throw_stopped();
+    return image;
 }
 
 }  // namespace lumel

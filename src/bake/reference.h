@@ -19,7 +19,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
                            MaterialModel materials, const ProgressFunction& progress = {});
 
 /// A picture of width × height pixels [cd/m²] by this number of paths for each, as the stage "path
-/// tracing".
+/// tracing". Throws Error{stopped} if stopped before each has some.
 Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& view,
                           const glm::ivec2& size, int paths, std::uint32_t seed, Stages& stages);
 

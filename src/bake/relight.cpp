@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "bake/outputs.h"
 #include "bake/stages.h"
 #include "bake/states_file.h"
 #include "core/usage.h"
 #include "finish/finish.h"
+#include "output/folder.h"
 #include "record/bake_record.h"
 #include "record/origin.h"
 #include "relight/matrix_file.h"
@@ -121,11 +123,13 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
 {
     Stages stages(progress);
     stages.begin("reading");
+    std::optional<ResultsLock> as_it_is(folder);
     const BakeRecord baked = read_bake_record(folder);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     Relightable light = read_matrix(folder, baked, solution);
     const std::vector<NamedState> states = read_states(states_path);
     const Prepared world = read_world(folder, baked, solution);
+    as_it_is.reset();
     const std::vector<std::uint32_t> numbers = numbers_in(light, world.lumels, folder);
     const gpu::Device device(options.device);
     stages.watch(device);

@@ -168,7 +168,7 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
 {
     std::optional<OutputFolder> dump;
     if (!options.bake.dump.empty())
-        dump.emplace(options.bake.dump);
+        dump.emplace(options.bake.dump, "dump");
     const gpu::Device device(options.bake.device);
     const Setting setting(std::move(scene), device, options.bake, stages);
     const Prepared& prepared = setting.prepared;

@@ -118,6 +118,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     UpdateOptions options = given;
     Stages stages(progress);
     stages.begin("reading");
+    std::optional<ResultsLock> as_it_is(folder);
     BakeRecord baked = read_bake_record(folder);
     check_correctable(folder, baked);
     check_paths(folder, scene_path);
@@ -131,6 +132,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     Scene now = read_scene(scene_path, MaterialModel::diffuse, options.lights);
     set_origin(now, before.origin);
     OutputFolder output(folder);
+    as_it_is.reset();
 
     stages.begin("charts");
     const EditedScene edit(std::move(before), std::move(now), solution, baked);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -165,6 +166,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
 {
     Stages stages(progress);
     stages.begin("reading");
+    std::optional<ResultsLock> as_it_is(folder);
     const BakeRecord baked = read_bake_record(folder);
     check_whole(folder, baked);
     check_light_files(baked.lights);
@@ -176,6 +178,7 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
                                                      float(baked.texels_per_metre),
                                                      solution.charts);
                             });
+    as_it_is.reset();
     const std::vector<glm::vec3> irradiance = irradiance_of(solution, prepared.lumels);
     const glm::ivec2 texel = texel_of(options, solution.side);
     const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
@@ -190,9 +193,9 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     summary.report = report_of(summary);
     if (options.width > 0) {
         stages.begin("picture");
-        OutputFolder output(folder);
+        OutputFile output((fs::path(folder) / kPicture).string());
         const gpu::Device device(options.device);
-        write_png(output.path(kPicture),
+        write_png(output.path(),
                   why_picture(device, prepared, irradiance, senders.density, lumel, options.width));
         device.check_validation();
         output.commit();

@@ -1,9 +1,6 @@
 #include "output/folder.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 #include "core/error.h"
@@ -47,7 +44,8 @@ std::vector<fs::path> missing_folders(const fs::path& path)
 
 }  // namespace
 
-OutputFolder::OutputFolder(const std::string& target) : target_(normal(target).string())
+OutputFolder::OutputFolder(const std::string& target, const std::string& what)
+    : target_(normal(target).string())
 {
     try {
         for (const fs::path& folder : missing_folders(target_)) {
@@ -60,16 +58,11 @@ OutputFolder::OutputFolder(const std::string& target) : target_(normal(target).s
         }
         if (!fs::is_directory(target_))
             throw Error(ErrorKind::output, target, "is a file; the output must be a folder");
-        std::string pattern = (fs::path(target_) / ".lumel-XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
-            throw Error(ErrorKind::output, target,
-                        std::string("the output folder cannot be written: ") +
-                            std::strerror(errno));
-        staging_ = pattern;
+        work_.emplace(target_, what);
     } catch (const fs::filesystem_error& error) {
         clean_up();
         throw Error(ErrorKind::output, target,
-                    "the output folder cannot be used: " + error.code().message());
+                    "the output folder cannot be written: " + error.code().message());
     } catch (...) {
         clean_up();
         throw;
@@ -83,32 +76,19 @@ OutputFolder::~OutputFolder()
 
 std::string OutputFolder::path(const std::string& name) const
 {
-    return (fs::path(staging_) / name).string();
+    return (work_->path() / name).string();
 }
 
 void OutputFolder::commit()
 {
     try {
-        std::vector<fs::path> files;
-        for (const fs::directory_entry& entry : fs::directory_iterator(staging_))
-            files.push_back(entry.path().filename());
-        std::sort(files.begin(), files.end());
-
-        // Find what would stop a move before the first file is moved.
-        for (const fs::path& file : files)
-            if (fs::is_directory(fs::path(target_) / file))
-                throw Error(ErrorKind::output, (fs::path(target_) / file).string(),
-                            "is a folder where a result must go; move it away");
-        for (const std::string& name : outdated_)
-            if (fs::is_regular_file(fs::path(target_) / name))
-                fs::remove(fs::path(target_) / name);
-        for (const fs::path& file : files) {
-            fs::rename(fs::path(staging_) / file, fs::path(target_) / file);
-            made_.clear();  // the target now holds a result
-        }
+        for (const std::string& folder : made_)
+            sync_to_disk(fs::path(folder).parent_path());
+        work_->commit(outdated_);
+        made_.clear();  // the target now holds a result
     } catch (const fs::filesystem_error& error) {
         throw Error(ErrorKind::output, target_,
-                    "results cannot be moved into the output folder: " + error.code().message());
+                    "results cannot be put into the output folder: " + error.code().message());
     }
 }
 
@@ -116,15 +96,14 @@ void OutputFolder::clean_up() noexcept
 {
     // Only folders that are still empty go: others may have put files there meanwhile.
     std::error_code ignored;
-    if (!staging_.empty())
-        fs::remove_all(staging_, ignored);
+    work_.reset();
     for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)
         fs::remove(*folder, ignored);
 }
 
 OutputFile::OutputFile(const std::string& target)
     : name_(normal(target).filename().string()),
-      folder_(folder_of(target))
+      folder_(folder_of(target), name_)
 {
 }
 

@@ -1,18 +1,24 @@
 #pragma once
 // Results appear whole or not at all.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "output/work_folder.h"
+
 namespace lumel {
 
-/// Collects files in a hidden folder inside `target` (so that both are on one file system) and
-/// moves them out by commit(). Makes the target and its parents where they are missing.
-/// Destroyed before commit(), it leaves nothing behind, not even the folders it made.
-/// Throws Error{output} if the place cannot be written.
+/// Collects files in a hidden folder inside `target` and puts them into it by commit(), all or
+/// none, whatever ends the program (see WorkFolder, which also says what others see meanwhile).
+/// Makes the target and its parents where they are missing. Destroyed before commit(), it leaves
+/// nothing behind, not even the folders it made. What processes that died have left in the target
+/// is finished or removed.
+/// Throws Error{output} if the place cannot be written, or another process writes there.
 class OutputFolder {
 public:
-    explicit OutputFolder(const std::string& target);
+    /// `what`: tells apart what one process writes into one folder at the same time.
+    explicit OutputFolder(const std::string& target, const std::string& what = {});
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
@@ -22,14 +28,14 @@ public:
     /// A file of that name which is in the target already goes at commit(), even if none takes its
     /// place: it would not fit the others.
     void outdate(const std::string& name) { outdated_.push_back(name); }
-    /// Puts every file written so far in place, each in one step; older ones are replaced.
-    /// Call once.
+    /// Puts all files written so far in place, on the disk too; older ones are replaced. Call once.
     void commit();
 
 private:
     void clean_up() noexcept;
 
-    std::string target_, staging_;
+    std::string target_;
+    std::optional<WorkFolder> work_;
     std::vector<std::string> outdated_;
     std::vector<std::string> made_;  // folders made for this, parents first
 };

@@ -41,10 +41,11 @@ std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& e
         stopped = !parallel_steps(count, kValuesPerPass, kValuesPerTask, take, report);
     }
 
-    std::vector<glm::vec4> means(count, glm::vec4(0.0f));
+    if (std::find(taken.begin(), taken.end(), 0) != taken.end())
+        return {};
+    std::vector<glm::vec4> means(count);
     for (std::size_t i = 0; i < count; ++i)
-        if (taken[i] > 0)
-            means[i] = glm::vec4(sums[i] / double(taken[i]));
+        means[i] = glm::vec4(sums[i] / double(taken[i]));
     return means;
 }
 

@@ -28,7 +28,7 @@ struct ReferenceOptions {
 /// independent, so two of them give the noise. Light comes from emissive surfaces, punctual lights
 /// and the sky; buried lumels get 0. With one seed, direct and indirect light add up to all but for
 /// rounding. `progress` receives the fraction done and returns false to stop, which leaves the
-/// samples taken so far; lumels without any get 0.
+/// samples taken so far; nothing if some lumels have none yet.
 std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
                                             const Lumels& lumels, const ReferenceOptions& options,
                                             const std::function<bool(double)>& progress = {});

@@ -29,6 +29,8 @@ Image reference_image(const Scene& scene, const RayScene& rays, const View& view
     };
     const std::vector<glm::vec4> means =
         average(width * height, options.samples_per_pixel, estimate, progress);
+    if (means.empty())
+        return {};
 
     Image image(options.width, options.height, 4);
     for (std::size_t i = 0; i < means.size(); ++i)

@@ -24,8 +24,8 @@ struct ReferenceImageOptions {
 /// square; alpha is the share of it where anything is seen, the sky being something, and colours
 /// are multiplied by it. Unbiased, and independent for each seed. Punctual lights shine, but are
 /// not seen, and backs of single-sided emissive surfaces are black. `progress` is given the
-/// fraction done and returns false to stop, which leaves the samples taken so far; pixels without
-/// any get 0.
+/// fraction done and returns false to stop, which leaves the samples taken so far; an empty image
+/// if some pixels have none yet.
 Image reference_image(const Scene& scene, const RayScene& rays, const View& view,
                       const ReferenceImageOptions& options,
                       const std::function<bool(double)>& progress = {});

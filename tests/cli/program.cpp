@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <future>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -67,6 +71,30 @@ void collect(int out, int err, Outcome& outcome, const std::function<void()>& on
     }
 }
 
+/// Kills a process after a time [s], unless it goes before.
+class Killer {
+public:
+    Killer(pid_t process, double seconds)
+        : thread_([process, seconds, end = end_.get_future()] {
+              if (end.wait_for(std::chrono::duration<double>(seconds)) ==
+                  std::future_status::timeout)
+                  kill(process, SIGKILL);
+          })
+    {
+    }
+    ~Killer()
+    {
+        end_.set_value();
+        thread_.join();
+    }
+    Killer(const Killer&) = delete;
+    Killer& operator=(const Killer&) = delete;
+
+private:
+    std::promise<void> end_;
+    std::thread thread_;
+};
+
 [[noreturn]] void become_lumel(std::vector<std::string> arguments, int out, int err)
 {
     std::string program = LUMEL_PROGRAM;
@@ -96,6 +124,9 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
     close(out.theirs);
     close(err.theirs);
 
+    std::optional<Killer> killer;
+    if (options.kill_after > 0.0)
+        killer.emplace(child, options.kill_after);
     Outcome outcome;
     bool sent = false;
     collect(out.ours, err.ours, outcome, [&] {
@@ -104,6 +135,8 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
         kill(child, SIGINT);
         sent = true;
     });
+    // Not after the child is waited for, when its number may be another's.
+    killer.reset();
     int status = 0;
     waitpid(child, &status, 0);
     close(out.ours);

@@ -10,6 +10,7 @@ namespace lumel::test {
 struct RunOptions {
     bool terminal = false;       ///< stderr is a terminal of 100 columns
     std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
+    double kill_after = 0.0;     ///< send SIGKILL after so long [s]; 0: never
 };
 
 struct Outcome {

@@ -1,6 +1,14 @@
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <stdexcept>
+#include <thread>
+
+#include <sys/ptrace.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -129,6 +137,182 @@ TEST(OutputFolder, APlaceThatCannotBeAFolderIsAnOutputErrorThatNamesIt)
     }
     EXPECT_EQ(text_of(place / "file"), "mine");
     EXPECT_EQ(entries(place.path()), 1u);
+}
+
+/// Every file in a folder with what is in it, hidden ones too.
+std::map<std::string, std::string> contents(const fs::path& folder)
+{
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        all[entry.path().lexically_relative(folder).string()] =
+            entry.is_regular_file() ? text_of(entry.path().string()) : "/";
+    return all;
+}
+
+/// Results of two bakes: the new one has a file that the old one lacks, and does without another.
+void put_old(const std::string& folder)
+{
+    write(folder + "/a.txt", "old");
+    write(folder + "/b.txt", "old");
+    write(folder + "/gone.txt", "old");
+    write(folder + "/notes.txt", "mine");
+    fs::create_directory(folder + "/mine");
+}
+
+void put_new(const std::string& folder)
+{
+    OutputFolder out(folder);
+    out.outdate("gone.txt");
+    out.outdate("b.txt");
+    for (const char* name : {"a.txt", "b.txt", "c.txt"})
+        write(out.path(name), "new");
+    out.commit();
+}
+
+const std::map<std::string, std::string> kOld = {{"a.txt", "old"},
+                                                 {"b.txt", "old"},
+                                                 {"gone.txt", "old"},
+                                                 {"mine", "/"},
+                                                 {"notes.txt", "mine"}};
+const std::map<std::string, std::string> kNew = {{"a.txt", "new"},
+                                                 {"b.txt", "new"},
+                                                 {"c.txt", "new"},
+                                                 {"mine", "/"},
+                                                 {"notes.txt", "mine"}};
+
+/// Runs work in a process of its own, which dies at its system call of that number, as it begins.
+/// Returns whether it died.
+template <class Work>
+bool dies_at(int call, const Work& work)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
+        raise(SIGSTOP);
+        work();
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    // It stops as a call begins, and as it ends.
+    for (int stop = 0; WIFSTOPPED(status); ++stop) {
+        if (stop == 2 * call)
+            kill(child, SIGKILL);
+        ptrace(PTRACE_SYSCALL, child, nullptr, nullptr);
+        waitpid(child, &status, 0);
+    }
+    return WIFSIGNALED(status);
+}
+
+TEST(OutputFolder, AProcessThatDiesAnywhereLeavesAllOldOrAllNewForReadersAndNothingForTheNextRun)
+{
+    int old = 0, fresh = 0;
+    for (int call = 1;; ++call) {
+        const test::TemporaryFolder place;
+        const std::string folder = place.path().string();
+        put_old(folder);
+        if (!dies_at(call, [&] { put_new(folder); }))
+            break;
+        {
+            const ResultsLock reading(folder);
+            auto seen = contents(folder);
+            std::erase_if(seen, [](const auto& file) { return file.first.starts_with(".lumel"); });
+            ASSERT_TRUE(seen == kOld || seen == kNew) << "killed at system call " << call;
+            ++(seen == kOld ? old : fresh);
+        }
+        put_new(folder);
+        ASSERT_EQ(contents(folder), kNew) << "killed at system call " << call;
+    }
+    EXPECT_GT(old, 10);
+    EXPECT_GT(fresh, 3);
+}
+
+TEST(OutputFolder, ARunThatWritesElsewhereInTheFolderFinishesOrRemovesWhatTheDeadHaveLeft)
+{
+    for (int call = 1;; ++call) {
+        const test::TemporaryFolder place;
+        const std::string folder = place.path().string();
+        put_old(folder);
+        if (!dies_at(call, [&] { put_new(folder); }))
+            break;
+        const OutputFile other(folder + "/picture.png");
+        auto left = contents(folder);
+        left.erase(".lumel-writing-picture.png");
+        ASSERT_TRUE(left == kOld || left == kNew) << "killed at system call " << call;
+    }
+}
+
+TEST(OutputFolder, ResultsThatCannotBePutInPlaceWaitForTheNextRun)
+{
+    const test::TemporaryFolder place;
+    const std::string folder = place.path().string();
+    put_old(folder);
+    int call = 1;
+    while (dies_at(call, [&] { put_new(folder); }) &&
+           !fs::exists(folder + "/.lumel-writing/.committed"))
+        ++call;
+    ASSERT_EQ(text_of(folder + "/a.txt"), "old");
+    fs::remove(folder + "/b.txt");
+    fs::create_directory(folder + "/b.txt");
+    EXPECT_THROW(ResultsLock{folder}, Error);
+    EXPECT_THROW(OutputFolder{folder}, Error);
+    fs::remove(folder + "/b.txt");
+    const ResultsLock reading(folder);
+    EXPECT_EQ(contents(folder), kNew);
+}
+
+TEST(OutputFolder, ASecondWriterIsToldThatAnotherIsAtWork)
+{
+    const test::TemporaryFolder place;
+    OutputFolder first(place / "out");
+    write(first.path("a.txt"), "first");
+    try {
+        const OutputFolder second(place / "out");
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::output);
+        EXPECT_NE(std::string(error.what()).find("another lumel"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find(place / "out"), std::string::npos);
+    }
+    // What belongs to other work there is no second writer.
+    const OutputFolder dump(place / "out", "dump");
+    const OutputFile picture(place / "out/a.png"), other(place / "out/b.png");
+    EXPECT_THROW(OutputFile{place / "out/a.png"}, Error);
+    first.commit();
+    EXPECT_EQ(text_of(place / "out/a.txt"), "first");
+}
+
+TEST(OutputFolder, AWriterWaitsForReadersAndReadersSeeNoMixture)
+{
+    const test::TemporaryFolder place;
+    const std::string folder = place.path().string();
+    put_old(folder);
+    std::optional<ResultsLock> reading(std::in_place, folder);
+    std::thread writer([&] { put_new(folder); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(text_of(folder + "/a.txt"), "old");
+    EXPECT_EQ(text_of(folder + "/b.txt"), "old");
+    reading.reset();
+    writer.join();
+    EXPECT_EQ(contents(folder), kNew);
+}
+
+TEST(OutputFolder, AListOfWhatIsToGoReachesNothingOutsideTheFolder)
+{
+    const test::TemporaryFolder place;
+    write(place / "mine.txt", "mine");
+    fs::create_directories(place / "out/.lumel-writing");
+    write(place / "out/.lumel-writing/.committed", "../mine.txt\n" + (place / "mine.txt") + "\n");
+    const ResultsLock reading(place / "out");
+    EXPECT_EQ(text_of(place / "mine.txt"), "mine");
+    EXPECT_EQ(entries(place / "out"), 0u);
+}
+
+TEST(ResultsLock, OfAFolderThatDoesNotExistIsNone)
+{
+    const test::TemporaryFolder place;
+    EXPECT_NO_THROW(ResultsLock(place / "none"));
+    EXPECT_EQ(entries(place.path()), 0u);
 }
 
 TEST(OutputFile, AppearsAtCommitInThePlaceOfAnOlderOne)

@@ -297,6 +297,16 @@ TEST(ReferenceImage, OneSeedGivesTheSameBytesAndAnotherSeedOthers)
     EXPECT_NE(first.values, render(made.scene, {}, options).values);
 }
 
+TEST(ReferenceImage, AStopBeforeAllPixelsHaveASampleGivesNone)
+{
+    const HandMade made = make_quads({Quad{}});
+    const Image image =
+        reference_image(made.scene, RayScene(made.scene), {.aspect = 1.0f},
+                        {.width = 200, .height = 200, .samples_per_pixel = 1},
+                        [](double) { return false; });
+    EXPECT_TRUE(image.values.empty());
+}
+
 TEST(ReferenceImage, AStoppedPictureKeepsWhatItHas)
 {
     Quad lamp{{-1.0f, -1.0f, -1.0f}, {2.0f, 0.0f, 0.0f}, {0.0f, 2.0f, 0.0f}};

@@ -309,6 +309,15 @@ TEST(Reference, AStoppedRunKeepsWhatItHas)
         EXPECT_NEAR(H.x, 2.0f, 0.6f);
 }
 
+TEST(Reference, ARunThatStopsBeforeAllLumelsHaveASampleHasNothing)
+{
+    HandMade made = furnace(0.5f, 1.0f);
+    made.lumels.lumels.resize(20000, made.lumels.lumels.front());
+    EXPECT_TRUE(reference_irradiance(made.scene, RayScene(made.scene), made.lumels, {},
+                                     [](double) { return false; })
+                    .empty());
+}
+
 TEST(Reference, ADarkSceneIsBlack)
 {
     for (const glm::vec3& H : solve(furnace(0.5f, 0.0f), 4))
