@@ -85,9 +85,8 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
         ASSERT_EQ(bake(1, 0.0).code, 0);
         left_over += !hidden(place.path("out")).empty() || contents(place.path("out")) != old;
     }
-    std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late "
-              << ended << "), mixed " << mixed << ", left over after the next run " << left_over
-              << '\n';
+    std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late " << ended
+              << "), mixed " << mixed << ", left over after the next run " << left_over << '\n';
     EXPECT_EQ(mixed, 0);
     EXPECT_EQ(left_over, 0);
 }

@@ -60,11 +60,23 @@ TEST(Play, CtrlCKeepsTheFramesDoneAndExits130)
 {
     const Workplace place;
     const Outcome outcome =
-        run_lumel(small_play(place.path("out"), {"--frames", "100000"}), {.interrupt_at = "shots"});
+        run_lumel(small_play(place.path("out"), {"--frames", "300", "--budget", "1"}),
+                  {.interrupt_at = "playing [..............................]   1 %"});
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_NE(outcome.out.find("stopped early"), std::string::npos) << outcome.out;
     const auto report = nlohmann::json::parse(bytes_of(place.path("out/report.json")));
     EXPECT_EQ(report["solution"]["interrupted"], true);
+    EXPECT_GE(report["frames"].size(), 3u);
+    EXPECT_LT(report["frames"].size(), 300u);
+}
+
+TEST(Play, CtrlCBeforeThereIsAFrameWritesNothing)
+{
+    const Workplace place;
+    const Outcome outcome =
+        run_lumel(small_play(place.path("out"), {"--frames", "3"}), {.interrupt_at = "shots"});
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_EQ(place.listing(), std::vector<std::string>{});
 }
 
 TEST(Play, RefusesWhatItCannotPlay)

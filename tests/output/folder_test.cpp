@@ -169,16 +169,10 @@ void put_new(const std::string& folder)
     out.commit();
 }
 
-const std::map<std::string, std::string> kOld = {{"a.txt", "old"},
-                                                 {"b.txt", "old"},
-                                                 {"gone.txt", "old"},
-                                                 {"mine", "/"},
-                                                 {"notes.txt", "mine"}};
-const std::map<std::string, std::string> kNew = {{"a.txt", "new"},
-                                                 {"b.txt", "new"},
-                                                 {"c.txt", "new"},
-                                                 {"mine", "/"},
-                                                 {"notes.txt", "mine"}};
+const std::map<std::string, std::string> kOld = {
+    {"a.txt", "old"}, {"b.txt", "old"}, {"gone.txt", "old"}, {"mine", "/"}, {"notes.txt", "mine"}};
+const std::map<std::string, std::string> kNew = {
+    {"a.txt", "new"}, {"b.txt", "new"}, {"c.txt", "new"}, {"mine", "/"}, {"notes.txt", "mine"}};
 
 /// Runs work in a process of its own, which dies at its system call of that number, as it begins.
 /// Returns whether it died.
