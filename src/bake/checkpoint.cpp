@@ -92,9 +92,8 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
     if (!(origin == origin_)) {
         const char* other = origin.version != origin_.version ? "version of Lumel"
                             : origin.scene != origin_.scene   ? "scene, or the same before an edit"
-                            : origin.options != origin_.options
-                                ? "set of options"
-                                : "caster of rays (--rays)";
+                            : origin.options != origin_.options ? "set of options"
+                                                                : "caster of rays (--rays)";
         throw Error(ErrorKind::input, path_,
                     fmt::format("is of another {}; go on as the bake began, or bake without "
                                 "--resume",

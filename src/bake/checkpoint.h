@@ -30,8 +30,8 @@ public:
 
     Checkpoint(const std::string& folder, const BakeOptions& options, const Prepared& prepared);
 
-    /// With --resume: takes up what is there, and returns how far that had come. Throws Error{input}
-    /// if it is of other work or damaged.
+    /// With --resume: takes up what is there, and returns how far that had come. Throws
+    /// Error{input} if it is of other work or damaged.
     Run take_up(Solver& solver);
     /// Writes it if it is time. What cannot be written is a warning, and the former one stays.
     void keep(Solver& solver, const Run& run);
@@ -55,7 +55,7 @@ private:
     std::string path_;
     bool can_, resume_;
     const char* unit_;  ///< of shots
-    double every_;  ///< [s], 0: never
+    double every_;      ///< [s], 0: never
     Origin origin_;
     double next_ = 0.0;  ///< [s] of wall_seconds()
     bool warned_ = false;

@@ -21,7 +21,10 @@ namespace lumel {
 
 /// What has no state of its own is written as it lies in memory.
 template <class T, class Archive>
-concept HasState = requires(T value, Archive archive) { value.state(archive); };
+concept HasState = requires(T value, Archive archive)
+{
+    value.state(archive);
+};
 template <class T, class Archive>
 concept IsPlain =
     !HasState<T, Archive> && std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;

@@ -306,8 +306,9 @@ WorkFolder::WorkFolder(const fs::path& target, const std::string& what)
         lock_ = make(path_);
     }
     if (!lock_)
-        throw Error(ErrorKind::output, (what.empty() ? target_ : target_ / what).string(),
-                    "another lumel is writing there; wait until it is done, or choose another place");
+        throw Error(
+            ErrorKind::output, (what.empty() ? target_ : target_ / what).string(),
+            "another lumel is writing there; wait until it is done, or choose another place");
 }
 
 WorkFolder::~WorkFolder()

@@ -247,7 +247,9 @@ void LinkRadiosity::read_state(StateReader& reader)
 void LinkRadiosity::check_sizes() const
 {
     const std::size_t lumels = order_.size(), parts = parts_->count();
-    const auto is = [](std::size_t size, std::size_t wanted) { return size == 0 || size == wanted; };
+    const auto is = [](std::size_t size, std::size_t wanted) {
+        return size == 0 || size == wanted;
+    };
     bool fits = direct_->fits() && is(rays_.size(), lumels) && is(indirect_.size(), lumels) &&
                 is(square_.size(), lumels) && traced_ <= tracer_->blocks();
     for (std::size_t k = 0; k < kSolutions; ++k)

@@ -86,9 +86,8 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
         if (mixed > 0 || left_over > 0)
             break;
     }
-    std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late "
-              << ended << "), mixed " << mixed << ", left over after the next run " << left_over
-              << '\n';
+    std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late " << ended
+              << "), mixed " << mixed << ", left over after the next run " << left_over << '\n';
     EXPECT_EQ(mixed, 0);
     EXPECT_EQ(left_over, 0);
 }
@@ -101,9 +100,12 @@ struct Job {
 /// A bake of a few seconds, whose state is written all the time.
 std::vector<std::string> resumable(const std::string& folder, const Job& job = {})
 {
-    std::vector<std::string> arguments = {
-        "bake",    own_scene("cornell-box.gltf"), folder, "--size", "48", "--preview-width", "32",
-        "--error", job.error, "--checkpoint", job.checkpoint};
+    std::vector<std::string> arguments = {"bake",        own_scene("cornell-box.gltf"),
+                                          folder,        "--size",
+                                          "48",          "--preview-width",
+                                          "32",          "--error",
+                                          job.error,     "--checkpoint",
+                                          job.checkpoint};
     arguments.insert(arguments.end(), job.more.begin(), job.more.end());
     return arguments;
 }
@@ -113,8 +115,7 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
     const Workplace place;
     ASSERT_EQ(run_lumel(resumable(place.path("whole"), {.checkpoint = "0"})).code, 0);
     double seconds = 0.0;
-    seconds = seconds_of(
-        [&] { ASSERT_EQ(run_lumel(resumable(place.path("out"))).code, 0); });
+    seconds = seconds_of([&] { ASSERT_EQ(run_lumel(resumable(place.path("out"))).code, 0); });
     const auto whole = contents(place.path("whole"));
     std::mt19937 random(std::random_device{}());
     std::uniform_real_distribution<double> moment(0.0, seconds);
@@ -123,7 +124,8 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
         fs::remove_all(place.path("out"));
         // The first is killed, what goes on is killed again, and then it ends.
         run_lumel(resumable(place.path("out")), {.kill_after = moment(random)});
-        run_lumel(resumable(place.path("out"), {.more = {"--resume"}}), {.kill_after = moment(random)});
+        run_lumel(resumable(place.path("out"), {.more = {"--resume"}}),
+                  {.kill_after = moment(random)});
         const Outcome last = run_lumel(resumable(place.path("out"), {.more = {"--resume"}}));
         ASSERT_EQ(last.code, 0) << last.err;
         went_on += last.err.find("going on after") != std::string::npos;

@@ -300,10 +300,9 @@ TEST(ReferenceImage, OneSeedGivesTheSameBytesAndAnotherSeedOthers)
 TEST(ReferenceImage, AStopBeforeAllPixelsHaveASampleGivesNone)
 {
     const HandMade made = make_quads({Quad{}});
-    const Image image =
-        reference_image(made.scene, RayScene(made.scene), {.aspect = 1.0f},
-                        {.width = 200, .height = 200, .samples_per_pixel = 1},
-                        [](double) { return false; });
+    const Image image = reference_image(made.scene, RayScene(made.scene), {.aspect = 1.0f},
+                                        {.width = 200, .height = 200, .samples_per_pixel = 1},
+                                        [](double) { return false; });
     EXPECT_TRUE(image.values.empty());
 }
 

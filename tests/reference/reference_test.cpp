@@ -313,9 +313,9 @@ TEST(Reference, ARunThatStopsBeforeAllLumelsHaveASampleHasNothing)
 {
     HandMade made = furnace(0.5f, 1.0f);
     made.lumels.lumels.resize(20000, made.lumels.lumels.front());
-    EXPECT_TRUE(reference_irradiance(made.scene, RayScene(made.scene), made.lumels, {},
-                                     [](double) { return false; })
-                    .empty());
+    EXPECT_TRUE(reference_irradiance(made.scene, RayScene(made.scene), made.lumels, {}, [](double) {
+                    return false;
+                }).empty());
 }
 
 TEST(Reference, ADarkSceneIsBlack)
