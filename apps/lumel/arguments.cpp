@@ -23,6 +23,8 @@ namespace {
 constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
 constexpr int kLargestGutter = 64;
 constexpr int kMostShots = 2'000'000'000;
+/// A day.
+constexpr double kMostCheckpointSeconds = 86'400.0;
 constexpr int kMostPaths = 100'000'000;
 constexpr int kMostFrames = 100'000;
 constexpr int kMostAnimations = 1'000'000;
@@ -333,6 +335,19 @@ void add_preview_option(CLI::App& app, int& width)
         ->check(whole(0, kLargestAtlas));
 }
 
+void add_resume_options(CLI::App& app, BakeOptions& options)
+{
+    app.option_defaults()->group(kStopGroup);
+    app.add_flag("--resume", options.resume,
+                 "Go on with a bake that was killed or failed, from its checkpoint in the folder; "
+                 "begin anew if there is none (only links)");
+    app.add_option("--checkpoint", options.checkpoint_seconds,
+                   "Time between two checkpoints that --resume goes on from; 0: none (only links)")
+        ->type_name("SECONDS")
+        ->capture_default_str()
+        ->check(between(0.0, kMostCheckpointSeconds));
+}
+
 CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
 {
     CLI::App& command = *app.add_subcommand("bake", "Solve the light of a scene into lightmaps");
@@ -347,6 +362,7 @@ CLI::App& add_bake(CLI::App& app, BakeArguments& bake, GivenMethod& method)
     command.option_defaults()->group(kMethodGroup);
     add_methods(command, method);
     add_stop_options(command, bake.options.solver);
+    add_resume_options(command, bake.options);
     add_device_option(command, bake.options.device);
     add_half_option(command, bake.options.half);
     add_keep_lights_option(command, bake.options.keep_lights);

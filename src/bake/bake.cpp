@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "bake/checkpoint.h"
 #include "bake/dump.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
@@ -24,6 +25,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");
+    check_resume(options);
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, method.materials, options.lights);
@@ -35,9 +37,10 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     const gpu::Device device(options.device);
 
     const Setting setting(std::move(scene), device, options, stages);
-    const std::unique_ptr<Solution> solution = keeps_sources_apart(options)
-                                                   ? solve_sources(device, setting, options, stages)
-                                                   : solve_light(device, setting, options, stages);
+    Checkpoint checkpoint(folder, options, setting.prepared);
+    const std::unique_ptr<Solution> solution =
+        keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
+                                     : solve_light(device, setting, options, stages, &checkpoint);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
     if (dump) {
@@ -73,6 +76,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
     output.outdate(kMatrixFile);
+    if (!(stopped && options.resume))
+        output.outdate(kCheckpointFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
     return write_bake(output, options, setting.prepared, device, *solution->solver,

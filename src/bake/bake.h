@@ -29,7 +29,9 @@ struct BakeOptions {
     int baked_size = kBakedSize;  ///< largest side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
-    std::string dump;  ///< folder for intermediate images, see dump.h; empty: none
+    std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
+    bool resume = false;               ///< goes on from a checkpoint, if one is there
+    double checkpoint_seconds = 60.0;  ///< between two checkpoints, see Checkpoint; 0: none
 };
 
 /// State of a running bake, for a progress display.

@@ -18,7 +18,7 @@ Lumels dark(Lumels lumels)
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
                               std::span<const glm::vec3> known, Stages& stages,
-                              Parts parts = Parts::all)
+                              Parts parts = Parts::all, Checkpoint* checkpoint = nullptr)
 {
     const Prepared& prepared = setting.prepared;
     const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
@@ -34,7 +34,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                                     .host = &host,
                                     .parts = parts},
                                    options);
-    solution->run = solve_in_stage(*solution->solver, options, stages);
+    solution->run = solve_in_stage(*solution->solver, options, stages, checkpoint);
     solution->irradiance = solution->solver->irradiance();
     return solution;
 }
@@ -42,11 +42,12 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
 /// direct: [N] [lx] of sky and lamps, or empty.
 std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& setting,
                                       const BakeOptions& options,
-                                      const std::vector<glm::vec3>& direct, Stages& stages)
+                                      const std::vector<glm::vec3>& direct, Stages& stages,
+                                      Checkpoint* checkpoint)
 {
     const Lumels& lumels = setting.prepared.lumels;
     if (method_of(options.solver.method).finds_lights)
-        return run(device, setting, options.solver, {}, {}, stages, options.parts);
+        return run(device, setting, options.solver, {}, {}, stages, options.parts, checkpoint);
     if (options.parts == Parts::all) {
         std::unique_ptr<Solution> all =
             run(device, setting, options.solver, shining(lumels, direct), direct, stages);
@@ -110,11 +111,12 @@ std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>
 }
 
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
-                                      const BakeOptions& options, Stages& stages)
+                                      const BakeOptions& options, Stages& stages,
+                                      Checkpoint* checkpoint)
 {
     DirectLight lamps = light_of_lamps(device, setting, options, stages);
     std::unique_ptr<Solution> solution =
-        solve_parts(device, setting, options, lamps.irradiance, stages);
+        solve_parts(device, setting, options, lamps.irradiance, stages, checkpoint);
     solution->lamps = std::move(lamps);
     return solution;
 }

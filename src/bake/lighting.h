@@ -41,7 +41,9 @@ struct Solution {
 /// direct light that surfaces reflect. So indirect light takes two solves, and its first bounce
 /// is diffuse whatever the method. One solve would not do: its sums do not keep apart what emissive
 /// surfaces send and what lamps leave on the surfaces.
+/// checkpoint: of a method that can go on from one, or null.
 std::unique_ptr<Solution> solve_light(const gpu::Device& device, const Setting& setting,
-                                      const BakeOptions& options, Stages& stages);
+                                      const BakeOptions& options, Stages& stages,
+                                      Checkpoint* checkpoint = nullptr);
 
 }  // namespace lumel

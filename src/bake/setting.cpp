@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/checkpoint.h"
 #include "core/log.h"
 #include "prepare/lit_sides.h"
 #include "solve/methods.h"
@@ -12,6 +13,9 @@
 
 namespace lumel {
 namespace {
+
+/// A limit of time that has passed already [s].
+constexpr double kLeastSeconds = 1e-9;
 
 /// The progress of a solve toward the limit that is nearest, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
@@ -124,19 +128,34 @@ Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device
 {
 }
 
-SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages)
+SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages,
+                        Checkpoint* checkpoint)
 {
     stages.begin("solving");
     stages.note_arrays();
-    SolveRun run;
+    Checkpoint::Run so_far;
+    if (checkpoint)
+        so_far = checkpoint->take_up(solver);
+    const double before = so_far.seconds;
+    SolverOptions limits = options;
+    if (limits.max_seconds > 0.0)
+        limits.max_seconds = std::max(limits.max_seconds - before, kLeastSeconds);
     ErrorNotes errors(options);
-    run.finished = solve(solver, options, [&](const SolverState& state) {
+    SolveRun run;
+    run.finished = solve(solver, limits, [&](const SolverState& state) {
         errors.add(state, stages);
-        const double seconds = stages.stage_seconds();
-        if (state.error >= 0.0 && (run.curve.empty() || run.curve.back().error != state.error))
-            run.curve.push_back({state.shots, seconds, state.error});
-        return stages.progress(solved_fraction(options, state, seconds), state.shots, state.error);
+        so_far.seconds = before + stages.stage_seconds();
+        std::vector<ConvergencePoint>& curve = so_far.curve;
+        if (state.error >= 0.0 && (curve.empty() || curve.back().error != state.error))
+            curve.push_back({state.shots, so_far.seconds, state.error});
+        if (checkpoint)
+            checkpoint->keep(solver, so_far);
+        return stages.progress(solved_fraction(options, state, so_far.seconds), state.shots,
+                               state.error);
     });
+    if (!run.finished && checkpoint)
+        checkpoint->stop(solver, so_far);
+    run.curve = std::move(so_far.curve);
     if (!run.finished && solver.state().shots == 0)
         throw_stopped();
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,

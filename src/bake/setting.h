@@ -11,6 +11,7 @@
 
 namespace lumel {
 
+class Checkpoint;
 class Solver;
 
 /// Says what the scene's reader had to say.
@@ -54,7 +55,9 @@ struct SolveRun {
     std::vector<ConvergencePoint> curve;
 };
 
-/// Runs a solver up to the limits in its options, as the stage "solving".
-SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages);
+/// Runs a solver up to the limits in its options, as the stage "solving". checkpoint: that it goes
+/// on from, and keeps; or null.
+SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages,
+                        Checkpoint* checkpoint = nullptr);
 
 }  // namespace lumel

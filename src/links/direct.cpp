@@ -367,6 +367,14 @@ void DirectFinder::keep(std::uint32_t i, const Found& found, Block& block)
     }
 }
 
+bool DirectFinder::fits() const
+{
+    const std::size_t count = order_.size();
+    return half_[0].size() == count && half_[1].size() == count && taken_.size() == count &&
+           more_.size() == count && seen_.size() == count && uncertain_.size() == count &&
+           varying_.size() == count && done_ <= blocks_.size();
+}
+
 bool DirectFinder::step()
 {
     const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;

@@ -57,6 +57,16 @@ public:
     glm::vec3 light_of(const Looks& looks, std::uint32_t first) const;
     std::uint64_t rays() const { return rays_; }  ///< so far
 
+    /// All that changes, for a StateWriter or a StateReader.
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(half_[0], half_[1], taken_, more_, seen_, uncertain_, many_, varying_, cells_,
+                blocks_, done_, first_pass_, rays_);
+    }
+    /// Is what was read of these lumels?
+    bool fits() const;
+
 private:
     static constexpr std::uint32_t kSame = ~0u;
     using OfCells = std::array<glm::vec3, kCells>;
@@ -76,6 +86,12 @@ private:
         std::vector<std::uint32_t> lumel;
         std::vector<OfCells> cells;
         std::uint64_t rays = 0;
+
+        template <class Archive>
+        void state(Archive& archive)
+        {
+            archive(lumel, cells, rays);
+        }
     };
 
     std::vector<RaysTo> share_out_rays(const glm::vec3& at, float size,

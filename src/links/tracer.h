@@ -27,6 +27,12 @@ struct LinkBlock {
     std::vector<std::uint32_t> first_weak;  ///< [parts + 1] into weak
     std::vector<WeakLink> weak;
     bool loses = false;  ///< some of the rays met no surface that reflects
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(first, target, first_weak, weak, loses);
+    }
 };
 
 /// Lumels of one block.
@@ -50,6 +56,12 @@ struct Gathered {
     std::vector<glm::vec3> sky;        ///< [P] Σ over rays of the sky's light [lx]
     std::vector<std::uint32_t> rays;   ///< [P] that count
     std::vector<float> nearest;        ///< [P] [m] how near they met anything
+
+    template <class Archive>
+    void state(Archive& archive)
+    {
+        archive(rounds, reflected, sky, rays, nearest);
+    }
 };
 
 /// Follows rays from lumels until they meet a part.

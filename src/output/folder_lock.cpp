@@ -46,11 +46,15 @@ bool leads_to(const fs::path& path, int descriptor)
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& folder, Kind kind) : descriptor_(open_folder(folder))
+FolderLock::FolderLock(const fs::path& folder, Kind kind)
 {
-    if (descriptor_ < 0)
-        fail("cannot open folder", folder, errno);
-    lock(descriptor_, kind == Kind::shared ? LOCK_SH : LOCK_EX);
+    // Another may have been put in its place while this waited.
+    do {
+        *this = FolderLock(open_folder(folder));
+        if (descriptor_ < 0)
+            fail("cannot open folder", folder, errno);
+        lock(descriptor_, kind == Kind::shared ? LOCK_SH : LOCK_EX);
+    } while (!leads_to(folder, descriptor_));
 }
 
 std::optional<FolderLock> FolderLock::try_to(const fs::path& folder)

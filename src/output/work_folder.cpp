@@ -1,9 +1,17 @@
 #include "output/work_folder.h"
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <thread>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/xattr.h>
+#include <unistd.h>
 
 #include "core/error.h"
 
@@ -16,6 +24,10 @@ constexpr const char* kWork = ".lumel-writing";
 /// In a work folder: its files belong in the target, from which the names in this list go, one in
 /// each line.
 constexpr const char *kList = ".committed", *kUnfinishedList = ".committing";
+/// In the work folder of a target that was exchanged for a new one: the names of its results.
+constexpr const char* kReplaced = ".replaced";
+/// Files of others are linked to a new target up to this number.
+constexpr std::size_t kMostLinks = 1000;
 /// A process that removes what another left has its lock for a moment.
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kBetweenTries(50);
@@ -53,7 +65,8 @@ std::vector<fs::path> files_in(const fs::path& work)
 {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(work))
-        if (const fs::path name = entry.path().filename(); name != kList && name != kUnfinishedList)
+        if (const fs::path name = entry.path().filename();
+            name != kList && name != kUnfinishedList && name != kReplaced)
             files.push_back(name);
     std::sort(files.begin(), files.end());
     return files;
@@ -67,6 +80,8 @@ void put_in_place(const fs::path& target, const fs::path& work)
         for (std::string name; std::getline(list, name);)
             if (is_plain_name(name) && fs::is_regular_file(target / name))
                 fs::remove(target / name);
+        if (list.bad() || !list.is_open())
+            throw Error(ErrorKind::output, (work / kList).string(), "cannot be read");
         for (const fs::path& file : files_in(work))
             fs::rename(work / file, target / file);
         sync_to_disk(target);
@@ -79,34 +94,84 @@ void put_in_place(const fs::path& target, const fs::path& work)
     }
 }
 
-/// Removes a work folder, whose results do not count.
+/// Removes a work folder, whose results do not count, or a target that was replaced.
 void discard(const fs::path& work) noexcept
 {
-    // The list first: a part of the files must not pass for all.
-    std::error_code reason;
+    // The lists first: a part of the files must not pass for all.
+    std::error_code reason, other;
     fs::remove(work / kList, reason);
-    if (!reason)
+    fs::remove(work / kWork / kReplaced, other);
+    if (!reason && !other)
         fs::remove_all(work, reason);
 }
 
-/// Finishes or removes what dead processes have left.
+std::string name_in(const fs::path& folder)
+{
+    return std::string(kWork) + "-" + folder.string();
+}
+
+/// Names in a list, sorted.
+std::vector<std::string> lines_of(const fs::path& list)
+{
+    std::vector<std::string> lines;
+    std::ifstream file(list);
+    for (std::string line; std::getline(file, line);)
+        lines.push_back(line);
+    std::sort(lines.begin(), lines.end());
+    return lines;
+}
+
+/// Moves what others put into a target, before it was replaced but after its files were linked, to
+/// the new one.
+void give_back(const fs::path& old, const fs::path& target)
+{
+    const std::vector<std::string> results = lines_of(old / kWork / kReplaced);
+    for (const fs::directory_entry& entry : fs::directory_iterator(old)) {
+        const fs::path name = entry.path().filename();
+        std::error_code absent;
+        if (name != kWork && !std::binary_search(results.begin(), results.end(), name.string()) &&
+            !fs::equivalent(entry.path(), target / name, absent))
+            fs::rename(entry.path(), target / name);
+    }
+}
+
+/// Finishes or removes a work folder in `target`, or a target beside its new one there, if its
+/// process is dead.
+void settle(const fs::path& target, const fs::path& work)
+{
+    std::optional<FolderLock> own;
+    try {
+        own = FolderLock::try_to(work);
+    } catch (const fs::filesystem_error&) {
+        // Another user's.
+    }
+    if (!own)
+        return;
+    if (is_committed(work)) {
+        const FolderLock lock(target, FolderLock::Kind::exclusive);
+        put_in_place(target, work);
+    } else if (fs::exists(work / kWork / kReplaced)) {
+        const std::string name = work.filename().string().substr(name_in({}).size());
+        if (fs::is_directory(target / name))
+            give_back(work, target / name);
+    }
+    discard(work);
+}
+
+/// Where the new target is made: beside it, whatever links lead there.
+fs::path place_for_new(const fs::path& target)
+{
+    const fs::path place = fs::canonical(target);
+    return place.parent_path() / name_in(place.filename());
+}
+
+/// Finishes or removes what dead processes have left in a target, and beside it of its own.
 void settle(const fs::path& target)
 {
-    for (const fs::path& work : work_folders(target)) {
-        std::optional<FolderLock> own;
-        try {
-            own = FolderLock::try_to(work);
-        } catch (const fs::filesystem_error&) {
-            // Another user's.
-        }
-        if (!own)
-            continue;
-        if (is_committed(work)) {
-            const FolderLock lock(target, FolderLock::Kind::exclusive);
-            put_in_place(target, work);
-        }
-        discard(work);
-    }
+    for (const fs::path& work : work_folders(target))
+        settle(target, work);
+    const fs::path beside = place_for_new(target);
+    settle(beside.parent_path(), beside);
 }
 
 /// A new folder that nobody else uses; empty if others were quicker.
@@ -128,6 +193,91 @@ void check_places(const fs::path& target, const std::vector<fs::path>& files)
         if (fs::is_directory(target / file))
             throw Error(ErrorKind::output, (target / file).string(),
                         "is a folder where a result must go; move it away");
+}
+
+/// Is the current folder that one, or in it?
+bool is_current(const fs::path& folder)
+{
+    std::error_code reason;
+    const fs::path current = fs::current_path(reason), outer = fs::canonical(folder);
+    return std::mismatch(outer.begin(), outer.end(), current.begin(), current.end()).first ==
+           outer.end();
+}
+
+/// Names of what is in a target beside results and the work folder. None if a new target cannot be
+/// given the same.
+std::optional<std::vector<fs::path>> others_in(const fs::path& target,
+                                               const std::vector<fs::path>& files,
+                                               const std::vector<std::string>& outdated)
+{
+    std::vector<fs::path> others;
+    for (const fs::directory_entry& entry : fs::directory_iterator(target)) {
+        const fs::path name = entry.path().filename();
+        if (name == kWork || std::binary_search(files.begin(), files.end(), name) ||
+            std::find(outdated.begin(), outdated.end(), name.string()) != outdated.end())
+            continue;
+        const fs::file_type type = entry.symlink_status().type();
+        if (type != fs::file_type::regular && type != fs::file_type::symlink)
+            return {};
+        others.push_back(name);
+        if (others.size() > kMostLinks)
+            return {};
+    }
+    return others;
+}
+
+bool link_all(const fs::path& from, const std::vector<fs::path>& names, const fs::path& to)
+{
+    std::error_code reason;
+    for (const fs::path& name : names) {
+        fs::create_hard_link(from / name, to / name, reason);
+        if (reason)
+            return false;
+    }
+    return true;
+}
+
+/// Access lists and the like. What the system's security adds, it adds to every folder.
+bool has_attributes(const fs::path& folder)
+{
+    std::array<char, 4096> names;
+    const ssize_t size = listxattr(folder.c_str(), names.data(), names.size());
+    for (ssize_t at = 0; at < size;) {
+        const std::string name = names.data() + at;
+        if (!name.starts_with("security."))
+            return true;
+        at += ssize_t(name.size()) + 1;
+    }
+    return size < 0 && errno != ENOTSUP;
+}
+
+/// Gives a folder the owner and the rights of another. False if that cannot be done, or if there
+/// is more to give.
+bool take_attributes(const fs::path& from, const fs::path& to)
+{
+    struct stat wanted = {}, made = {};
+    if (stat(from.c_str(), &wanted) != 0 || stat(to.c_str(), &made) != 0)
+        return false;
+    if ((wanted.st_uid != made.st_uid || wanted.st_gid != made.st_gid) &&
+        chown(to.c_str(), wanted.st_uid, wanted.st_gid) != 0)
+        return false;
+    if (has_attributes(from) || has_attributes(to))
+        return false;
+    return chmod(to.c_str(), wanted.st_mode & 07777u) == 0;
+}
+
+void write_names(const fs::path& path, const std::vector<fs::path>& files,
+                 const std::vector<std::string>& outdated)
+{
+    std::ofstream list(path);
+    for (const fs::path& file : files)
+        list << file.string() << '\n';
+    for (const std::string& name : outdated)
+        list << name << '\n';
+    list.close();
+    if (!list)
+        throw Error(ErrorKind::output, path.string(), "cannot be written");
+    sync_to_disk(path);
 }
 
 void write_list(const fs::path& work, const std::vector<std::string>& names)
@@ -163,7 +313,7 @@ WorkFolder::WorkFolder(const fs::path& target, const std::string& what)
 
 WorkFolder::~WorkFolder()
 {
-    if (!committed_)
+    if (is_ours_)
         discard(path_);
 }
 
@@ -186,11 +336,57 @@ void WorkFolder::commit(const std::vector<std::string>& outdated)
         sync_to_disk(target_);
         return;
     }
+    if (!exchange(files, gone))
+        move(gone);
+}
+
+/// Makes the target anew, beside it, and exchanges the two. False if that cannot be done: then all
+/// is as it was.
+bool WorkFolder::exchange(const std::vector<fs::path>& files,
+                          const std::vector<std::string>& outdated)
+{
+    const fs::path fresh = place_for_new(target_);
+    const std::optional<std::vector<fs::path>> others = others_in(target_, files, outdated);
+    if (!others || is_current(target_))
+        return false;
+    std::error_code reason;
+    std::optional<FolderLock> fresh_lock;
+    if (fs::create_directory(fresh, reason))
+        fresh_lock = FolderLock::try_to(fresh);
+    if (!fresh_lock)
+        return false;
     const FolderLock lock(target_, FolderLock::Kind::exclusive);
-    write_list(path_, gone);
-    committed_ = true;
+    bool is_made = false;
+    try {
+        is_made = link_all(path_, files, fresh) && link_all(target_, *others, fresh) &&
+                  take_attributes(target_, fresh);
+        write_names(path_ / kReplaced, files, outdated);
+        sync_to_disk(fresh);
+        sync_to_disk(fresh.parent_path());
+    } catch (const std::exception&) {
+        is_made = false;
+    }
+    if (!is_made || renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, fs::canonical(target_).c_str(),
+                              RENAME_EXCHANGE) != 0) {
+        discard(fresh);
+        return false;
+    }
+    // From now on another process may have a work folder of this one's name in the new target.
+    is_ours_ = false;
+    sync_to_disk(fresh.parent_path());
+    give_back(fresh, target_);
+    discard(fresh);
+    return true;
+}
+
+/// Moves the files into the target.
+void WorkFolder::move(const std::vector<std::string>& outdated)
+{
+    const FolderLock lock(target_, FolderLock::Kind::exclusive);
+    write_list(path_, outdated);
+    is_ours_ = false;
     put_in_place(target_, path_);
-    committed_ = false;
+    is_ours_ = true;
 }
 
 ResultsLock::ResultsLock(const std::string& folder)

@@ -14,19 +14,26 @@ namespace lumel {
 /// `what` tells it from others there: `.lumel-writing-what`. It is locked as long as its process
 /// lives: who finds one that is not locked knows that its process died.
 ///
-/// What can end the program, and what is there then:
+/// What is there if the program ends:
 /// 1. While files are written here: the target as it was. The next run that writes into the target
 ///    removes this folder.
-/// 2. commit() brings the files to the disk, and then makes a list of what is to go from the
-///    target. The list appears in one step, and that is the step that replaces the results.
-/// 3. The files are moved into the target one by one, and the list goes at last. All commands of
+/// 2. commit() brings the files to the disk. Then it makes a second hidden folder beside the
+///    target, with links to the new files and to all in the target that is no result: the target
+///    as it was, and the next run removes that folder too.
+/// 3. One step exchanges the two (renameat2). Whoever looks sees the old target before it, and the
+///    new one after it.
+/// 4. What others put into the old target since 2 is moved to the new one, and the old one is
+///    removed: the new target. The next run does what is left of this.
+///
+/// That cannot be done where the target is a mount or the current folder, holds folders, very many
+/// files or what cannot be linked, or is not ours to make again, and where the file system knows no
+/// exchange. There instead of 2 to 4:
+/// 5. A list of what is to go from the target is made. It appears in one step, and that is the
+///    step that replaces the results.
+/// 6. The files are moved into the target one by one, and the list goes at last. All commands of
 ///    Lumel that read results take a lock that waits for the end of this (ResultsLock), or finish
 ///    it first if its process has died: every part of it may be repeated. They see all old files,
-///    or all new ones. Another program that looks right between two moves sees some of each.
-///
-/// The target itself stays what it is, with all other files in it: exchanging it for a new folder
-/// would be one step for all who look, but takes it away under shells, watchers and mounts, and
-/// other files would be in neither or both for a time.
+///    or all new ones. Another program that looks between two moves sees some of each.
 class WorkFolder {
 public:
     /// Finishes or removes what dead processes have left in the target, whatever it was for. Throws
@@ -43,9 +50,13 @@ public:
     void commit(const std::vector<std::string>& outdated);
 
 private:
+    bool exchange(const std::vector<std::filesystem::path>& files,
+                  const std::vector<std::string>& outdated);
+    void move(const std::vector<std::string>& outdated);
+
     std::filesystem::path target_, path_;
     std::optional<FolderLock> lock_;
-    bool committed_ = false;
+    bool is_ours_ = true;  ///< to remove
 };
 
 /// Results of a folder as one bake has left them: while this lives, none are put in their place.

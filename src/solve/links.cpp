@@ -30,6 +30,7 @@
 #include "core/frame.h"
 #include "core/log.h"
 #include "core/luminance.h"
+#include "core/state_bytes.h"
 #include "links/deviation.h"
 #include "paths/samples.h"
 #include "query/query_caster.h"
@@ -213,6 +214,49 @@ void LinkRadiosity::step()
     }
     ++state_.iterations;
     state_.begun = begun();
+}
+
+/// All that changes once the lumels are cut, which is done anew.
+template <class Archive>
+void LinkRadiosity::state(Archive& archive)
+{
+    archive(*direct_, round_, mean_rays_, rays_, traced_, indirect_, square_, mean_light_, all_,
+            dark_, state_, times_);
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        archive(*gathered_[k], received_[k]);
+}
+
+void LinkRadiosity::write_state(StateWriter& writer)
+{
+    writer(stage_);
+    if (stage_ != Stage::begin)
+        state(writer);
+}
+
+void LinkRadiosity::read_state(StateReader& reader)
+{
+    reader(stage_);
+    if (stage_ == Stage::begin)
+        return;
+    cut();
+    state(reader);
+    check_sizes();
+}
+
+/// Throws where what was read is of other lumels or parts.
+void LinkRadiosity::check_sizes() const
+{
+    const std::size_t lumels = order_.size(), parts = parts_->count();
+    const auto is = [](std::size_t size, std::size_t wanted) {
+        return size == 0 || size == wanted;
+    };
+    bool fits = direct_->fits() && is(rays_.size(), lumels) && is(indirect_.size(), lumels) &&
+                is(square_.size(), lumels) && traced_ <= tracer_->blocks();
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        fits = fits && gathered_[k]->rays.size() == parts && is(received_[k].size(), parts);
+    if (!fits)
+        throw Error(ErrorKind::input, "checkpoint",
+                    "is of another version of Lumel; bake without --resume");
 }
 
 /// How much of the first round is done.

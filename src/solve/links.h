@@ -39,6 +39,8 @@ public:
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
     std::string rays() const override { return caster_->name(); }
+    void write_state(StateWriter& writer) override;
+    void read_state(StateReader& reader) override;
 
 private:
     /// Two to state the error, and a third to filter them by.
@@ -53,6 +55,9 @@ private:
         Errors now;
     };
 
+    template <class Archive>
+    void state(Archive& archive);
+    void check_sizes() const;
     void cut();
     void begin_round();
     void share_out_rays();

@@ -73,6 +73,7 @@ struct MethodInfo {
     bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
     bool states_dark_error;   ///< SolverState::dark_error
     bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight
+    bool can_resume;          ///< can go on from a state that was written, see Solver::write_state
     MethodOptions (*defaults)();
     std::span<const OptionInfo> options;
     std::unique_ptr<Solver> (*make)(const SolverInputs& inputs, const SolverOptions& options);

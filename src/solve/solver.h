@@ -13,6 +13,8 @@
 namespace lumel {
 
 struct SolverOptions;
+class StateReader;
+class StateWriter;
 
 /// A method at work on one world. Every method fills the same result.
 class Solver {
@@ -30,6 +32,11 @@ public:
     virtual double longest_submission() const = 0;
     /// Who casts its rays, "host" or "query"; empty if it casts none.
     virtual std::string rays() const { return {}; }
+    /// All that another solver needs that was made in the same way, to go on as this one would:
+    /// only of methods with MethodInfo::can_resume, between steps.
+    virtual void write_state(StateWriter&) {}
+    /// Throws Error{input} for what was written by a solver of something else.
+    virtual void read_state(StateReader&) {}
 };
 
 /// Steps until a limit of the options is met or `go_on` returns false. Returns true unless

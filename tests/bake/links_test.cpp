@@ -2,12 +2,14 @@
 // and what it states of itself.
 
 #include <fstream>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
 #include "../support/box_lumels.h"
 #include "../support/temporary_folder.h"
+#include "core/state_bytes.h"
 #include "reference/closed_forms.h"
 #include "reference/reference.h"
 #include "solved.h"
@@ -63,6 +65,45 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
         FAIL() << "it was solved";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("absorbed"), std::string::npos) << error.what();
+    }
+}
+
+/// Large enough for passes of several steps.
+TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
+{
+    const Prepared world(support::scene_path("cornell-box"), {.size = 192});
+    const SolverOptions options = links(0.04);
+    const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
+    const HostScene host{world.scene, world.rays, world.atlas};
+    const auto make = [&] {
+        return make_solver({.device = resident.device,
+                            .world = &resident.world,
+                            .lumels = world.lumels,
+                            .near = resident.near,
+                            .host = &host},
+                           options);
+    };
+    std::vector<std::string> states;
+    const auto undisturbed = make();
+    ASSERT_TRUE(solve(*undisturbed, options, [&](const SolverState&) {
+        std::ostringstream bytes;
+        StateWriter writer(bytes);
+        undisturbed->write_state(writer);
+        writer.finish();
+        states.push_back(bytes.str());
+        return true;
+    }));
+    ASSERT_GT(states.size(), 8u);
+    for (std::size_t step = 0; step < states.size(); ++step) {
+        std::istringstream bytes(states[step]);
+        StateReader reader(bytes, states[step].size(), "a state");
+        const auto solver = make();
+        solver->read_state(reader);
+        reader.finish();
+        ASSERT_TRUE(solve(*solver, options));
+        ASSERT_EQ(solver->irradiance(), undisturbed->irradiance()) << "after step " << step;
+        ASSERT_EQ(solver->state().iterations, undisturbed->state().iterations);
+        ASSERT_EQ(solver->state().error, undisturbed->state().error);
     }
 }
 

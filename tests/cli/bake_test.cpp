@@ -131,6 +131,17 @@ TEST(Bake, CtrlCBeforeThereIsLightLeavesWhatWasThere)
     }
 }
 
+TEST(Reference, CtrlCBeforeEveryLumelHasAPathWritesNothing)
+{
+    const Workplace place;
+    const Outcome reference =
+        run_lumel({"reference", own_scene("cornell-box.gltf"), place.path("out"), "--size", "512"},
+                  {.interrupt_at = "path tracing"});
+    EXPECT_EQ(reference.code, 130) << reference.err;
+    EXPECT_NE(reference.err.find("nothing is written"), std::string::npos) << reference.err;
+    EXPECT_EQ(place.listing(), std::vector<std::string>{});
+}
+
 TEST(Bake, APreviewThatCannotBeMadeCostsNothingElse)
 {
     const Workplace place;

@@ -63,8 +63,7 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
                          {.kill_after = kill_after});
     };
     ASSERT_EQ(bake(1, 0.0).code, 0);
-    fs::create_directory(place.path("out/mine"));
-    place.file("out/mine/notes.txt", "mine");
+    place.file("out/notes.txt", "mine");
     const auto old = contents(place.path("out"));
     double whole = 0.0;
     whole = seconds_of([&] { ASSERT_EQ(bake(2, 0.0).code, 0); });
@@ -74,7 +73,7 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
     ASSERT_EQ(contents(place.path("out")), old);
 
     // Half of the moments are in the last tenth, where files are written and moved.
-    std::mt19937 random(1);
+    std::mt19937 random(std::random_device{}());
     std::uniform_real_distribution<double> any(0.001, whole), late(0.9 * whole, 1.05 * whole);
     int kept = 0, replaced = 0, mixed = 0, left_over = 0, ended = 0;
     for (int k = 0; k < kills(); ++k) {
@@ -84,11 +83,126 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
         ++(found == old ? kept : found == fresh ? replaced : mixed);
         ASSERT_EQ(bake(1, 0.0).code, 0);
         left_over += !hidden(place.path("out")).empty() || contents(place.path("out")) != old;
+        if (mixed > 0 || left_over > 0)
+            break;
     }
     std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late " << ended
               << "), mixed " << mixed << ", left over after the next run " << left_over << '\n';
     EXPECT_EQ(mixed, 0);
     EXPECT_EQ(left_over, 0);
+}
+
+struct Job {
+    std::string error = "0.7", checkpoint = "0.01";
+    std::vector<std::string> more{};
+};
+
+/// A bake of a few seconds, whose state is written all the time.
+std::vector<std::string> resumable(const std::string& folder, const Job& job = {})
+{
+    std::vector<std::string> arguments = {"bake",        own_scene("cornell-box.gltf"),
+                                          folder,        "--size",
+                                          "48",          "--preview-width",
+                                          "32",          "--error",
+                                          job.error,     "--checkpoint",
+                                          job.checkpoint};
+    arguments.insert(arguments.end(), job.more.begin(), job.more.end());
+    return arguments;
+}
+
+TEST(Kills, AreGoneOnFromToTheSameBytes)
+{
+    const Workplace place;
+    ASSERT_EQ(run_lumel(resumable(place.path("whole"), {.checkpoint = "0"})).code, 0);
+    double seconds = 0.0;
+    seconds = seconds_of([&] { ASSERT_EQ(run_lumel(resumable(place.path("out"))).code, 0); });
+    const auto whole = contents(place.path("whole"));
+    std::mt19937 random(std::random_device{}());
+    std::uniform_real_distribution<double> moment(0.0, seconds);
+    int same = 0, went_on = 0;
+    for (int k = 0; k < kills(); ++k) {
+        fs::remove_all(place.path("out"));
+        // The first is killed, what goes on is killed again, and then it ends.
+        run_lumel(resumable(place.path("out")), {.kill_after = moment(random)});
+        run_lumel(resumable(place.path("out"), {.more = {"--resume"}}),
+                  {.kill_after = moment(random)});
+        const Outcome last = run_lumel(resumable(place.path("out"), {.more = {"--resume"}}));
+        ASSERT_EQ(last.code, 0) << last.err;
+        went_on += last.err.find("going on after") != std::string::npos;
+        same += contents(place.path("out")) == whole && hidden(place.path("out")).empty();
+    }
+    std::cout << kills() << " bakes killed twice: the same bytes " << same << ", went on "
+              << went_on << '\n';
+    EXPECT_EQ(same, kills());
+    EXPECT_GT(went_on, 0);
+}
+
+/// A folder in which a bake has left its checkpoint.
+void leave_checkpoint(const std::string& folder)
+{
+    for (double seconds = 0.5; !fs::exists(folder + "/.lumel-checkpoint"); seconds *= 1.2) {
+        fs::remove_all(folder);
+        ASSERT_LT(seconds, 60.0);
+        run_lumel(resumable(folder, {.error = "0.001"}), {.kill_after = seconds});
+    }
+}
+
+TEST(Resume, RefusesACheckpointOfOtherWorkOrADamagedOne)
+{
+    const Workplace place;
+    leave_checkpoint(place.path("out"));
+    const std::string checkpoint = bytes_of(place.path("out/.lumel-checkpoint"));
+    const auto resume = [&](const std::string& error, std::vector<std::string> more) {
+        more.emplace_back("--resume");
+        return run_lumel(resumable(place.path("out"), {.error = error, .more = more}));
+    };
+    expect_one_sentence(resume("0.002", {}), 2, {".lumel-checkpoint", "options"});
+    expect_one_sentence(resume("0.001", {"--sky", "1,1,1"}), 2, {".lumel-checkpoint", "scene"});
+    expect_one_sentence(resume("0.001", {"--solver", "stochastic"}), 2,
+                        {"--resume", "stochastic", "links"});
+    std::string damaged = checkpoint;
+    damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] ^ 1);
+    place.file("out/.lumel-checkpoint", damaged);
+    expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "damaged"});
+    place.file("out/.lumel-checkpoint", checkpoint.substr(0, checkpoint.size() / 3));
+    expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "damaged"});
+    place.file("out/.lumel-checkpoint", "something else");
+    expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "no checkpoint"});
+    // All of it is as it was left.
+    EXPECT_EQ(bytes_of(place.path("out/.lumel-checkpoint")), "something else");
+}
+
+TEST(Resume, WithoutACheckpointTheBakeBeginsAnew)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(resumable(place.path("out"), {.more = {"--resume"}}));
+    EXPECT_EQ(bake.code, 0) << bake.err;
+    EXPECT_EQ(hidden(place.path("out")), std::vector<std::string>{});
+}
+
+TEST(Resume, ABakeThatIsNotToGoOnRemovesTheCheckpoint)
+{
+    const Workplace place;
+    leave_checkpoint(place.path("out"));
+    const Outcome bake = run_lumel(resumable(place.path("out"), {.checkpoint = "0"}));
+    EXPECT_EQ(bake.code, 0) << bake.err;
+    EXPECT_NE(bake.err.find("--resume"), std::string::npos) << bake.err;
+    EXPECT_EQ(hidden(place.path("out")), std::vector<std::string>{});
+}
+
+TEST(Resume, CtrlCKeepsWhatTheNextResumeGoesOnFrom)
+{
+    const Workplace place;
+    const Job resume{.checkpoint = "60", .more = {"--resume"}};
+    const Outcome whole = run_lumel(resumable(place.path("whole")));
+    ASSERT_EQ(whole.code, 0) << whole.err;
+    const Outcome stopped =
+        run_lumel(resumable(place.path("out"), resume), {.interrupt_at = "rays per lumel"});
+    EXPECT_EQ(stopped.code, 130) << stopped.err;
+    ASSERT_TRUE(fs::exists(place.path("out/.lumel-checkpoint")));
+    ASSERT_EQ(run_lumel(resumable(place.path("out"), resume)).code, 0);
+    EXPECT_EQ(contents(place.path("out")), contents(place.path("whole")));
+    EXPECT_EQ(hidden(place.path("out")), std::vector<std::string>{});
 }
 
 }  // namespace

@@ -59,24 +59,35 @@ TEST(Play, ABudgetIsKept)
 TEST(Play, CtrlCKeepsTheFramesDoneAndExits130)
 {
     const Workplace place;
+    // How long is left is said once there is a frame.
     const Outcome outcome =
-        run_lumel(small_play(place.path("out"), {"--frames", "300", "--budget", "1"}),
-                  {.interrupt_at = "playing [..............................]   1 %"});
+        run_lumel(small_play(place.path("out"), {"--frames", "100000"}), {.interrupt_at = " left"});
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_NE(outcome.out.find("stopped early"), std::string::npos) << outcome.out;
     const auto report = nlohmann::json::parse(bytes_of(place.path("out/report.json")));
     EXPECT_EQ(report["solution"]["interrupted"], true);
-    EXPECT_GE(report["frames"].size(), 3u);
-    EXPECT_LT(report["frames"].size(), 300u);
+    EXPECT_GT(report["frames"].size(), 0u);
 }
 
 TEST(Play, CtrlCBeforeThereIsAFrameWritesNothing)
 {
     const Workplace place;
     const Outcome outcome =
-        run_lumel(small_play(place.path("out"), {"--frames", "3"}), {.interrupt_at = "shots"});
+        run_lumel(small_play(place.path("out"), {"--frames", "2"}), {.interrupt_at = "charts"});
     EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("nothing is written"), std::string::npos) << outcome.err;
     EXPECT_EQ(place.listing(), std::vector<std::string>{});
+}
+
+TEST(Play, AShorterFilmLeavesNoFramesOfALongerOne)
+{
+    const Workplace place;
+    ASSERT_EQ(run_lumel(small_play(place.path("out"), {"--frames", "3", "--budget", "1"})).code, 0);
+    ASSERT_TRUE(std::filesystem::exists(place.path("out/frame-0003.png")));
+    ASSERT_EQ(run_lumel(small_play(place.path("out"), {"--frames", "1", "--budget", "1"})).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(place.path("out/frame-0001.png")));
+    EXPECT_FALSE(std::filesystem::exists(place.path("out/frame-0002.png")));
+    EXPECT_FALSE(std::filesystem::exists(place.path("out/frame-0003.png")));
 }
 
 TEST(Play, RefusesWhatItCannotPlay)

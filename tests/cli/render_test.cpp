@@ -77,6 +77,17 @@ TEST(Render, CtrlCWritesWhatThereIsAndExits130)
     }
 }
 
+TEST(Render, CtrlCBeforeEveryPixelHasAPathWritesNothing)
+{
+    const Workplace place;
+    const Outcome outcome = run_lumel({"render", own_scene("cornell-box.gltf"), place.path("a.png"),
+                                       "--width", "1024", "--paths", "1000000"},
+                                      {.interrupt_at = "path tracing"});
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("nothing is written"), std::string::npos) << outcome.err;
+    EXPECT_EQ(place.listing(), std::vector<std::string>{});
+}
+
 TEST(Render, RefusesWhatItCannotDo)
 {
     const Workplace place;

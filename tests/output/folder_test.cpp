@@ -152,11 +152,11 @@ std::map<std::string, std::string> contents(const fs::path& folder)
 /// Results of two bakes: the new one has a file that the old one lacks, and does without another.
 void put_old(const std::string& folder)
 {
+    fs::create_directories(folder);
     write(folder + "/a.txt", "old");
     write(folder + "/b.txt", "old");
     write(folder + "/gone.txt", "old");
     write(folder + "/notes.txt", "mine");
-    fs::create_directory(folder + "/mine");
 }
 
 void put_new(const std::string& folder)
@@ -170,9 +170,23 @@ void put_new(const std::string& folder)
 }
 
 const std::map<std::string, std::string> kOld = {
-    {"a.txt", "old"}, {"b.txt", "old"}, {"gone.txt", "old"}, {"mine", "/"}, {"notes.txt", "mine"}};
+    {"a.txt", "old"}, {"b.txt", "old"}, {"gone.txt", "old"}, {"notes.txt", "mine"}};
 const std::map<std::string, std::string> kNew = {
-    {"a.txt", "new"}, {"b.txt", "new"}, {"c.txt", "new"}, {"mine", "/"}, {"notes.txt", "mine"}};
+    {"a.txt", "new"}, {"b.txt", "new"}, {"c.txt", "new"}, {"notes.txt", "mine"}};
+
+/// The same with a folder of somebody's among the results.
+std::map<std::string, std::string> with_folder(std::map<std::string, std::string> files)
+{
+    files["mine"] = "/";
+    return files;
+}
+
+std::map<std::string, std::string> shown(const fs::path& folder)
+{
+    auto all = contents(folder);
+    std::erase_if(all, [](const auto& file) { return file.first.starts_with(".lumel-writing"); });
+    return all;
+}
 
 /// Runs work in a process of its own, which dies at its system call of that number, as it begins.
 /// Returns whether it died.
@@ -198,42 +212,48 @@ bool dies_at(int call, const Work& work)
     return WIFSIGNALED(status);
 }
 
-TEST(OutputFolder, AProcessThatDiesAnywhereLeavesAllOldOrAllNewForReadersAndNothingForTheNextRun)
+TEST(OutputFolder, AProcessThatDiesAnywhereLeavesAllOldOrAllNewAndNothingForTheNextRun)
 {
     int old = 0, fresh = 0;
     for (int call = 1;; ++call) {
         const test::TemporaryFolder place;
-        const std::string folder = place.path().string();
+        const std::string folder = place / "out";
         put_old(folder);
         if (!dies_at(call, [&] { put_new(folder); }))
             break;
-        {
-            const ResultsLock reading(folder);
-            auto seen = contents(folder);
-            std::erase_if(seen, [](const auto& file) { return file.first.starts_with(".lumel"); });
-            ASSERT_TRUE(seen == kOld || seen == kNew) << "killed at system call " << call;
-            ++(seen == kOld ? old : fresh);
-        }
+        const auto seen = shown(folder);
+        ASSERT_TRUE(seen == kOld || seen == kNew) << "killed at system call " << call;
+        ++(seen == kOld ? old : fresh);
         put_new(folder);
         ASSERT_EQ(contents(folder), kNew) << "killed at system call " << call;
+        ASSERT_EQ(entries(place.path()), 1u) << "killed at system call " << call;
     }
     EXPECT_GT(old, 10);
     EXPECT_GT(fresh, 3);
 }
 
-TEST(OutputFolder, ARunThatWritesElsewhereInTheFolderFinishesOrRemovesWhatTheDeadHaveLeft)
+TEST(OutputFolder, WhereItCannotBeMadeAnewReadersStillFindAllOldOrAllNew)
 {
+    int old = 0, fresh = 0;
     for (int call = 1;; ++call) {
         const test::TemporaryFolder place;
-        const std::string folder = place.path().string();
+        const std::string folder = place / "out";
         put_old(folder);
+        fs::create_directory(folder + "/mine");
         if (!dies_at(call, [&] { put_new(folder); }))
             break;
-        const OutputFile other(folder + "/picture.png");
-        auto left = contents(folder);
-        left.erase(".lumel-writing-picture.png");
-        ASSERT_TRUE(left == kOld || left == kNew) << "killed at system call " << call;
+        {
+            const ResultsLock reading(folder);
+            const auto seen = shown(folder);
+            ASSERT_TRUE(seen == with_folder(kOld) || seen == with_folder(kNew))
+                << "killed at system call " << call;
+            ++(seen == with_folder(kOld) ? old : fresh);
+        }
+        put_new(folder);
+        ASSERT_EQ(contents(folder), with_folder(kNew)) << "killed at system call " << call;
     }
+    EXPECT_GT(old, 10);
+    EXPECT_GT(fresh, 3);
 }
 
 TEST(OutputFolder, ResultsThatCannotBePutInPlaceWaitForTheNextRun)
@@ -241,6 +261,7 @@ TEST(OutputFolder, ResultsThatCannotBePutInPlaceWaitForTheNextRun)
     const test::TemporaryFolder place;
     const std::string folder = place.path().string();
     put_old(folder);
+    fs::create_directory(folder + "/mine");
     int call = 1;
     while (dies_at(call, [&] { put_new(folder); }) &&
            !fs::exists(folder + "/.lumel-writing/.committed"))
@@ -251,8 +272,52 @@ TEST(OutputFolder, ResultsThatCannotBePutInPlaceWaitForTheNextRun)
     EXPECT_THROW(ResultsLock{folder}, Error);
     EXPECT_THROW(OutputFolder{folder}, Error);
     fs::remove(folder + "/b.txt");
-    const ResultsLock reading(folder);
-    EXPECT_EQ(contents(folder), kNew);
+    // Whatever writes there finishes it.
+    const OutputFile other(folder + "/picture.png");
+    EXPECT_EQ(shown(folder), with_folder(kNew));
+}
+
+TEST(OutputFolder, WhatOthersPutThereWhileItIsMadeAnewIsKept)
+{
+    // As it is once the new folder is in place, and its process has died.
+    const test::TemporaryFolder place;
+    put_old(place / "out");
+    put_new(place / "out");
+    const std::string old = place / ".lumel-writing-out";
+    put_old(old);
+    write(old + "/late.txt", "mine too");
+    fs::create_directory(old + "/.lumel-writing");
+    write(old + "/.lumel-writing/.replaced", "gone.txt\nc.txt\nb.txt\na.txt\n");
+    auto expected = kNew;
+    expected["late.txt"] = "mine too";
+    OutputFolder next(place / "out");
+    EXPECT_EQ(shown(place / "out"), expected);
+    EXPECT_EQ(entries(place.path()), 1u);
+}
+
+TEST(OutputFolder, KeepsTheRightsOfTheFolderAndLinksToIt)
+{
+    const test::TemporaryFolder place;
+    put_old(place / "out");
+    fs::permissions(place / "out", fs::perms(0750));
+    fs::create_directory_symlink(place / "out", place / "link");
+    put_new(place / "link");
+    EXPECT_TRUE(fs::is_symlink(place / "link"));
+    EXPECT_EQ(fs::status(place / "out").permissions(), fs::perms(0750));
+    EXPECT_EQ(contents(place / "out"), kNew);
+    EXPECT_EQ(entries(place.path()), 2u);
+}
+
+TEST(OutputFolder, TheCurrentFolderStaysTheSame)
+{
+    const test::TemporaryFolder place;
+    put_old(place / "out");
+    const fs::path before = fs::current_path();
+    fs::current_path(place / "out");
+    put_new(".");
+    EXPECT_TRUE(fs::equivalent(".", place / "out"));
+    fs::current_path(before);
+    EXPECT_EQ(contents(place / "out"), kNew);
 }
 
 TEST(OutputFolder, ASecondWriterIsToldThatAnotherIsAtWork)
