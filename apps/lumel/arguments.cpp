@@ -274,14 +274,13 @@ void add_keep_lights_option(CLI::App& app, bool& keep_lights)
 void add_scene_file_options(CLI::App& app, BakeOptions& options)
 {
     app.option_defaults()->group(kLightmapGroup);
-    add_choice(
-        app, "--lightmap-format", options.lightmap_format, kLightmapFormats,
-        "Lightmap inside scene.glb: half floats in KTX2, shared exponents in KTX2, 8-bit PNG "
-        "alone, or none beside lightmap.exr")
+    add_choice(app, "--lightmap-format", options.lightmap_format, kLightmapFormats,
+               "Lightmap in scene.glb: half floats or shared exponents in KTX2, with an 8-bit PNG "
+               "for loaders that do not read it; the PNG alone; or none")
         ->default_str("ktx2");
     app.add_option("--baked-size", options.baked_size,
-                   "Largest side in texels of the texture of scene-baked.glb, which is as dense as "
-                   "the textures of the scene where that is larger than the lightmap")
+                   "Largest side of the texture of scene-baked.glb in texels: it is as dense as "
+                   "the textures of the scene where that fits, and never smaller than the lightmap")
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(1, kLargestAtlas));

@@ -7,6 +7,7 @@
 // Exits with 0, or with 1 and a sentence.
 
 import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
@@ -90,7 +91,7 @@ const browser = spawn(options.browser, [
     '--headless', '--no-sandbox', '--disable-dev-shm-usage', '--use-gl=angle',
     '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`,
     `http://127.0.0.1:${server.address().port}/?${asked}`,
-], { stdio: 'ignore', detached: true });
+], { stdio: 'ignore' });
 const stopped = new Promise((_, failed) => {
     browser.on('error', failed);
     browser.on('exit', (code) => failed(new Error(`the browser ended with ${code}`)));
@@ -105,13 +106,8 @@ try {
     console.error(`render.mjs: ${error.message}`);
     process.exitCode = 1;
 } finally {
-    browser.removeAllListeners('exit');
     stopped.catch(() => {});
-    try {
-        process.kill(-browser.pid); // and what it has started
-    } catch {
-        // it has ended
-    }
+    if (browser.kill()) await once(browser, 'exit');
     server.closeAllConnections();
     server.close();
     await rm(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });

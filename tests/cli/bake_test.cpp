@@ -52,6 +52,27 @@ TEST(Bake, PrintsTheReportItWritesAsJson)
     EXPECT_EQ(printed, nlohmann::json::parse(bytes_of(place.path("out/report.json"))));
 }
 
+nlohmann::json json_of_glb(const std::string& file)
+{
+    constexpr std::size_t kJsonAt = 20;  // after two headers
+    return nlohmann::json::parse(file.substr(kJsonAt, file.find("BIN", kJsonAt) - 4 - kJsonAt));
+}
+
+TEST(Bake, ReportAndSceneStateTheExposureOfThePictures)
+{
+    const Workplace place;
+    const Outcome bake = run_lumel(
+        small_bake(place.path("out"), {"--shots", "64", "--json", "--lightmap-format", "none"}));
+    ASSERT_EQ(bake.code, 0) << bake.err;
+    const auto report = nlohmann::json::parse(bake.out);
+    const auto scene = json_of_glb(bytes_of(place.path("out/scene.glb")));
+    const double exposure = scene["asset"]["extras"]["lumel"]["exposure"];
+    EXPECT_GT(exposure, 0.0);
+    EXPECT_NEAR(report["solution"]["exposure"], exposure, 1e-6 * exposure);
+    EXPECT_FALSE(scene.contains("images"));
+    EXPECT_EQ(report["settings"]["lightmap-format"], "none");
+}
+
 TEST(Bake, SaysNothingWhenQuiet)
 {
     const Workplace place;
