@@ -1,7 +1,9 @@
 #include "finish/fine_radiance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -97,28 +99,26 @@ glm::vec3 light_at(const Image& map, const glm::dvec2& place)
                     glm::mix(texel(x, y + 1), texel(x + 1, y + 1), right), down);
 }
 
-// Mean radiance of the parts of a fine texel that lie in the triangle; false if none do.
-bool radiance_at(const Scene& scene, const Fill& fill, const Image& irradiance, int x, int y,
-                 int scale, float* rgba)
+// Adds the radiance of the looks that lie in the triangle to a fine texel, and 1 for each to its
+// alpha: where two triangles meet in a texel, both have a part of it.
+void add_looks(const Scene& scene, const Fill& fill, const Image& irradiance, int x, int y,
+               int scale, float* rgba)
 {
-    glm::vec3 sum(0.0f);
-    int count = 0;
     for (int look = 0; look < kLooks * kLooks; ++look) {
-        const glm::dvec2 within((look % kLooks + 0.5) / kLooks, (look / kLooks + 0.5) / kLooks);
+        const glm::ivec2 cell(look % kLooks, look / kLooks);
+        const glm::dvec2 within = (glm::dvec2(cell) + 0.5) / double(kLooks);
         const glm::dvec2 place = (glm::dvec2(x, y) + within) / double(scale);
         const glm::dvec3 weights = fill.triangle.weights(place);
         if (std::min({weights.x, weights.y, weights.z}) < 0.0)
             continue;
         const MaterialSample sample = look_at(scene, fill, place);
-        sum += sample.albedo * light_at(irradiance, place) * std::numbers::inv_pi_v<float> +
-               sample.emitted;
-        ++count;
+        const glm::vec3 radiance =
+            sample.albedo * light_at(irradiance, place) * std::numbers::inv_pi_v<float> +
+            sample.emitted;
+        for (int c = 0; c < 3; ++c)
+            rgba[c] += radiance[c];
+        rgba[3] += 1.0f;
     }
-    // Where two triangles meet in a texel, both have a part of it.
-    for (int c = 0; c < 3 && count > 0; ++c)
-        rgba[c] += sum[c];
-    rgba[3] += float(count);
-    return count > 0;
 }
 
 std::vector<Fill> fills_of(const Scene& scene, const Atlas& atlas, int scale)
@@ -152,7 +152,7 @@ void fill_rows(Image& fine, const Scene& scene, const std::vector<Fill>& fills,
             const int left = std::max(int(std::floor(strip.low().x * scale)), 0);
             const int right = std::min(int(std::floor(strip.high().x * scale)), fine.width - 1);
             for (int x = left; x <= right; ++x)
-                radiance_at(scene, fill, irradiance, x, y, scale, fine.at(x, y));
+                add_looks(scene, fill, irradiance, x, y, scale, fine.at(x, y));
         }
     }
     for (int y = first_row; y <= last_row; ++y)
