@@ -67,8 +67,11 @@ void collect(int out, int err, Outcome& outcome, const std::function<void()>& on
     }
 }
 
-[[noreturn]] void become_lumel(std::vector<std::string> arguments, int out, int err)
+[[noreturn]] void become_lumel(std::vector<std::string> arguments,
+                               std::vector<std::string> environment, int out, int err)
 {
+    for (std::string& setting : environment)
+        putenv(setting.data());
     std::string program = LUMEL_PROGRAM;
     std::vector<char*> values = {program.data()};
     for (std::string& argument : arguments)
@@ -92,7 +95,7 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
     const Channel err = options.terminal || interrupts ? make_terminal() : make_pipe();
     const pid_t child = fork();
     if (child == 0)
-        become_lumel(arguments, out.theirs, err.theirs);
+        become_lumel(arguments, options.environment, out.theirs, err.theirs);
     close(out.theirs);
     close(err.theirs);
 

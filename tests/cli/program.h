@@ -10,6 +10,7 @@ namespace lumel::test {
 struct RunOptions {
     bool terminal = false;       ///< stderr is a terminal of 100 columns
     std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
+    std::vector<std::string> environment{};  ///< NAME=VALUE, beside that of the test
 };
 
 struct Outcome {
