@@ -33,9 +33,9 @@ struct Results {
 };
 
 /// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking. Returns
-/// the exposure of the latter [1/lx].
+/// the exposure of the latter [1/lx]. Warns of what half precision cannot hold.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, std::span<const Layer> directional = {});
+                const Prepared& prepared, Stages& stages, std::span<const Layer> directional = {});
 
 /// What write_light() wrote.
 struct WrittenLight {

@@ -7,6 +7,7 @@
 #include "images/image_files.h"
 #include "matrix/blas.h"
 #include "rays/ray_scene.h"
+#include "json/version.h"
 
 namespace lumel {
 
@@ -21,6 +22,7 @@ std::map<std::string, std::string> library_versions()
             {"OpenBLAS", blas::openblas_version()},
             {"OpenEXR", openexr_version()},
             {"libpng", libpng_version()},
+            {"nlohmann_json", json_library_version()},
             {"oneTBB", tbb_version()}};
 }
 
