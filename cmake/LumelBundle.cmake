@@ -13,6 +13,21 @@ foreach(program ${LUMEL_PROGRAMS})
     target_link_options(${program} PRIVATE -Wl,--disable-new-dtags)
 endforeach()
 
+# What lumel prints of itself: its manual page, and what completes its options in shells. Laid out as
+# below share/.
+set(LUMEL_SHARE ${PROJECT_BINARY_DIR}/share)
+add_custom_command(
+    OUTPUT ${LUMEL_SHARE}/man/man1/lumel.1
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${LUMEL_SHARE}/man/man1
+            ${LUMEL_SHARE}/bash-completion/completions ${LUMEL_SHARE}/zsh/site-functions
+    COMMAND lumel completion bash > ${LUMEL_SHARE}/bash-completion/completions/lumel
+    COMMAND lumel completion zsh > ${LUMEL_SHARE}/zsh/site-functions/_lumel
+    COMMAND lumel man > ${LUMEL_SHARE}/man/man1/lumel.1
+    DEPENDS lumel
+    COMMENT "Printing the manual page"
+    VERBATIM)
+add_custom_target(lumel_manual ALL DEPENDS ${LUMEL_SHARE}/man/man1/lumel.1)
+
 # The archive has a layout of its own: a plain `cmake --install` leaves it out.
 install(TARGETS ${LUMEL_PROGRAMS} RUNTIME DESTINATION bin COMPONENT bundle EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL
@@ -20,13 +35,16 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenes DESTINATION . COMPONENT bundle EX
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION .
         COMPONENT bundle EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL)
+install(DIRECTORY ${LUMEL_SHARE} DESTINATION . COMPONENT bundle EXCLUDE_FROM_ALL OPTIONAL)
 install(TARGETS lumel RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+install(DIRECTORY ${LUMEL_SHARE}/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR} COMPONENT program
+        OPTIONAL)  # there are none where only lumel was built
 
 string(TOLOWER "${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR}" LUMEL_PLATFORM)
 set(LUMEL_BUNDLE_NAME lumel-${PROJECT_VERSION}-${LUMEL_PLATFORM})
 add_custom_target(bundle
     COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DNAME=${LUMEL_BUNDLE_NAME}
             -P ${PROJECT_SOURCE_DIR}/cmake/MakeBundle.cmake
-    DEPENDS ${LUMEL_PROGRAMS}
+    DEPENDS ${LUMEL_PROGRAMS} lumel_manual
     COMMENT "Making ${LUMEL_BUNDLE_NAME}.tar.gz"
     VERBATIM)

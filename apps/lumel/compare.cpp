@@ -12,12 +12,11 @@
 namespace lumel {
 namespace {
 
+/// Beside the map that is measured.
 std::string default_heat_map(const CompareArguments& arguments)
 {
-    const auto stem = [](const std::string& path) {
-        return std::filesystem::path(path).stem().string();
-    };
-    return stem(arguments.map) + "-vs-" + stem(arguments.reference) + ".png";
+    const std::filesystem::path map = arguments.map, reference = arguments.reference;
+    return map.parent_path() / (map.stem().string() + "-vs-" + reference.stem().string() + ".png");
 }
 
 void print_json(const MapError& error)

@@ -23,6 +23,15 @@ std::string default_of(const MethodInfo& method, const std::string& option)
     return method.option(option)->get(method.defaults());
 }
 
+/// "links|stochastic|…"
+std::string names_of_methods()
+{
+    std::string list;
+    for (const MethodInfo& method : methods())
+        list += (list.empty() ? "" : "|") + std::string(method.id);
+    return list;
+}
+
 /// The default of the first reader, and those of others that differ.
 std::string defaults_of(const SharedOption& shared)
 {
@@ -42,7 +51,7 @@ void add_methods(CLI::App& app, GivenMethod& given)
 {
     app.option_defaults()->group(kMethodGroup);
     app.add_option("--solver", given.id, "Method, see lumel methods")
-        ->type_name("NAME")
+        ->type_name(names_of_methods())
         ->capture_default_str();
     for (const SharedOption& shared : options_of_methods()) {
         std::string note;

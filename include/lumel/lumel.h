@@ -322,7 +322,7 @@ struct BakeSettings {
     Parts parts = Parts::all;
     std::uint32_t seed = 1;
     double error = 0.02;      ///< estimated relative error to end at, 0: none
-    double seconds = 0.0;     ///< of solving to end at, 0: none
+    double seconds = 0.0;     ///< since the bake began, to end solving at; 0: none
     std::uint64_t shots = 0;  ///< to end at, 0: none
 };
 

@@ -2,6 +2,7 @@
 
 #include "bake/bake.h"
 
+#include <algorithm>
 #include <optional>
 
 #include "bake/checkpoint.h"
@@ -17,6 +18,24 @@
 #include "solve/solver.h"
 
 namespace lumel {
+namespace {
+
+bool is_lit(const std::vector<glm::vec3>& irradiance)
+{
+    return std::any_of(irradiance.begin(), irradiance.end(),
+                       [](const glm::vec3& light) { return light != glm::vec3(0.0f); });
+}
+
+/// Without any, the scene's reader has warned.
+bool has_sources(const Prepared& prepared)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    return has_lights(prepared.scene) ||
+           std::any_of(lumels.begin(), lumels.end(),
+                       [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
+}
+
+}  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
@@ -63,11 +82,15 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     }
 
     const bool stopped = stages.stopped();
+    // Of no light there is no error.
+    const bool lit = is_lit(solution->irradiance);
+    if (!lit && has_sources(setting.prepared))
+        stages.warn("no light reaches any surface: the lightmap is black");
     stages.begin("finishing");
     const Results results{.shots = solved.shots,
                           .iterations = solved.iterations,
-                          .error = solved.error,
-                          .dark_error = solved.dark_error,
+                          .error = lit ? solved.error : -1.0,
+                          .dark_error = lit ? solved.dark_error : -1.0,
                           .interrupted = stopped,
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),

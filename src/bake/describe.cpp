@@ -7,9 +7,14 @@
 
 #include "bake/bake.h"
 #include "bake/lighting.h"
+#include "bake/shortage.h"
 #include "bake/sources.h"
+#include "core/error.h"
+#include "core/usage.h"
 #include "gpu/device.h"
 #include "gpu/staging.h"
+#include "nearfield/buried.h"
+#include "prepare/lit_sides.h"
 #include "prepare/prepare.h"
 #include "relight/relight_solver.h"
 #include "solve/methods.h"
@@ -58,6 +63,76 @@ Json json_of(const GraphicsMemory& bytes)
             {"directional", bytes.directional}};
 }
 
+/// Buried lumels and open area, from looks at some of the lumels.
+struct Open {
+    std::size_t buried = 0;
+    double area = 0.0;  ///< [m²]
+};
+
+/// A scene made ready as for a bake, but that it looks at a part of the lumels only, by chance, to
+/// see which are buried: in a large atlas that takes most of the time.
+class SampledScene {
+public:
+    SampledScene(Scene scene, const AtlasOptions& options)
+        : prepared_(
+              std::move(scene),
+              [&](const Scene& placed, const RayScene& rays, const Watch& watch) {
+                  return make_atlas(placed, options, watch, shows_both(options.sides, rays));
+              },
+              [&](const Scene& placed, const RayScene& rays, Lumels& lumels) {
+                  return mark_some(placed, rays, lumels);
+              })
+    {
+    }
+
+    const Prepared& prepared() const { return prepared_; }
+    const Open& open() const { return open_; }
+
+private:
+    std::vector<float> mark_some(const Scene& scene, const RayScene& rays, Lumels& lumels)
+    {
+        constexpr std::size_t kLooks = std::size_t(1) << 17;  // states the share to 0.2 %
+        constexpr std::uint32_t kMix = 2654435761u;           // Knuth's: lumels lie in rows
+        const std::size_t count = lumels.lumels.size();
+        const std::size_t every = (count + kLooks - 1) / kLooks;
+        std::vector<char> chosen(count);
+        for (std::size_t i = 0; i < count; ++i)
+            chosen[i] = ((std::uint32_t(i) * kMix) >> 8) % every == 0;
+        const double whole = front_area(lumels);
+        std::vector<float> shares = mark_buried(scene, rays, lumels, chosen);
+        open_.area = std::max(whole - double(every) * (whole - front_area(lumels)), 0.0);
+        for (const Lumel& lumel : lumels.lumels)
+            open_.buried += (lumel.flags & kLumelBuried) ? every : 0;
+        return shares;
+    }
+
+    static double front_area(const Lumels& lumels)
+    {
+        double area = 0.0;
+        for (const Lumel& lumel : lumels.lumels)
+            area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
+        return area;
+    }
+
+    Open open_;
+    Prepared prepared_;
+};
+
+/// A sentence if the device that bakes take where none is named has less memory than that.
+std::string shortage_of_usual_device(std::uint64_t needed)
+{
+    if (needed == 0)
+        return {};
+    try {
+        const std::vector<gpu::DeviceInfo> infos = gpu::list_devices();
+        if (const gpu::DeviceInfo* best = gpu::best_of(infos))
+            return shortage(needed, *best, available_memory_bytes());
+    } catch (const Error&) {
+        // What is wrong with devices, a bake says, and lumel devices.
+    }
+    return {};
+}
+
 std::size_t triangle_count(const Scene& scene)
 {
     std::size_t count = 0;
@@ -67,21 +142,25 @@ std::size_t triangle_count(const Scene& scene)
     return count;
 }
 
-Json facts(const Prepared& prepared, const BakeOptions& options)
+/// Lamps of the file, without the sun that the options add.
+std::size_t lamp_count(const Scene& scene, const LightOptions& options)
 {
+    const bool sun_is_up = options.sun && options.sun->elevation > 0.0;
+    return scene.lights.size() - (sun_is_up ? 1 : 0);
+}
+
+Json facts(const SampledScene& sampled, const BakeOptions& options)
+{
+    const Prepared& prepared = sampled.prepared();
     const Scene& scene = prepared.scene;
     const Occluders occluders = find_occluders(scene, {}, &prepared.atlas);
-    std::size_t emissive = 0, authored = 0, buried = 0, back = 0;
+    std::size_t emissive = 0, authored = 0, back = 0;
     for (const Material& material : scene.materials)
         emissive += material.emitted != glm::vec3(0.0f);
     for (const Surface& surface : prepared.atlas.surfaces)
         authored += surface.authored;
-    double area = 0.0;
-    for (const Lumel& lumel : prepared.lumels.lumels) {
-        buried += (lumel.flags & kLumelBuried) != 0;
+    for (const Lumel& lumel : prepared.lumels.lumels)
         back += (lumel.flags & kLumelBack) != 0;
-        area += (lumel.flags & kLumelBack) ? 0.0 : double(lumel.area);
-    }
     Json json;
     json["scene"] = scene.path;
     json["hash"] = scene.hash;
@@ -92,12 +171,13 @@ Json facts(const Prepared& prepared, const BakeOptions& options)
     json["materials"] = scene.materials.size();
     json["emissive_materials"] = emissive;
     json["textures"] = scene.textures.size();
-    json["punctual_lights"] = scene.lights.size();
+    json["punctual_lights"] = lamp_count(scene, options.lights);
+    json["sun"] = options.lights.sun.has_value();
     json["photometric_profiles"] = scene.profiles.size();
     const glm::dvec3 sky = sky_irradiance(scene.sky);
     json["sky_irradiance_lx"] = {sky.r, sky.g, sky.b};
     json["cameras"] = scene.cameras.size();
-    json["surface_area_m2"] = area;
+    json["surface_area_m2"] = sampled.open().area;
     json["surfaces"] = prepared.atlas.surfaces.size();
     json["surfaces_with_own_lightmap_uv"] = authored;
     json["charts"] = prepared.atlas.chart_count;
@@ -106,12 +186,15 @@ Json facts(const Prepared& prepared, const BakeOptions& options)
     json["texels_per_metre"] = prepared.atlas.texels_per_metre;
     json["lumels"] = prepared.lumels.lumels.size();
     json["back_lumels"] = back;
-    json["buried_lumels"] = buried;
+    json["buried_lumels"] = sampled.open().buried;
     json["occluding_triangles"] = occluders.inner_indices().size() / 3;
     const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
-    json["warnings"] = scene.warnings;
+    std::vector<std::string> warnings = scene.warnings;
+    if (std::string text = shortage_of_usual_device(memory.most()); !text.empty())
+        warnings.push_back(std::move(text));
+    json["warnings"] = warnings;
     json["notes"] = prepared.atlas.notes;
     return json;
 }
@@ -148,7 +231,7 @@ std::string text_of(const Json& json)
     line("atlas", fmt::format("{} × {} texels, {:.4g} texels per metre, {} charts",
                               count("atlas_width"), count("atlas_height"),
                               json["texels_per_metre"].get<double>(), count("charts")));
-    line("lumels", fmt::format("{}, {} of them on back sides, {} buried", count("lumels"),
+    line("lumels", fmt::format("{}, {} of them on back sides, about {} buried", count("lumels"),
                                count("back_lumels"), count("buried_lumels")));
     line("graphics memory",
          fmt::format("about {:.1f} MiB", json["graphics_memory_bytes"].get<double>() / 1048576.0));
@@ -163,9 +246,9 @@ std::string text_of(const Json& json)
 
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
 {
-    const Prepared prepared(read_scene(scene_path, MaterialModel::diffuse, options.lights),
-                            options.atlas);
-    const Json all = facts(prepared, options);
+    const SampledScene sampled(read_scene(scene_path, MaterialModel::diffuse, options.lights),
+                               options.atlas);
+    const Json all = facts(sampled, options);
     return json ? json_text(all) : text_of(all);
 }
 

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "bake/directional_layers.h"
 #include "bake/reference.h"
 #include "bake/report.h"
@@ -23,6 +25,7 @@ namespace lumel {
 namespace {
 
 constexpr const char* kLightmap = "lightmap";
+constexpr float kLargestHalf = 65504.0f;
 
 /// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
 std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
@@ -37,11 +40,36 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
     return radiance;
 }
 
+/// What does not fit into half precision.
+void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
+{
+    std::size_t clipped = 0;
+    float most = 0.0f;
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const float* texel = map.at(x, y);
+            const float brightest = std::max({texel[0], texel[1], texel[2]});
+            if (brightest <= kLargestHalf || texel[3] == 0.0f)
+                continue;
+            ++clipped;
+            most = std::max(most, brightest);
+        }
+    if (clipped > 0)
+        stages.warn(fmt::format("{} {} of {}.exr receive more than the {:.0f} lx that half "
+                                "precision can hold, up to {:.6g} lx, and are clipped; leave out "
+                                "--half",
+                                clipped, clipped == 1 ? "lumel" : "lumels", name, kLargestHalf,
+                                most));
+}
+
 }  // namespace
 
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, float exposure, std::span<const Layer> directional)
+                const Prepared& prepared, Stages& stages, float exposure,
+                std::span<const Layer> directional)
 {
+    if (half)
+        warn_of_clipping(map, name, stages);
     std::map<std::string, std::string> metadata = {
         {"quantity", "irradiance"},         {"unit", "lx"},
         {"colorSpace", "linear Rec. 709"},  {"alpha", "coverage"},
@@ -115,7 +143,8 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
     if (picture)
         write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
-    write_map(folder, kLightmap, map, options.half, prepared, written.exposure, maps.layers);
+    write_map(folder, kLightmap, map, options.half, prepared, stages, written.exposure,
+              maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
     // Where only indirect light is baked, viewers add the direct light of lamps themselves.
     write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
@@ -158,7 +187,7 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
 {
     const float exposure = write_map(
         folder, kLightmap, finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance),
-        options.half, prepared);
+        options.half, prepared, stages);
     stages.end();
     Report facts = reference_report(options, reference, prepared, stopped, stages);
     facts.exposure = exposure;

@@ -33,9 +33,10 @@ struct Results {
 };
 
 /// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking.
-/// exposure of the latter [1/lx], 0: that suits the map. Returns it.
+/// exposure of the latter [1/lx], 0: that suits the map. Returns it. Warns of what half precision
+/// cannot hold.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
-                const Prepared& prepared, float exposure = 0.0f,
+                const Prepared& prepared, Stages& stages, float exposure = 0.0f,
                 std::span<const Layer> directional = {});
 
 /// What write_light() wrote.

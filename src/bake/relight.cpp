@@ -154,7 +154,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
             const double begin = wall_seconds();
             const Image map =
                 finish_map(world.scene, world.atlas, world.lumels, in_order(maps[i], numbers));
-            write_map(output, states[first + i].name, map, baked.half, world);
+            write_map(output, states[first + i].name, map, baked.half, world, stages);
             summary.states.push_back({states[first + i].name, each, wall_seconds() - begin});
         }
     }

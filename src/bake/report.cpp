@@ -44,6 +44,8 @@ void add_usage(Report& report, const Scene& scene, const Stages& stages)
     report.cpu_seconds = cpu_seconds();
     report.peak_host_bytes = std::int64_t(peak_memory_bytes());
     report.warnings = scene.warnings;
+    report.warnings.insert(report.warnings.end(), stages.warnings().begin(),
+                           stages.warnings().end());
 }
 
 void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lumels& lumels)
@@ -66,6 +68,7 @@ void add_facts(Report& report, const Prepared& prepared, const Stages& stages)
 {
     add_usage(report, prepared.scene, stages);
     add_sizes(report, prepared.scene, prepared.atlas, prepared.lumels);
+    report.notes.insert(report.notes.end(), stages.told().begin(), stages.told().end());
 }
 
 void add_device(Report& report, const gpu::Device& device)

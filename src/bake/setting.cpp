@@ -128,9 +128,37 @@ Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device
 {
 }
 
-SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& stages,
+SolverOptions for_what_is_left(SolverOptions options, const Stages& stages)
+{
+    if (options.max_seconds > 0.0)
+        options.max_seconds = std::max(options.max_seconds - stages.seconds(), kLeastSeconds);
+    return options;
+}
+
+void tell_missed(const SolverOptions& options, const SolverState& state, Stages& stages)
+{
+    if (state.shots == 0 || (options.max_shots == 0 && options.max_seconds <= 0.0))
+        return;
+    const auto tell = [&](double reached, double wanted, const char* of) {
+        if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
+            return;
+        stages.warn(
+            reached >= 0.0
+                ? fmt::format("the estimated error{} is {:.2g} %, not the {:g} % asked for: "
+                              "the limit of shots or time was reached first",
+                              of, 100.0 * reached, 100.0 * wanted)
+                : fmt::format("the limit of shots or time was reached before the error{} "
+                              "could be estimated; {:g} % was asked for",
+                              of, 100.0 * wanted));
+    };
+    tell(state.error, options.target_error, "");
+    tell(state.dark_error, options.target_dark_error, " of dark lumels");
+}
+
+SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,
                         Checkpoint* checkpoint)
 {
+    const SolverOptions options = for_what_is_left(given, stages);
     stages.begin("solving");
     stages.note_arrays();
     Checkpoint::Run so_far;
@@ -158,6 +186,8 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& options, Stages& st
     run.curve = std::move(so_far.curve);
     if (!run.finished && solver.state().shots == 0)
         throw_stopped();
+    if (run.finished)
+        tell_missed(options, solver.state(), stages);
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
                             method_of(options.method).shots, solver.state().iterations));
     stages.note_times(solver.times());

@@ -8,6 +8,7 @@
 #include "bake/stages.h"
 #include "lobes/lobe_particles.h"
 #include "prepare/prepare.h"
+#include "shooting/solver_state.h"
 
 namespace lumel {
 
@@ -54,6 +55,13 @@ struct SolveRun {
     bool finished = false;  ///< false: stopped by the caller
     std::vector<ConvergencePoint> curve;
 };
+
+/// The options with what is left of their time, which counts from the first stage on.
+SolverOptions for_what_is_left(SolverOptions options, const Stages& stages);
+
+/// Warns if a solve that ended by a limit of shots or time did not reach an error that was asked
+/// for.
+void tell_missed(const SolverOptions& options, const SolverState& state, Stages& stages);
 
 /// Runs a solver up to the limits in its options, as the stage "solving". checkpoint: that it goes
 /// on from, and keeps; or null.

@@ -59,12 +59,15 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     if (stages.stopped())
         throw_stopped();
     stages.begin("solving");
-    auto solver = std::make_unique<RelightSolver>(device, *setting.world, prepared.lumels,
-                                                  setting.near, options.solver, std::move(sources));
+    auto solver = std::make_unique<RelightSolver>(
+        device, *setting.world, prepared.lumels, setting.near,
+        for_what_is_left(options.solver, stages), std::move(sources));
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
     if (!solver->done() && (solver->state().shots == 0 || !solver->transport()))
         throw_stopped();
+    if (solver->done())
+        tell_missed(options.solver, solver->state(), stages);
     stages.note_times(solver->times());
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/log.h"
 #include "core/usage.h"
 #include "gpu/device.h"
 #include "gpu/memory.h"
@@ -66,6 +67,18 @@ void Stages::note(const std::string& text)
     now_.note = text;
     report();
     now_.note.clear();
+}
+
+void Stages::warn(const std::string& text)
+{
+    log_warning(text);
+    warnings_.push_back(text);
+}
+
+void Stages::tell(const std::string& text)
+{
+    log_info(text);
+    told_.push_back(text);
 }
 
 void Stages::note_times(const gpu::StageTimes& times)

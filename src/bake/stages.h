@@ -31,6 +31,10 @@ public:
     Watch watch();
     /// Passes on a fact about the current stage, in one line.
     void note(const std::string& text);
+    /// Warns the user; the report has it too.
+    void warn(const std::string& text);
+    /// Tells the user a fact worth knowing; the report has it too.
+    void tell(const std::string& text);
     /// Notes what kernels took on the device [ms], longest first.
     void note_times(const gpu::StageTimes& times);
     /// Notes the largest arrays and images on the device that is watched.
@@ -43,6 +47,8 @@ public:
     void end();
 
     const std::vector<StageTime>& times() const { return times_; }
+    const std::vector<std::string>& warnings() const { return warnings_; }
+    const std::vector<std::string>& told() const { return told_; }
     double seconds() const;        ///< since the first stage began
     double stage_seconds() const;  ///< since the current stage began
 
@@ -54,6 +60,7 @@ private:
     const gpu::Device* device_ = nullptr;  ///< that is watched
     BakeProgress now_;
     std::vector<StageTime> times_;
+    std::vector<std::string> warnings_, told_;
     double start_, stage_start_, stage_cpu_start_;
     bool running_ = false, stopped_ = false;
 };

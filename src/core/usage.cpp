@@ -1,6 +1,8 @@
 #include "core/usage.h"
 
 #include <chrono>
+#include <fstream>
+#include <string>
 
 #include <sys/resource.h>
 
@@ -31,6 +33,17 @@ double wall_seconds()
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
+}
+
+std::uint64_t available_memory_bytes()
+{
+    constexpr std::uint64_t kKibibyte = 1024;
+    std::ifstream table("/proc/meminfo");
+    std::string name, unit;
+    for (std::uint64_t amount = 0; table >> name >> amount; std::getline(table, unit))
+        if (name == "MemAvailable:")
+            return amount * kKibibyte;
+    return 0;
 }
 
 std::uint64_t peak_memory_bytes()

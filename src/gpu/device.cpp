@@ -30,6 +30,9 @@ namespace {
 
 constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kInstallDriver =
+    "install a graphics driver with Vulkan, or Mesa's software Vulkan (package "
+    "mesa-vulkan-drivers)";
 
 std::string version_text(std::uint32_t version)
 {
@@ -71,8 +74,7 @@ void load_vulkan()
 {
     if (volkInitialize() != VK_SUCCESS)
         throw Error(ErrorKind::device, "",
-                    "no Vulkan loader (libvulkan.so.1) was found; install a graphics driver with "
-                    "Vulkan, or Mesa's software Vulkan (package mesa-vulkan-drivers)");
+                    std::string("no Vulkan loader (libvulkan.so.1) was found; ") + kInstallDriver);
 }
 
 /// Names and labels are of use without the layers too: to debuggers that look on.
@@ -106,6 +108,9 @@ VkInstance make_instance(bool validation)
         throw Error(ErrorKind::device, "LUMEL_VALIDATION",
                     "the Khronos validation layer is not installed (package "
                     "vulkan-validationlayers)");
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER)
+        throw Error(ErrorKind::device, "",
+                    std::string("no Vulkan driver was found; ") + kInstallDriver);
     check(result, "vkCreateInstance");
     volkLoadInstance(instance);
     return instance;
@@ -238,12 +243,12 @@ DeviceInfo describe(VkPhysicalDevice physical)
 std::string listing(const std::vector<DeviceInfo>& infos)
 {
     if (infos.empty())
-        return "the Vulkan loader lists no device; install a graphics driver, or Mesa's software "
-               "Vulkan (package mesa-vulkan-drivers)";
+        return std::string("the Vulkan loader lists none; ") + kInstallDriver;
     std::string text;
     for (std::size_t i = 0; i < infos.size(); ++i)
-        text += (i ? "; " : "") + std::to_string(i) + ": " + infos[i].name +
-                (infos[i].usable ? "" : " (" + infos[i].reason + ")");
+        text += (i ? ", " : "") + std::string("number ") + std::to_string(i) + " is " +
+                infos[i].name +
+                (infos[i].usable ? "" : ", which cannot be used: it " + infos[i].reason);
     return text;
 }
 
@@ -251,14 +256,11 @@ std::string listing(const std::vector<DeviceInfo>& infos)
 std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick)
 {
     if (pick.empty()) {
-        std::size_t best = infos.size();
-        for (std::size_t i = 0; i < infos.size(); ++i)
-            if (infos[i].usable &&
-                (best == infos.size() || preference(infos[i].type) < preference(infos[best].type)))
-                best = i;
-        if (best == infos.size())
-            throw Error(ErrorKind::device, "", "no usable Vulkan device: " + listing(infos));
-        return best;
+        const DeviceInfo* best = best_of(infos);
+        if (!best)
+            throw Error(ErrorKind::device, "",
+                        "there is no Vulkan device that can be used: " + listing(infos));
+        return std::size_t(best - infos.data());
     }
     std::size_t index = infos.size();
     const auto [end, error] = std::from_chars(pick.data(), pick.data() + pick.size(), index);
@@ -270,13 +272,22 @@ std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick
     }
     if (index >= infos.size())
         throw Error(ErrorKind::device, "--device " + pick,
-                    "no such device; there are " + listing(infos));
+                    "no device has this number or name; " + listing(infos));
     if (!infos[index].usable)
         throw Error(ErrorKind::device, infos[index].name, infos[index].reason);
     return index;
 }
 
 }  // namespace
+
+const DeviceInfo* best_of(const std::vector<DeviceInfo>& infos)
+{
+    const DeviceInfo* best = nullptr;
+    for (const DeviceInfo& info : infos)
+        if (info.usable && (!best || preference(info.type) < preference(best->type)))
+            best = &info;
+    return best;
+}
 
 std::vector<DeviceInfo> list_devices()
 {

@@ -24,6 +24,9 @@ struct DeviceInfo {
 /// All devices, in the loader's order. Throws Error{device} if there is no Vulkan loader.
 std::vector<DeviceInfo> list_devices();
 
+/// The one of them that a Device takes where none is named; null if none can be used.
+const DeviceInfo* best_of(const std::vector<DeviceInfo>& infos);
+
 /// How much work was recorded.
 struct Recorded {
     std::uint64_t dispatches = 0, passes = 0, draws = 0;

@@ -1,5 +1,7 @@
 #include "prepare/prepare.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "nearfield/buried.h"
 #include "prepare/lit_sides.h"
@@ -10,12 +12,38 @@ namespace {
 /// How far the work is, roughly, when its parts end.
 constexpr double kRaysReady = 0.1, kLaidOut = 0.3, kLifted = 0.5;
 
+bool is_black(const glm::vec3& light)
+{
+    return light == glm::vec3(0.0f);
+}
+
+/// Whether anything sends light at all; whether it meets a surface is another question.
+bool gives_light(const Scene& scene)
+{
+    const auto shines = [](const PunctualLight& light) {
+        return light.intensity > 0.0f && !is_black(light.color);
+    };
+    const auto emits = [&](const Instance& instance) {
+        const auto& primitives = scene.meshes[std::size_t(instance.mesh)].primitives;
+        return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
+            return !is_black(scene.materials[std::size_t(primitive.material)].emitted);
+        });
+    };
+    return std::any_of(scene.lights.begin(), scene.lights.end(), shines) ||
+           std::any_of(scene.instances.begin(), scene.instances.end(), emits) ||
+           !std::all_of(scene.sky.radiance.begin(), scene.sky.radiance.end(), is_black);
+}
+
 }  // namespace
 
 Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights)
 {
     Scene scene = read_gltf(path, model);
     add_lights(scene, lights);
+    if (!gives_light(scene))
+        scene.warnings.emplace_back(
+            "nothing in the scene gives light, so the lightmap will be black: give a material "
+            "emission, add lamps (KHR_lights_punctual), or use --sky or --sun");
     return scene;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostDegrees = 1e6, kRightAngle = 90.0;
+constexpr double kMostDegrees = 1e6, kRightAngle = 90.0, kHalfTurn = 180.0;
 constexpr double kMost = std::numeric_limits<float>::max();
 
 std::string absolute(const std::string& path)
@@ -92,6 +92,9 @@ Json light_settings(const LightOptions& options)
     if (const auto& sun = options.sun)
         settings["sun"] = {{"azimuth", degrees_of(sun->azimuth)},
                            {"elevation", degrees_of(sun->elevation)}};
+    if (const auto& seen = options.sun_seen)
+        settings["sun"].update(
+            {{"latitude", seen->latitude}, {"longitude", seen->longitude}, {"time", seen->time}});
     if (options.sun_angle)
         settings["sun-angle"] = degrees_of(*options.sun_angle);
     if (options.light_radius > 0.0f)
@@ -114,9 +117,14 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
         options.sky_scale = float(scale->number(0.0, kMost));
     if (settings.find("sky-rotation"))
         options.sky_rotation = radians_in(settings, "sky-rotation", kMostDegrees);
-    if (const auto sun = settings.find("sun"))
+    if (const auto sun = settings.find("sun")) {
         options.sun = SunPosition{radians_in(*sun, "azimuth", kMostDegrees),
                                   radians_in(*sun, "elevation", kRightAngle)};
+        if (const auto time = sun->find("time"))
+            options.sun_seen = {sun->get("latitude").number(-kRightAngle, kRightAngle),
+                                sun->get("longitude").number(-kHalfTurn, kHalfTurn),
+                                time->string()};
+    }
     if (settings.find("sun-angle"))
         options.sun_angle = float(radians_in(settings, "sun-angle", kRightAngle));
     if (const auto radius = settings.find("light-radius"))

@@ -7,6 +7,7 @@
 #include "images/image_files.h"
 #include "matrix/blas.h"
 #include "rays/ray_scene.h"
+#include "json/version.h"
 
 namespace lumel {
 
@@ -17,9 +18,13 @@ std::string lumel_version()
 
 std::map<std::string, std::string> library_versions()
 {
-    return {{"Embree", embree_version()},   {"OpenBLAS", blas::openblas_version()},
-            {"OpenEXR", openexr_version()}, {"libpng", libpng_version()},
-            {"zstd", zstd_version()},       {"oneTBB", tbb_version()}};
+    return {{"Embree", embree_version()},
+            {"OpenBLAS", blas::openblas_version()},
+            {"OpenEXR", openexr_version()},
+            {"libpng", libpng_version()},
+            {"nlohmann_json", json_library_version()},
+            {"zstd", zstd_version()},
+            {"oneTBB", tbb_version()}};
 }
 
 std::string local_time()

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "scene/gltf_extensions.h"
 #include "scene/gltf_image.h"
+#include "json/json_file.h"
 
 namespace lumel {
 
@@ -105,6 +106,10 @@ private:
         for (int c = 0; c < 3; ++c)
             if (!(material.emitted[c] >= 0.0f && std::isfinite(material.emitted[c])))
                 view.fail("emits a negative or infinite amount of light");
+            else if (material.emitted[c] > kMostLuminance)
+                view.fail(lumel::quoted(material.name) + " emits " +
+                          Json(shortest(material.emitted[c])).dump() +
+                          " cd/m2, more than the sun; lower its emissive strength");
         if (const auto info = view.find("emissiveTexture"))
             material.emissive_texture = read_texture_use(*info);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <glm/gtc/constants.hpp>
 
@@ -16,9 +17,6 @@
 
 namespace lumel {
 namespace {
-
-/// [cd/m²] A hundred times what the sun's disc has; beyond it sums of light overflow.
-constexpr double kMostLuminance = 2e11;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& what)
 {
@@ -89,36 +87,70 @@ void give_sizes(Scene& scene, const LightOptions& options)
     }
 }
 
-/// "'a', 'b'": lights that can have a profile, each name once.
-std::string names_of(const Scene& scene)
+bool can_have_profile(const PunctualLight& light)
 {
+    return light.kind != PunctualLight::Kind::directional;
+}
+
+/// Names of lights that can have a profile, each once: "\"a\", \"b\"", and how many more.
+/// without_one: only of those that have none.
+std::string names_of(const Scene& scene, bool without_one)
+{
+    constexpr std::size_t kMost = 12;  // that a sentence can hold
     std::vector<std::string> names;
     for (const PunctualLight& light : scene.lights)
-        if (light.kind != PunctualLight::Kind::directional &&
+        if (can_have_profile(light) && !(without_one && light.profile >= 0) &&
             std::find(names.begin(), names.end(), light.name) == names.end())
             names.push_back(light.name);
     std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + quoted(name);
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+        list += (list.empty() ? "" : ", ") + lumel::quoted(names[i]);
+    if (names.size() > kMost)
+        list += " and " + std::to_string(names.size() - kMost) + " more";
     return list;
+}
+
+/// True if the pattern, in which each * stands for any letters or none, is the whole name.
+bool matches(std::string_view pattern, std::string_view name)
+{
+    const std::size_t star = pattern.find('*');
+    if (star == pattern.npos)
+        return pattern == name;
+    if (!name.starts_with(pattern.substr(0, star)))
+        return false;
+    pattern.remove_prefix(star + 1);
+    for (std::size_t taken = star; taken <= name.size(); ++taken)
+        if (matches(pattern, name.substr(taken)))
+            return true;
+    return false;
 }
 
 void attach_profile(Scene& scene, const LightProfile& profile)
 {
     bool found = false;
     for (PunctualLight& light : scene.lights)
-        if (light.name == profile.light && light.kind != PunctualLight::Kind::directional) {
+        if (can_have_profile(light) &&
+            (light.name == profile.light || matches(profile.light, light.name))) {
             light.profile = int(scene.profiles.size());
             light.intensity = 1.0f;  // the file's candela stand in for it
             found = true;
         }
     if (!found) {
-        const std::string names = names_of(scene);
+        const std::string names = names_of(scene, false);
         refuse("--ies", "the scene has no point or spot light " + quoted(profile.light) +
                             (names.empty() ? ", nor any other" : "; it has " + names));
     }
     scene.profiles.push_back(
         read_ies(read_file(profile.path, profile.path), profile.path, profile.light));
+}
+
+/// Lamps that a profile was meant for too, such as the copies that editors number.
+void tell_left_out(Scene& scene)
+{
+    if (const std::string names = names_of(scene, true); !names.empty())
+        scene.warnings.push_back("--ies leaves out " + names +
+                                 ": they keep the intensity of the file; a * in the name stands "
+                                 "for any letters, as in 'lamp*=FILE'");
 }
 
 }  // namespace
@@ -128,6 +160,8 @@ void add_lights(Scene& scene, const LightOptions& options)
     add_sky(scene, options);
     for (const LightProfile& profile : options.profiles)
         attach_profile(scene, profile);
+    if (!options.profiles.empty())
+        tell_left_out(scene);
     if (options.sun)
         add_sun(scene, options);
     give_sizes(scene, options);
@@ -148,7 +182,7 @@ void set_sky(LightOptions& options, const std::string& text)
     if (values.size() != 3 || *std::min_element(values.begin(), values.end()) < 0.0)
         refuse("--sky",
                quoted(text) + " is neither a file nor three numbers R,G,B of 0 or more in cd/m2");
-    if (*std::max_element(values.begin(), values.end()) > kMostLuminance)
+    if (*std::max_element(values.begin(), values.end()) > double(kMostLuminance))
         refuse("--sky", quoted(text) + " is too bright: there is no such sky");
     options.sky_color = glm::vec3(values[0], values[1], values[2]);
 }
@@ -166,6 +200,7 @@ void set_sun(LightOptions& options, const std::string& text)
         if (std::abs(*second) > 90.0)
             refuse("--sun", "the elevation must lie between -90 and 90 degrees");
         options.sun = SunPosition{glm::radians(*first), glm::radians(*second)};
+        options.sun_seen.reset();
         return;
     }
     if (std::abs(*first) > 90.0 || std::abs(*second) > 180.0)
@@ -173,6 +208,7 @@ void set_sun(LightOptions& options, const std::string& text)
                         "-180 and 180");
     options.sun =
         sun_position(glm::radians(*first), glm::radians(*second), seconds_since_2000(parts[2]));
+    options.sun_seen = {*first, *second, parts[2]};
 }
 
 void add_profile(LightOptions& options, const std::string& text)

@@ -34,6 +34,10 @@ struct TextureUse {
 
 enum class AlphaMode { opaque, mask, blend };
 
+/// Luminance that nothing has [cd/m²]: a hundred times that of the sun's disc. Beyond it sums of
+/// light could overflow.
+inline constexpr float kMostLuminance = 2e11f;
+
 struct Material {
     std::string name;
     glm::vec4 base_color{1.0f};     ///< linear; rgb is taken as diffuse albedo ρ

@@ -19,6 +19,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <glm/gtc/constants.hpp>
 
@@ -32,7 +33,30 @@ constexpr double kSecondsPerDay = 86400.0;
 [[noreturn]] void refuse(const std::string& date_time)
 {
     throw Error(ErrorKind::input, "",
-                "'" + date_time + "' is not a date and time in UTC such as 2024-06-21T12:00:00Z");
+                "'" + date_time +
+                    "' is not a date and time such as 2024-06-21T12:00:00Z (UTC) or "
+                    "2024-06-21T14:00:00+02:00");
+}
+
+/// How far local time is ahead of UTC [s]: "+02:00", "+0200" or "+02", or "Z" or nothing for UTC.
+std::optional<int> offset_of(std::string text)
+{
+    constexpr std::size_t kHours = 3, kWithMinutes = 5;  // characters, the sign among them
+    constexpr int kMostHours = 14;                       // of any place on earth
+    if (text.empty() || text == "Z")
+        return 0;
+    if (text.size() == kWithMinutes + 1 && text[kHours] == ':')
+        text.erase(kHours, 1);
+    const bool digits = std::all_of(text.begin() + 1, text.end(),
+                                    [](char letter) { return letter >= '0' && letter <= '9'; });
+    if ((text[0] != '+' && text[0] != '-') || !digits ||
+        (text.size() != kHours && text.size() != kWithMinutes))
+        return {};
+    const int hours = std::stoi(text.substr(1, 2));
+    const int minutes = text.size() == kWithMinutes ? std::stoi(text.substr(kHours)) : 0;
+    if (hours > kMostHours || minutes > 59)
+        return {};
+    return (text[0] == '-' ? -1 : 1) * (hours * 3600 + minutes * 60);
 }
 
 }  // namespace
@@ -45,16 +69,16 @@ double seconds_since_2000(const std::string& date_time)
                                  &day, &hour, &minute, &length, &second, &length);
     if (read < 5)
         refuse(date_time);
-    const std::string rest = date_time.substr(std::size_t(length));
+    const std::optional<int> offset = offset_of(date_time.substr(std::size_t(length)));
     const chrono::year_month_day date{chrono::year(year), chrono::month(unsigned(month)),
                                       chrono::day(unsigned(day))};
     const bool valid = date.ok() && hour >= 0 && hour < 24 && minute >= 0 && minute < 60 &&
                        second >= 0 && second <= 60;
-    if (!valid || (!rest.empty() && rest != "Z"))
+    if (!valid || !offset)
         refuse(date_time);
     constexpr chrono::year_month_day kEpoch{chrono::year(2000), chrono::January, chrono::day(1)};
     const auto days = (chrono::sys_days(date) - chrono::sys_days(kEpoch)).count();
-    return (double(days) - 0.5) * kSecondsPerDay + hour * 3600.0 + minute * 60.0 + second;
+    return (double(days) - 0.5) * kSecondsPerDay + hour * 3600.0 + minute * 60.0 + second - *offset;
 }
 
 SunPosition sun_position(double latitude, double longitude, double seconds_since_2000)

@@ -13,8 +13,8 @@ struct SunPosition {
     double elevation = 0.0;  ///< [rad] above the horizon, without refraction
 };
 
-/// Seconds since 2000-01-01 12:00 UTC of "YYYY-MM-DDThh:mm[:ss][Z]", the ISO 8601 form, taken as
-/// UTC. Throws Error{input} for anything else.
+/// Seconds since 2000-01-01 12:00 UTC of "YYYY-MM-DDThh:mm[:ss]" with "Z", an offset such as
+/// "+02:00" or nothing, which is UTC: the ISO 8601 form. Throws Error{input} for anything else.
 double seconds_since_2000(const std::string& date_time);
 
 /// [AA] seen from a place: latitude [rad] grows northwards, longitude [rad] eastwards. Within

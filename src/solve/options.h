@@ -83,7 +83,7 @@ using MethodOptions =
 struct SolverOptions {
     MethodOptions method = LinksOptions{};
     std::uint64_t max_shots = 0;     ///< 0: no limit
-    double max_seconds = 0.0;        ///< of solving, 0: no limit
+    double max_seconds = 0.0;        ///< 0: no limit. Of a bake: from its beginning
     double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
     double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
 };

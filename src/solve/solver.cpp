@@ -18,7 +18,8 @@ bool solve(Solver& solver, const SolverOptions& options,
             return false;
         if (options.max_shots > 0 && state.shots >= options.max_shots)
             return true;
-        if (options.max_seconds > 0.0 && seconds >= options.max_seconds)
+        // Before there is light, an end would be of no use.
+        if (options.max_seconds > 0.0 && seconds >= options.max_seconds && state.shots > 0)
             return true;
         const auto met = [](double error, double target) {
             return target <= 0.0 || (error >= 0.0 && error <= target);

@@ -39,8 +39,8 @@ public:
     virtual void read_state(StateReader&) {}
 };
 
-/// Steps until a limit of the options is met or `go_on` returns false. Returns true unless
-/// go_on ended it.
+/// Steps until a limit of the options is met, that of time not before there is any light, or
+/// `go_on` returns false. Returns true unless go_on ended it.
 bool solve(Solver& solver, const SolverOptions& options,
            const std::function<bool(const SolverState&)>& go_on = {});
 

@@ -19,12 +19,18 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
 {
     const std::string scene = own_scene("cornell-box.gltf");
     const BadLine lines[] = {
-        {{}, {"--help"}},
-        {{"frobnicate"}, {"frobnicate"}},
+        {{}, {"a command is needed", "--help"}},
+        {{"frobnicate"}, {"frobnicate", "--help"}},
+        {{"bak"}, {"did you mean bake?"}},
+        {{"comapre"}, {"did you mean compare?"}},
+        {{"help", "rendr"}, {"did you mean render?"}},
+        {{"completion", "fish"}, {"fish", "bash, zsh"}},
         {{"bake"}, {"scene"}},
         {{"bake", scene}, {"folder"}},
         {{"bake", scene, "out", "more"}, {"more"}},
-        {{"bake", scene, "out", "--siz", "32"}, {"--siz"}},
+        {{"bake", scene, "out", "--siz", "32"}, {"did you mean --size?"}},
+        {{"bake", scene, "out", "--siez=32"}, {"did you mean --size?"}},
+        {{"bake", scene, "out", "--magic"}, {"--magic", "lumel bake --help"}},
         {{"bake", scene, "out", "--size"}, {"--size"}},
         {{"bake", scene, "out", "--size", "0"}, {"--size", "0"}},
         {{"bake", scene, "out", "--size", "nan"}, {"--size", "nan"}},
@@ -37,7 +43,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"bake", scene, "out", "--texels-per-metre", "nan"}, {"--texels-per-metre"}},
         {{"bake", scene, "out", "--seed", "-1"}, {"--seed"}},
         {{"bake", scene, "out", "--seed", "4294967296"}, {"--seed"}},
-        {{"bake", scene, "out", "--solver", "magic"}, {"--solver", "magic"}},
+        {{"bake", scene, "out", "--solver", "mc"},
+         {"--solver", "mc", "links", "stochastic", "matrix"}},
         {{"bake", scene, "out", "--solver", "stochastic", "--batch", "257"}, {"--batch", "257"}},
         {{"bake", scene, "out", "--solver", "glossy", "--batch", "129"}, {"--batch 129", "128"}},
         {{"render", scene, "out.png", "--batch", "129"}, {"--batch 129", "128"}},
@@ -99,12 +106,16 @@ TEST(Options, LightsMayBeNegativeNumbersAndRepeated)
 
 TEST(Options, HelpAndVersionGoToStdoutAndSucceed)
 {
-    const Outcome version = run_lumel({"--version"});
-    EXPECT_EQ(version.code, 0);
-    EXPECT_EQ(version.out.rfind("lumel ", 0), 0u);
-    EXPECT_EQ(version.err, "");
+    for (const char* option : {"--version", "-V"}) {
+        const Outcome version = run_lumel({option});
+        EXPECT_EQ(version.code, 0);
+        EXPECT_EQ(version.out.rfind("lumel ", 0), 0u);
+        EXPECT_EQ(version.err, "");
+    }
     const Outcome help = run_lumel({"bake", "-h"});
     EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(run_lumel({"help", "bake"}).out, help.out);
+    EXPECT_EQ(run_lumel({"help"}).out, run_lumel({"--help"}).out);
     for (const char* option :
          {"--texels-per-metre", "--size", "--shots", "--time", "--error", "--json"})
         EXPECT_NE(help.out.find(option), std::string::npos) << option;
@@ -121,8 +132,9 @@ TEST(Options, OptionsPageIsWhatTheProgramPrints)
 TEST(Options, OptionsPageHoldsEveryOptionThatHelpLists)
 {
     const std::string page = run_lumel({"options"}).out;
-    for (const char* command : {"bake", "update", "relight", "why", "render", "play", "reference",
-                                "info", "compare", "devices", "methods"}) {
+    for (const char* command :
+         {"bake", "update", "relight", "why", "render", "play", "reference", "info", "compare",
+          "devices", "methods", "help", "man", "completion"}) {
         const std::string help = run_lumel({command, "--help"}).out;
         for (std::size_t at = help.find("\n  --"); at != std::string::npos;
              at = help.find("\n  --", at + 1)) {

@@ -95,8 +95,11 @@ private:
     std::thread thread_;
 };
 
-[[noreturn]] void become_lumel(std::vector<std::string> arguments, int out, int err)
+[[noreturn]] void become_lumel(std::vector<std::string> arguments,
+                               std::vector<std::string> environment, int out, int err)
 {
+    for (std::string& setting : environment)
+        putenv(setting.data());
     std::string program = LUMEL_PROGRAM;
     std::vector<char*> values = {program.data()};
     for (std::string& argument : arguments)
@@ -120,7 +123,7 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
     const Channel err = options.terminal || interrupts ? make_terminal() : make_pipe();
     const pid_t child = fork();
     if (child == 0)
-        become_lumel(arguments, out.theirs, err.theirs);
+        become_lumel(arguments, options.environment, out.theirs, err.theirs);
     close(out.theirs);
     close(err.theirs);
 

@@ -11,6 +11,7 @@ struct RunOptions {
     bool terminal = false;       ///< stderr is a terminal of 100 columns
     std::string interrupt_at{};  ///< send SIGINT once stderr, a terminal, shows this stage
     double kill_after = 0.0;     ///< send SIGKILL after so long [s]; 0: never
+    std::vector<std::string> environment{};  ///< NAME=VALUE, beside that of the test
 };
 
 struct Outcome {

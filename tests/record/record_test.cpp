@@ -35,6 +35,7 @@ BakeRecord unusual()
     record.lights.sky_scale = 0.1f;
     record.lights.sky_rotation = glm::radians(30.0);
     record.lights.sun = SunPosition{glm::radians(10.0), glm::radians(35.0)};
+    record.lights.sun_seen = {47.5, 19.04, "2024-06-21T12:00:00+02:00"};
     record.lights.sun_angle = float(glm::radians(0.3));
     record.lights.light_radius = 0.025f;
     record.lights.profiles = {{"bulb", "/lamps/a.ies"}, {"spot", "/lamps/b.ies"}};
@@ -117,6 +118,9 @@ TEST(BakeRecord, HasNumbersAsNumbersAndAnglesAsTheyWereGiven)
     EXPECT_EQ(report["settings"]["half"], true);
     EXPECT_EQ(report["settings"]["texels-per-metre"].dump(), "12.3");
     EXPECT_EQ(report["lights"]["sun"]["elevation"].dump(), "35.0");
+    EXPECT_EQ(report["lights"]["sun"]["latitude"].dump(), "47.5");
+    EXPECT_EQ(report["lights"]["sun"]["longitude"].dump(), "19.04");
+    EXPECT_EQ(report["lights"]["sun"]["time"], "2024-06-21T12:00:00+02:00");
     EXPECT_EQ(report["lights"]["sky-scale"].dump(), "0.1");
     EXPECT_EQ(report["solver"]["options"]["layers"], "stochastic");
     EXPECT_EQ(report["solver"]["limits"]["error"], 0.005);

@@ -139,6 +139,68 @@ TEST(LightOptions, SizesAreForLightsThatHaveNone)
     EXPECT_EQ(scene.lights[2].radius, 0.0f);
 }
 
+TEST(LightOptions, ASunOfAPlaceAndTimeIsKeptAsItWasGiven)
+{
+    LightOptions options;
+    set_sun(options, "47.5,19.0,2024-06-21T14:00:00+02:00");
+    ASSERT_TRUE(options.sun_seen);
+    EXPECT_EQ(options.sun_seen->latitude, 47.5);
+    EXPECT_EQ(options.sun_seen->longitude, 19.0);
+    EXPECT_EQ(options.sun_seen->time, "2024-06-21T14:00:00+02:00");
+    LightOptions in_utc;
+    set_sun(in_utc, "47.5,19.0,2024-06-21T12:00:00Z");
+    EXPECT_EQ(options.sun->azimuth, in_utc.sun->azimuth);
+    EXPECT_EQ(options.sun->elevation, in_utc.sun->elevation);
+    set_sun(options, "180,40");
+    EXPECT_FALSE(options.sun_seen);
+}
+
+TEST(LightOptions, AStarStandsForAnyLettersInTheNamesOfLamps)
+{
+    const TempFolder folder;
+    const std::string file = folder.write("lamp.ies", std::string(kLamp));
+    const auto lit = [&](const std::string& pattern) {
+        Scene scene;
+        for (const char* name : {"downlight", "downlight.001", "downlight.012", "uplight", "a*b"})
+            scene.lights.push_back({.kind = PunctualLight::Kind::point, .name = name});
+        LightOptions options;
+        add_profile(options, pattern + "=" + file);
+        add_lights(scene, options);
+        std::string found;
+        for (const PunctualLight& light : scene.lights)
+            found += light.profile >= 0 ? '1' : '0';
+        return found;
+    };
+    EXPECT_EQ(lit("downlight"), "10000");
+    EXPECT_EQ(lit("downlight*"), "11100");
+    EXPECT_EQ(lit("downlight.*"), "01100");
+    EXPECT_EQ(lit("*light"), "10010");
+    EXPECT_EQ(lit("*light*1*"), "01100");
+    EXPECT_EQ(lit("*"), "11111");
+    EXPECT_EQ(lit("a*b"), "00001");
+    EXPECT_TRUE(contains(error_in([&] { lit("*lights"); }), "\"*lights\""));
+}
+
+TEST(LightOptions, LampsThatProfilesLeaveOutAreNamed)
+{
+    const TempFolder folder;
+    const std::string file = folder.write("lamp.ies", std::string(kLamp));
+    LightOptions options;
+    add_profile(options, "bulb=" + file);
+    Scene scene = with_lights();
+    add_lights(scene, options);
+    EXPECT_TRUE(warns(scene, "--ies leaves out \"spot\""));
+    EXPECT_FALSE(warns(scene, "\"day\""));  // which can have none
+
+    add_profile(options, "sp*=" + file);
+    Scene all = with_lights();
+    add_lights(all, options);
+    EXPECT_FALSE(warns(all, "leaves out"));
+    Scene none = with_lights();
+    add_lights(none, {});
+    EXPECT_FALSE(warns(none, "leaves out"));
+}
+
 TEST(LightOptions, AProfileReplacesTheIntensityOfALight)
 {
     const TempFolder folder;

@@ -84,6 +84,26 @@ TEST(Materials, EmissiveStrengthScalesTheFactor)
     EXPECT_EQ(sample_material(scene, 0, kNowhere, glm::vec4(1)).emitted, glm::vec3(40, 20, 0));
 }
 
+TEST(Materials, OneThatIsTooBrightIsNamed)
+{
+    const auto read = [](double strength) {
+        return with_material(
+                   {{"name", "ceiling panel"},
+                    {"emissiveFactor", {1, 1, 1}},
+                    {"extensions",
+                     {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}})
+            .read();
+    };
+    EXPECT_EQ(read(1.6e9).materials.front().emitted.x, 1.6e9f);  // the sun's disc
+    try {
+        read(1e30);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_TRUE(contains(error.what(), "/materials/0: \"ceiling panel\" emits"))
+            << error.what();
+    }
+}
+
 // The mapping of docs/methods.md, "Gloss".
 TEST(Materials, DielectricsReflectF0AndMetalsTheirColour)
 {

@@ -1,0 +1,212 @@
+#include "completion.h"
+
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "listing.h"
+
+namespace lumel {
+namespace {
+
+/// What may stand as the value of an option.
+struct Values {
+    bool files = false, folders = false, commands = false;
+    std::vector<std::string> words;  ///< that are to be typed as they are
+};
+
+/// Types name kinds in capitals and words as they are: "FILE|R,G,B", "area|centre".
+Values values_of(const CLI::Option& option)
+{
+    Values values;
+    for (const std::string& part : CLI::detail::split(type_of(option), '|')) {
+        const bool word = std::none_of(part.begin(), part.end(),
+                                       [](char letter) { return letter >= 'A' && letter <= 'Z'; });
+        values.files = values.files || part == "FILE";
+        values.folders = values.folders || part == "FOLDER";
+        values.commands = values.commands || part == kCommandType;
+        if (word && !part.empty())
+            values.words.push_back(part);
+    }
+    return values;
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& program)
+{
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(program))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> names_of_options(const CLI::App& app)
+{
+    std::vector<std::string> all;
+    for (const CLI::Option* option : options_of(app, false))
+        for (const std::string& name : names_of(*option))
+            all.push_back(name);
+    return all;
+}
+
+std::string spaced(const std::vector<std::string>& words)
+{
+    return CLI::detail::join(words, " ");
+}
+
+// bash: words come from a list; where none is set, files or folders, or nothing that is known.
+
+std::string bash_values(const CLI::App& program, const Values& values)
+{
+    if (values.commands)
+        return fmt::format("words='{}'", spaced(names_of_commands(program)));
+    if (!values.words.empty())
+        return fmt::format("words='{}'", spaced(values.words));
+    if (values.files)
+        return "compopt -o default";
+    return values.folders ? "compopt -o dirnames" : ":";
+}
+
+std::string bash_command(const CLI::App& program, const CLI::App& command)
+{
+    std::map<std::string, std::vector<std::string>> options;  // by what completes their values
+    for (const CLI::Option* option : options_of(command, false))
+        for (const std::string& name : names_of(*option))
+            if (!type_of(*option).empty())
+                options[bash_values(program, values_of(*option))].push_back(name);
+    std::string text = fmt::format("    {})\n        case $before in\n", command.get_name());
+    for (const auto& [values, names] : options)
+        text += fmt::format("        {}) {} ;;\n", CLI::detail::join(names, "|"), values);
+    Values arguments;  // of all places: which of them is meant is not counted
+    for (const CLI::Option* argument : options_of(command, true)) {
+        const Values own = values_of(*argument);
+        arguments.files = arguments.files || own.files;
+        arguments.folders = arguments.folders || own.folders;
+        arguments.commands = arguments.commands || own.commands;
+        arguments.words.insert(arguments.words.end(), own.words.begin(), own.words.end());
+    }
+    return text + fmt::format("        *) if [[ $word == -* ]]; then words='{}'; else {}; fi ;;\n"
+                              "        esac ;;\n",
+                              spaced(names_of_options(command)), bash_values(program, arguments));
+}
+
+std::string bash_script(const CLI::App& program)
+{
+    const std::string name = program.get_name();
+    std::vector<std::string> first = names_of_commands(program);
+    for (const std::string& option : names_of_options(program))
+        first.push_back(option);
+    std::string text = fmt::format(
+        "# bash completion of {0}, printed by {0} completion bash\n\n_{0}()\n{{\n"
+        "    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=\n"
+        "    COMPREPLY=()\n"
+        "    if ((COMP_CWORD == 1)); then\n"
+        "        mapfile -t COMPREPLY < <(compgen -W '{1}' -- \"$word\")\n"
+        "        return\n"
+        "    fi\n"
+        "    case ${{COMP_WORDS[1]}} in\n",
+        name, spaced(first));
+    for (const CLI::App* command : commands_of(program))
+        text += bash_command(program, *command);
+    return text + fmt::format("    esac\n"
+                              "    [[ -z $words ]] || "
+                              "mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
+                              "}}\n\ncomplete -F _{0} {0}\n",
+                              name);
+}
+
+// zsh: specifications of _arguments, each in single quotes.
+
+/// Text inside of a specification.
+std::string zsh_text(const std::string& text)
+{
+    std::string escaped;
+    for (const char letter : text) {
+        if (letter == '\'')
+            escaped += "'\\'";  // and the quote itself
+        else if (letter == '[' || letter == ']' || letter == ':' || letter == '\\')
+            escaped += '\\';
+        escaped += letter;
+    }
+    return escaped;
+}
+
+std::string zsh_values(const CLI::App& program, const Values& values)
+{
+    if (values.commands)
+        return "(" + spaced(names_of_commands(program)) + ")";
+    if (!values.words.empty())
+        return "(" + spaced(values.words) + ")";
+    if (values.files)
+        return "_files";
+    return values.folders ? "_files -/" : " ";
+}
+
+std::string zsh_option(const CLI::App& program, const CLI::Option& option)
+{
+    const std::vector<std::string> names = names_of(option);
+    std::string spec = fmt::format("[{}]", zsh_text(option.get_description()));
+    if (const std::string type = type_of(option); !type.empty())
+        spec += fmt::format(":{}:{}", zsh_text(type), zsh_values(program, values_of(option)));
+    const bool repeats = option.get_expected_max() > 1 && !option.get_allow_extra_args();
+    if (names.size() == 1)
+        return fmt::format("'{}{}{}'", repeats ? "*" : "", names.front(), spec);
+    return fmt::format("'({})'{{{}}}'{}'", spaced(names), CLI::detail::join(names, ","), spec);
+}
+
+std::string zsh_command(const CLI::App& program, const CLI::App& command)
+{
+    std::string text = fmt::format("    {})\n        _arguments", command.get_name());
+    for (const CLI::Option* option : options_of(command, false))
+        text += " \\\n            " + zsh_option(program, *option);
+    int place = 0;
+    for (const CLI::Option* argument : options_of(command, true))
+        text +=
+            fmt::format(" \\\n            '{}:{}:{}'", ++place, zsh_text(argument->get_name(true)),
+                        zsh_values(program, values_of(*argument)));
+    return text + " ;;\n";
+}
+
+std::string zsh_script(const CLI::App& program)
+{
+    const std::string name = program.get_name();
+    std::string text = fmt::format("#compdef {0}\n"
+                                   "# zsh completion of {0}, printed by {0} completion zsh\n\n"
+                                   "_{0}()\n{{\n"
+                                   "    local curcontext=$curcontext state line\n"
+                                   "    local -a commands\n"
+                                   "    typeset -A opt_args\n"
+                                   "    commands=(\n",
+                                   name);
+    for (const CLI::App* command : commands_of(program))
+        text += fmt::format("        '{}:{}'\n", command->get_name(),
+                            zsh_text(command->get_description()));
+    text += "    )\n    _arguments -C";
+    for (const CLI::Option* option : options_of(program, false))
+        text += " \\\n        " + zsh_option(program, *option);
+    text += " \\\n        '1:command:->command' '*::argument:->argument'\n"
+            "    case $state in\n"
+            "    command) _describe -t commands command commands; return ;;\n"
+            "    argument) ;;\n"
+            "    *) return ;;\n"
+            "    esac\n"
+            "    case $words[1] in\n";
+    for (const CLI::App* command : commands_of(program))
+        text += zsh_command(program, *command);
+    // Sourced, it only makes itself known; found by its name, it is run for the first completion.
+    return text + fmt::format("    esac\n}}\n\n"
+                              "if [[ $funcstack[1] == _{0} ]]; then _{0} \"$@\"; "
+                              "else compdef _{0} {0}; fi\n",
+                              name);
+}
+
+}  // namespace
+
+std::string completion_script(const CLI::App& program, Shell shell)
+{
+    return shell == Shell::bash ? bash_script(program) : zsh_script(program);
+}
+
+}  // namespace lumel

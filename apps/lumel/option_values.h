@@ -1,0 +1,54 @@
+#pragma once
+// Kinds of values that options take.
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+namespace lumel {
+
+/// Accepts whole numbers from `low` to `high`.
+CLI::Validator whole(std::int64_t low, std::int64_t high);
+
+/// Accepts positive finite numbers.
+CLI::Validator positive();
+
+/// Accepts finite numbers from `low` to `high`.
+CLI::Validator between(double low, double high);
+
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// An option that takes one of a few words. `value` and `choices` must outlive the parser.
+template <class Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value,
+                        const Choices<Value>& choices, const std::string& help)
+{
+    const auto assign = [&value, &choices](const std::string& word) {
+        for (const auto& [choice, meaning] : choices)
+            if (choice == word)
+                value = meaning;
+    };
+    std::vector<std::string> words;
+    std::string standard;
+    for (const auto& [choice, meaning] : choices) {
+        words.push_back(choice);
+        if (meaning == value)
+            standard = choice;
+    }
+    return app.add_option_function<std::string>(name, assign, help)
+        ->type_name(CLI::detail::join(words, "|"))
+        ->default_str(standard)
+        ->check([words](const std::string& word) -> std::string {
+            if (std::find(words.begin(), words.end(), word) != words.end())
+                return {};
+            return fmt::format("'{}' is none of {}", word, CLI::detail::join(words, ", "));
+        });
+}
+
+}  // namespace lumel

@@ -1,0 +1,93 @@
+// The options of lumel play.
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "command.h"
+#include "method_options.h"
+#include "option_values.h"
+#include "shared_options.h"
+
+namespace lumel {
+namespace {
+
+constexpr const char* kAnimationGroup = "Animation";
+
+constexpr int kMostFrames = 100'000;
+constexpr int kMostAnimations = 1'000'000;
+constexpr double kMostFps = 1000.0;  // pictures a second
+
+const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
+                                                  {"cross", Redistribution::cross}};
+
+/// What is played, and how closely the light follows.
+void add_play_options(CLI::App& app, PlayOptions& options)
+{
+    app.option_defaults()->group(kAnimationGroup);
+    app.add_option("--frames", options.frames, "Number of frames")
+        ->type_name("N")
+        ->default_str("the animation's length")
+        ->check(whole(1, kMostFrames));
+    app.add_option("--fps", options.fps, "Frames per second of the animation")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(between(1.0 / kMostFps, kMostFps));
+    app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostAnimations));
+    add_choice(
+        app, "--redistribution", options.redistribution, kRedistributions,
+        "How light follows a move: incremental shoots again past the old and the new position, "
+        "as exact as a new solution; cross uses only views from what moves, which is faster "
+        "where that is small");
+    app.add_option(
+           "--budget", options.budget_ms,
+           "Milliseconds for the light of each frame; where they are not enough it lags behind")
+        ->type_name("MS")
+        ->default_str("as needed")
+        ->check(positive());
+    app.add_option_function<double>(
+           "--residual", [&options](double percent) { options.residual = percent / 100.0; },
+           "Light left to be shot, as a part of all, at which a solution is at rest")
+        ->type_name("PERCENT")
+        ->default_str(fmt::format("{:g}", 100.0 * options.residual))
+        ->check(positive());
+    app.add_option("--exposure", options.exposure,
+                   "Factor from cd/m2 to brightness, the same for all frames")
+        ->type_name("F")
+        ->default_str("as suits the first frame")
+        ->check(positive());
+}
+
+}  // namespace
+
+Command play_command(CLI::App& program)
+{
+    const auto given = std::make_shared<PlayArguments>();
+    PlayArguments& play = *given;
+    const auto method = std::make_shared<GivenMethod>(
+        GivenMethod{.id = method_of(MethodOptions(given->options.solver)).id});
+    CLI::App& command = *program.add_subcommand(
+        "play", "Render a scene's animation and correct the light from frame to frame");
+    PlayOptions& options = play.options;
+    command.add_option("scene", play.scene, "A .gltf or .glb file")->required()->type_name("FILE");
+    command.add_option("folder", play.folder, "Where the results go")
+        ->required()
+        ->type_name("FOLDER");
+    add_play_options(command, options);
+    add_picture_options(command, options.camera, options.width);
+    add_atlas_options(command, options.atlas);
+    command.option_defaults()->group(kMethodGroup);
+    add_one_method(command, *method);
+    add_device_option(command, options.device);
+    add_talk_options(command, play.talk);
+    return {&command, [given, method]() -> Arguments {
+                given->options.solver = std::get<ProgressiveOptions>(method->options());
+                return *given;
+            }};
+}
+
+}  // namespace lumel
