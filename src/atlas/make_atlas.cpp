@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -285,15 +286,33 @@ std::uint32_t item_of(const Plan& plan, std::size_t triangle)
     return plan.first_item + (plan.authored ? 0u : plan.layout->chart[triangle]);
 }
 
-/// The triangles in each rectangle.
-std::vector<std::vector<TriangleOf>> triangles_of_items(const Plans& plans)
-{
-    std::vector<std::vector<TriangleOf>> triangles(plans.size.size());
-    for (const Plan& plan : plans.surfaces)
-        for (std::uint32_t t = 0; t < plan.layout->chart.size(); ++t)
-            triangles[item_of(plan, t)].push_back({plan.instance, plan.primitive, t});
-    return triangles;
-}
+/// What shows both sides or one: our charts, and whole primitives of the file's layouts.
+class Sheets {
+public:
+    explicit Sheets(const Plans& plans)
+    {
+        for (const Plan& plan : plans.surfaces) {
+            first_.push_back(triangles_.size());
+            triangles_.resize(triangles_.size() +
+                              (plan.authored ? 1 : plan.layout->chart_size.size()));
+            for (std::uint32_t t = 0; t < plan.layout->chart.size(); ++t)
+                triangles_[number(plan, first_.size() - 1, t)].push_back(
+                    {plan.instance, plan.primitive, t});
+        }
+    }
+
+    std::span<const std::vector<TriangleOf>> triangles() const { return triangles_; }
+
+    /// Of a triangle of plan s.
+    std::size_t number(const Plan& plan, std::size_t s, std::size_t triangle) const
+    {
+        return first_[s] + (plan.authored ? 0u : plan.layout->chart[triangle]);
+    }
+
+private:
+    std::vector<std::vector<TriangleOf>> triangles_;
+    std::vector<std::size_t> first_;  ///< [plans]
+};
 
 /// The triangles of each primitive of each instance.
 std::vector<std::vector<TriangleOf>> triangles_of_surfaces(const Scene& scene)
@@ -326,30 +345,36 @@ bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& rep
     return false;
 }
 
-/// Packs the rectangles, and one more of the same size for the back of each item that shows both
-/// sides. back: [items] the rectangle of its back, its own where it has none.
-Packing pack_sides(const Plans& plans, const std::vector<char>& shows_both,
+/// Packs the rectangles, and one more of the same size for the backs of each item of which a sheet
+/// shows both sides. back: [items] the rectangle of its backs, its own where it has none.
+Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<char>& both,
                    const AtlasOptions& options, std::vector<std::uint32_t>& back,
                    std::vector<std::string>& notes)
 {
     back.resize(plans.size.size());
     std::iota(back.begin(), back.end(), 0u);
     std::vector<glm::dvec2> sizes = plans.size;
-    for (std::size_t i = 0; i < shows_both.size(); ++i)
-        if (shows_both[i]) {
-            back[i] = std::uint32_t(sizes.size());
-            sizes.push_back(plans.size[i]);
+    for (std::size_t s = 0; s < plans.surfaces.size() && !both.empty(); ++s)
+        for (std::size_t t = 0; t < plans.surfaces[s].layout->chart.size(); ++t) {
+            const std::uint32_t item = item_of(plans.surfaces[s], t);
+            if (!both[sheets.number(plans.surfaces[s], s, t)] || back[item] != item)
+                continue;
+            back[item] = std::uint32_t(sizes.size());
+            sizes.push_back(plans.size[item]);
         }
     return pack(sizes, options, notes);
 }
 
 /// Where the backs of charts are, from their fronts.
-std::vector<glm::ivec2> back_shifts(const Plans& plans, const Packing& packing,
+std::vector<glm::ivec2> back_shifts(const Plans& plans, const Sheets& sheets,
+                                    const std::vector<char>& both, const Packing& packing,
                                     const std::vector<std::uint32_t>& back, const Atlas& atlas)
 {
     std::vector<glm::ivec2> shifts(atlas.chart_count, glm::ivec2(0));
     for (std::size_t s = 0; s < plans.surfaces.size(); ++s)
         for (std::size_t t = 0; t < atlas.surfaces[s].chart.size(); ++t) {
+            if (!both[sheets.number(plans.surfaces[s], s, t)])
+                continue;
             const std::uint32_t item = item_of(plans.surfaces[s], t);
             shifts[atlas.surfaces[s].chart[t]] =
                 packing.rectangles[back[item]].corner - packing.rectangles[item].corner;
@@ -396,16 +421,19 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
     // Lay out and pack.
     Plans plans;
     Packing packing;
+    std::optional<Sheets> sheets;
+    std::vector<char> both;
     std::vector<std::uint32_t> back;
     if (keeps_scene_wide(scene, reports, shows_both, atlas.notes)) {
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
         plans = plan(scene, reports, options);
         tell(watch, kPlanned);
-        const std::vector<char> both =
-            shows_both ? shows_both(scene, triangles_of_items(plans)) : std::vector<char>{};
+        sheets.emplace(plans);
+        if (shows_both)
+            both = shows_both(scene, sheets->triangles());
         tell(watch, kSidesKnown);
-        packing = pack_sides(plans, both, options, back, atlas.notes);
+        packing = pack_sides(plans, *sheets, both, options, back, atlas.notes);
     }
     tell(watch, kPacked);
     atlas.width = atlas.height = packing.side;
@@ -414,7 +442,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
         atlas.surfaces.push_back(place(surface, plans, packing));
     number_charts(scene, atlas);
     if (std::size_t(packing.rectangles.size()) > plans.size.size())
-        atlas.back_shift = back_shifts(plans, packing, back, atlas);
+        atlas.back_shift = back_shifts(plans, *sheets, both, packing, back, atlas);
     atlas.shows_front = options.sides == Sides::front;
     return atlas;
 }

@@ -37,9 +37,11 @@ bool has_sources(const Prepared& prepared)
 
 }  // namespace
 
-BakeSummary bake(const std::string& scene_path, const std::string& folder,
-                 const BakeOptions& options, const ProgressFunction& progress)
+BakeSummary bake(const std::string& scene_path, const std::string& folder, const BakeOptions& given,
+                 const ProgressFunction& progress)
 {
+    BakeOptions options = given;
+    options.atlas = atlas_that_fits(given);
     const MethodInfo& method = method_of(options.solver.method);
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",

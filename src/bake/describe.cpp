@@ -247,7 +247,7 @@ std::string text_of(const Json& json)
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json)
 {
     const SampledScene sampled(read_scene(scene_path, MaterialModel::diffuse, options.lights),
-                               options.atlas);
+                               atlas_that_fits(options));
     const Json all = facts(sampled, options);
     return json ? json_text(all) : text_of(all);
 }

@@ -49,6 +49,20 @@ bool keeps_sources_apart(const BakeOptions& options)
     return method_of(options.solver.method).can_keep_sources && options.parts == Parts::all;
 }
 
+AtlasOptions atlas_that_fits(const BakeOptions& options)
+{
+    AtlasOptions atlas = options.atlas;
+    if (!keeps_sources_apart(options))
+        return atlas;
+    if (atlas.sides == Sides::both)
+        throw Error(ErrorKind::input, "--sides both",
+                    "is not possible where the light of each source is kept: scene.lumelmat has "
+                    "one place for both sides of a surface");
+    if (atlas.sides == Sides::automatic)
+        atlas.sides = Sides::brighter;
+    return atlas;
+}
+
 std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,
                                         const BakeOptions& options, Stages& stages)
 {

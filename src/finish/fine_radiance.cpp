@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "atlas/patch.h"
+#include "atlas/sides.h"
 #include "core/parallel.h"
 #include "finish/finish.h"
 
@@ -121,20 +122,28 @@ void add_looks(const Scene& scene, const Fill& fill, const Image& irradiance, in
     }
 }
 
+void add_fills(const Scene& scene, const Surface& surface, int scale, int rows,
+               std::vector<Fill>& fills)
+{
+    for (std::uint32_t t = 0; t < surface.chart.size(); ++t) {
+        TexelTriangle triangle(scene, surface, t);
+        if (triangle.collapsed)
+            continue;
+        const int first = int(std::floor(triangle.plane.low().y * scale));
+        const int last = int(std::floor(triangle.plane.high().y * scale));
+        fills.push_back({&primitive_of(scene, surface), std::move(triangle),
+                         std::clamp(first, 0, rows - 1), std::clamp(last, 0, rows - 1)});
+    }
+}
+
 std::vector<Fill> fills_of(const Scene& scene, const Atlas& atlas, int scale)
 {
     std::vector<Fill> fills;
-    for (const Surface& surface : atlas.surfaces)
-        for (std::uint32_t t = 0; t < surface.chart.size(); ++t) {
-            TexelTriangle triangle(scene, surface, t);
-            if (triangle.collapsed)
-                continue;
-            const int first = int(std::floor(triangle.plane.low().y * scale));
-            const int last = int(std::floor(triangle.plane.high().y * scale));
-            fills.push_back({&primitive_of(scene, surface), std::move(triangle),
-                             std::clamp(first, 0, atlas.height * scale - 1),
-                             std::clamp(last, 0, atlas.height * scale - 1)});
-        }
+    for (const Surface& surface : atlas.surfaces) {
+        add_fills(scene, surface, scale, atlas.height * scale, fills);
+        if (has_own_back(atlas, surface))
+            add_fills(scene, own_back_of(atlas, surface), scale, atlas.height * scale, fills);
+    }
     return fills;
 }
 

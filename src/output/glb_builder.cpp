@@ -240,7 +240,9 @@ std::size_t GlbBuilder::add_accessor(Json accessor)
 void GlbBuilder::retire_texture(std::size_t texture)
 {
     for (const std::size_t image : images_of(json["textures"].at(texture))) {
-        json["images"].at(image) = Json::object();
+        if (!json.contains("images") || image >= json["images"].size())
+            continue;  // of an extension that is not read
+        json["images"][image] = Json::object();
         free_images_.insert(image);
     }
     free_textures_.insert(texture);

@@ -97,21 +97,18 @@ const AccessorData& VertexGather::data_of(std::size_t accessor)
 std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                                  const std::string& semantic)
 {
-    return gather(accessor, vertices, semantic, Negated::nothing);
+    return gather(accessor, vertices, semantic, false);
 }
 
 std::size_t VertexGather::gather_turned(const Json& accessor,
                                         const std::vector<std::uint32_t>& vertices,
                                         const std::string& semantic)
 {
-    return gather(accessor, vertices, semantic,
-                  semantic == "NORMAL"    ? Negated::all
-                  : semantic == "TANGENT" ? Negated::last
-                                          : Negated::nothing);
+    return gather(accessor, vertices, semantic, semantic == "NORMAL" || semantic == "TANGENT");
 }
 
 std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
-                                 const std::string& semantic, Negated negated)
+                                 const std::string& semantic, bool negated)
 {
     const auto source = accessor.get<std::size_t>();
     const std::size_t order = orders_.try_emplace(vertices, orders_.size()).first->second;
@@ -123,7 +120,7 @@ std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::ui
 }
 
 std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::uint32_t> vertices,
-                                       bool with_bounds, Negated negated)
+                                       bool with_bounds, bool negated)
 {
     const AccessorData& data = data_of(source);
     const std::size_t stride = stride_of(data);
@@ -134,9 +131,8 @@ std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::
                         "has changed while it was baked; bake it again");
         std::memcpy(bytes.data() + i * stride, data.bytes.data() + vertices[i] * data.element_size,
                     data.element_size);
-        for (std::size_t c = 0; negated != Negated::nothing && c < data.components; ++c)
-            if (negated == Negated::all || c + 1 == data.components)
-                negate(data.component_type, bytes.data() + i * stride, c);
+        for (std::size_t c = 0; negated && c < data.components; ++c)
+            negate(data.component_type, bytes.data() + i * stride, c);
     }
 
     // Keep the other properties of the accessor: its format, name and extras.

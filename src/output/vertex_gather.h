@@ -26,7 +26,8 @@ public:
     /// for byte. `semantic` POSITION also gets min and max. Throws Error{input}.
     std::size_t gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                        const std::string& semantic);
-    /// The same as seen from the back: normals are turned round, tangents keep the sense of v.
+    /// The same as seen from the back: normals and tangents, with the sense of the third vector,
+    /// are turned round, as viewers turn those of double-sided faces.
     std::size_t gather_turned(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                               const std::string& semantic);
     std::size_t add_texcoords(std::span<const glm::vec2> texcoords);
@@ -34,18 +35,16 @@ public:
     std::size_t add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count);
 
 private:
-    enum class Negated { nothing, all, last };  ///< components of each element
-
     const AccessorData& data_of(std::size_t accessor);
     std::size_t gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
-                       const std::string& semantic, Negated negated);
+                       const std::string& semantic, bool negated);
     std::size_t add_gathered(std::size_t source, std::span<const std::uint32_t> vertices,
-                             bool with_bounds, Negated negated);
+                             bool with_bounds, bool negated);
 
     GlbBuilder& builder_;
     std::map<std::size_t, AccessorData> read_;
     std::map<std::vector<std::uint32_t>, std::size_t> orders_;  // each vertex order and its number
-    std::map<std::tuple<std::size_t, std::size_t, bool, Negated>, std::size_t> gathered_;
+    std::map<std::tuple<std::size_t, std::size_t, bool, bool>, std::size_t> gathered_;
     std::map<std::pair<std::vector<std::uint32_t>, bool>, std::size_t> indices_;
 };
 

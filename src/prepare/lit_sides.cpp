@@ -1,6 +1,8 @@
 #include "prepare/lit_sides.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/lattice.h"
 #include "core/parallel.h"
@@ -17,6 +19,9 @@ constexpr double kSharedWalks = 1 << 15;
 /// less, and nobody sees it.
 constexpr std::uint32_t kWalksForLight = 64;
 constexpr std::uint32_t kMostSteps = 24;  ///< of a walk
+/// Walks from each lamp, which light what they meet; fewer where lamps are many.
+constexpr std::uint32_t kLampWalks = 256, kLeastLampWalks = 16, kAllLampWalks = 1 << 16;
+constexpr std::uint32_t kLampSteps = 3;
 /// Walks begin away from the edges of their triangle by this share of it: next to an edge they
 /// could begin beyond the neighbouring wall.
 constexpr float kInset = 0.01f;
@@ -139,6 +144,72 @@ bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32
     return false;
 }
 
+/// The charts by their triangles.
+class ChartOfTriangle {
+public:
+    ChartOfTriangle(const Scene& scene, std::span<const std::vector<TriangleOf>> charts)
+        : chart_(scene.instances.size())
+    {
+        for (std::size_t i = 0; i < chart_.size(); ++i)
+            for (const Primitive& primitive :
+                 scene.meshes[std::size_t(scene.instances[i].mesh)].primitives)
+                chart_[i].emplace_back(primitive.indices.size() / 3, 0u);
+        for (std::uint32_t chart = 0; chart < charts.size(); ++chart)
+            for (const TriangleOf& at : charts[chart])
+                chart_[at.instance][at.primitive][at.triangle] = chart;
+    }
+    std::uint32_t of(const RayHit& hit) const
+    {
+        return chart_[hit.instance][hit.primitive][hit.triangle];
+    }
+
+private:
+    std::vector<std::vector<std::vector<std::uint32_t>>> chart_;
+};
+
+/// Even over all directions.
+glm::vec3 any_direction(std::uint32_t seed)
+{
+    const float z = 2.0f * unit_float(mixed_bits(seed)) - 1.0f;
+    const float angle = 2.0f * std::numbers::pi_v<float> * unit_float(mixed_bits(~seed));
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// [2 × charts] 1 for fronts and backs, in turn, that walks from lamps meet. A side asks for one of
+/// all lamps at a time: where they are many it may miss the one beside it.
+std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
+                               std::span<const std::vector<TriangleOf>> charts)
+{
+    std::vector<char> lit(2 * charts.size(), 0);
+    const ChartOfTriangle chart(scene, charts);
+    const auto lamps = std::uint32_t(scene.lights.size());
+    for (std::uint32_t i = 0; i < lamps; ++i) {
+        const PunctualLight& lamp = scene.lights[i];
+        if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
+            continue;
+        const std::uint32_t walks = std::clamp(kAllLampWalks / lamps, kLeastLampWalks, kLampWalks);
+        for (std::uint32_t walk = 0; walk < walks; ++walk) {
+            std::uint32_t seed = mixed_bits(i * kLampWalks + walk);
+            glm::vec3 from(lamp.transform[3]), direction = any_direction(seed);
+            if (intensity_towards(scene, lamp, direction) == glm::vec3(0.0f))
+                continue;
+            RayHit hit;
+            for (std::uint32_t step = 0;
+                 step < kLampSteps && rays.closest(ray_out(from, direction, seed), hit) &&
+                 (hit.front || is_double_sided(scene, hit));
+                 ++step) {
+                lit[2 * chart.of(hit) + (hit.front ? 0 : 1)] = 1;
+                seed = mixed_bits(seed + 1);
+                from += direction * hit.distance * (1.0f - kBefore);
+                direction = direction_about(hit.front ? hit.normal : -hit.normal,
+                                            {unit_float(seed), unit_float(mixed_bits(~seed))});
+            }
+        }
+    }
+    return lit;
+}
+
 }  // namespace
 
 std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
@@ -151,8 +222,11 @@ std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
         sides.emplace_back(scene, chart);
         all += sides.back().area();
     }
+    if (all == 0.0)
+        return both;
+    const std::vector<char> by_lamps = lit_by_lamps(scene, rays, charts);
     const auto is_lit = [&](std::size_t chart, bool back) {
-        if (sides[chart].glows())
+        if (sides[chart].glows() || by_lamps[2 * chart + back])
             return true;
         const double share = sides[chart].area() / all;
         const auto walks = std::uint32_t(

@@ -30,15 +30,26 @@ void erase_mark(Json& primitive)
         primitive.erase(kExtras);
 }
 
-void make_double_sided(Json& gltf, const Json& primitive)
+/// `user` names a material, as primitives do, and what maps variants to materials.
+void make_double_sided(Json& materials, const Json& user)
+{
+    if (!user.is_object() || !user.contains("material") || !user["material"].is_number_unsigned())
+        return;
+    const auto material = user["material"].get<std::size_t>();
+    if (material < materials.size() && materials[material].is_object())
+        materials[material]["doubleSided"] = true;
+}
+
+void make_all_double_sided(Json& gltf, const Json& primitive)
 {
     const auto materials = gltf.find("materials");
-    const auto material = primitive.find("material");
-    if (materials == gltf.end() || !materials->is_array() || material == primitive.end() ||
-        !material->is_number_unsigned() || material->get<std::size_t>() >= materials->size())
+    if (materials == gltf.end() || !materials->is_array())
         return;
-    if (Json& own = (*materials)[material->get<std::size_t>()]; own.is_object())
-        own["doubleSided"] = true;
+    make_double_sided(*materials, primitive);
+    const Json::json_pointer mappings("/extensions/KHR_materials_variants/mappings");
+    if (primitive.contains(mappings) && primitive[mappings].is_array())
+        for (const Json& mapping : primitive[mappings])
+            make_double_sided(*materials, mapping);
 }
 
 }  // namespace
@@ -70,7 +81,7 @@ void join_sides(Json& gltf)
             if (mark == MarkedSide::back)
                 continue;
             if (mark) {
-                make_double_sided(gltf, primitive);
+                make_all_double_sided(gltf, primitive);
                 erase_mark(primitive);
             }
             kept.push_back(std::move(primitive));

@@ -1,6 +1,7 @@
 #include "update/solution_file.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "atlas/sides.h"
 #include "core/error.h"
@@ -30,19 +31,41 @@ void set_shift(const Lumels& lumels, const Lumel& lumel, Image& image)
     shift[2] = lumels.shows_front ? 1.0f : 0.0f;
 }
 
-StoredCharts charts_of(const Image& front, const Image& shift)
+[[noreturn]] void fail_damaged(const std::string& path)
 {
+    throw Error(ErrorKind::input, path, "is damaged; bake the scene again");
+}
+
+/// A whole number of at most `most` either way.
+int whole(float value, int most, const std::string& path)
+{
+    if (!(std::abs(value) <= float(most)) || value != std::floor(value))
+        fail_damaged(path);
+    return int(value);
+}
+
+StoredCharts charts_of(const Image& front, const Image& shift, const std::string& path)
+{
+    const int side = front.width;
     StoredCharts charts;
-    for (std::size_t i = 0; i + 3 < front.values.size(); i += 4) {
-        const bool covered = front.values[i + 3] >= 1.0f;
-        const std::uint32_t chart = covered ? std::uint32_t(front.values[i + 3]) - 1 : kNoChart;
-        charts.of_texel.push_back(chart);
+    for (int texel = 0; texel < side * side; ++texel) {
+        const float* number = front.values.data() + std::size_t(texel) * 4 + 3;
+        const float* back = shift.values.data() + std::size_t(texel) * 4;
+        const bool covered = *number != 0.0f;
+        charts.of_texel.push_back(covered ? std::uint32_t(whole(*number, side * side, path) - 1)
+                                          : kNoChart);
         if (!covered)
             continue;
-        charts.shows_front |= shift.values[i + 2] > 0.0f;
+        const std::uint32_t chart = charts.of_texel.back();
+        const glm::ivec2 moved(whole(back[0], side, path), whole(back[1], side, path));
+        const glm::ivec2 place = glm::ivec2(texel % side, texel / side) + moved;
+        if (chart >= std::uint32_t(side * side) || glm::any(glm::lessThan(place, glm::ivec2(0))) ||
+            glm::any(glm::greaterThanEqual(place, glm::ivec2(side))))
+            fail_damaged(path);
+        charts.shows_front |= back[2] > 0.0f;
         if (charts.back_shift.size() <= chart)
             charts.back_shift.resize(std::size_t(chart) + 1, glm::ivec2(0));
-        charts.back_shift[chart] = {int(shift.values[i]), int(shift.values[i + 1])};
+        charts.back_shift[chart] = moved;
     }
     const bool none = std::all_of(charts.back_shift.begin(), charts.back_shift.end(),
                                   [](const glm::ivec2& s) { return s == glm::ivec2(0); });
@@ -82,7 +105,7 @@ StoredSolution read_solution(const std::string& path)
     if (front.width != front.height)
         throw Error(ErrorKind::input, path, "is not square: it is not as lumel bake wrote it");
     return {.side = front.width,
-            .charts = charts_of(front, read_exr(path, kShiftLayer)),
+            .charts = charts_of(front, read_exr(path, kShiftLayer), path),
             .front = colors_of(front),
             .back = colors_of(back),
             .open = colors_of(read_exr(path, kOpenLayer))};

@@ -2,9 +2,11 @@
 
 #include "../support/box_lumels.h"
 #include "../support/lamps.h"
+#include "../support/temporary_folder.h"
 #include "atlas/sides.h"
 #include "finish/finish.h"
 #include "solved.h"
+#include "update/solution_file.h"
 
 namespace lumel {
 namespace {
@@ -115,6 +117,42 @@ TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
     EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
 }
 
+TEST(Sides, AreLitByOneLampAmongMany)
+{
+    Scene street = paper_house(true, true, false);
+    for (int i = 0; i < 5000; ++i)
+        street.lights.push_back(
+            support::make_lamp(PunctualLight::Kind::point, kBulb,
+                               {8.0f + float(i % 71), 2.0f, 8.0f + float(i / 71)}, {0, -1, 0}));
+    const Prepared house(street, AtlasOptions{.size = 96});
+    const std::vector<char> lit_outside = {0, 1, 0, 0, 0, 1};  // that face the street
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), lit_outside);
+}
+
+// One mesh with a layout of its own, whose primitives differ.
+TEST(Sides, OfASingleSidedPartHaveNoBack)
+{
+    Scene scene = paper_house(true, true, true);
+    Mesh& mesh = scene.meshes[kCeiling];
+    Primitive other = mesh.primitives.front();
+    for (glm::vec3& position : other.positions)
+        position.y += 1.0f;
+    other.material = int(scene.materials.size());
+    scene.materials.emplace_back();
+    mesh.primitives.front().texcoords[1] = {{0, 0}, {0.4f, 0}, {0.4f, 1}, {0, 1}};
+    other.texcoords[1] = {{0.6f, 0}, {1, 0}, {1, 1}, {0.6f, 1}};
+    mesh.primitives.push_back(other);
+    scene.sky = support::even_sky(glm::vec3(100.0f));
+    const Prepared house(scene, AtlasOptions{.size = 96});
+    std::vector<char> own;
+    for (const Surface& surface : house.atlas.surfaces)
+        if (surface.instance == kCeiling) {
+            EXPECT_TRUE(surface.authored);
+            own.push_back(has_own_back(house.atlas, surface));
+        }
+    EXPECT_EQ(own, (std::vector<char>{1, 0}));
+}
+
 TEST(Sides, AreAsAskedFor)
 {
     const auto own = [](Sides sides) {
@@ -137,6 +175,24 @@ TEST(Sides, OfTheFrontAloneShowTheFront)
     const Image map = to_map(house.lumels, light);
     for (std::size_t texel = 0; texel < house.lumels.coverage.size(); ++texel)
         EXPECT_EQ(map.values[4 * texel], house.lumels.coverage[texel] > 0.0f ? 1.0f : 0.0f);
+}
+
+TEST(Sides, AreFoundAgainInTheSolutionAndOutsideOfItRefused)
+{
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    Lumels lumels = house.lumels;
+    const std::vector<glm::vec3> light(lumels.lumels.size(), glm::vec3(1.0f));
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "solution.exr";
+    write_solution(path, lumels, light, house.open);
+    const StoredSolution solution = read_solution(path);
+    ASSERT_EQ(solution.charts.back_shift.size(), lumels.back_shift.size());
+    EXPECT_EQ(solution.charts.back_shift, lumels.back_shift);
+    for (const glm::ivec2& strange : {glm::ivec2(95, 0), glm::ivec2(0, -96)}) {
+        lumels.back_shift.assign(lumels.back_shift.size(), strange);
+        write_solution(path, lumels, light, house.open);
+        EXPECT_THROW(read_solution(path), Error);
+    }
 }
 
 TEST(Sides, ShareNoTexel)

@@ -94,6 +94,22 @@ TEST(FineRadiance, ShowsColourAtTheTexturesDensityUnderLightThatVariesSmoothly)
             }
 }
 
+TEST(FineRadiance, ShowsItOnBacksWithTexelsOfTheirOwnToo)
+{
+    Atlas two_sides = atlas();
+    two_sides.surfaces.pop_back();
+    two_sides.chart_count = 1;
+    two_sides.back_shift = {{kSide, 0}};
+    const Image fine = fine_radiance(scene(), two_sides, light(), coarse(), kScale);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const int column = (kSide + x) * kScale + kScale / 2;
+            const glm::vec3 found = rgb(fine, column, y * kScale + kScale / 2);
+            const float arriving = (float(column) + 0.5f) / kScale + 0.5f;
+            EXPECT_NEAR(found.r / arriving, is_white(x, y) ? 1.0f : 0.0f, 0.15f);
+        }
+}
+
 TEST(FineRadiance, WhatIsThinnerThanATexelShowsTheCoarseMap)
 {
     const Image fine = fine_radiance(scene(), atlas(), light(), coarse(), kScale);
