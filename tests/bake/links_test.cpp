@@ -72,7 +72,7 @@ TEST(Links, RefuseARoomThatAbsorbsNothing)
 TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
 {
     const Prepared world(support::scene_path("cornell-box"), {.size = 192});
-    const SolverOptions options = links(0.04);
+    const SolverOptions options = links(0.02);
     const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
     const HostScene host{world.scene, world.rays, world.atlas};
     const auto make = [&] {
