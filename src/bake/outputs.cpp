@@ -109,14 +109,14 @@ float exposure_of(const std::optional<Image>& picture, const Image& radiance)
 
 /// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
 Image baked_texture(const BakeOptions& options, const Prepared& prepared, const Image& map,
-                    const Image& radiance)
+                    const Image& radiance, Stages& stages)
 {
     const int wanted = texture_density(prepared.scene, prepared.atlas);
     const int scale = std::clamp(options.baked_size / prepared.atlas.width, 1, wanted);
     if (scale < wanted)
-        log_info("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
-                 " % of their density, as --baked-size is " + std::to_string(options.baked_size) +
-                 "; scene.glb keeps all of it");
+        stages.tell("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
+                    " % of their density, as --baked-size is " +
+                    std::to_string(options.baked_size) + "; scene.glb keeps all of it");
     return scale == 1 ? radiance
                       : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
 }
@@ -153,7 +153,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                      .format = options.lightmap_format});
     write_baked_glb(
         folder.path("scene-baked.glb"), prepared.scene, prepared.atlas,
-        tone_map(baked_texture(options, prepared, map, radiance), exposure_of_radiance));
+        tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance));
     return written;
 }
 

@@ -107,14 +107,15 @@ TEST(Messages, WhatHalfPrecisionClipsIsCounted)
     EXPECT_TRUE(has(bake.err, fmt::format("up to {:.6g} lx", most))) << most << "\n" << bake.err;
 }
 
-TEST(Messages, TexturesThatTheBakedSceneBlursAreCounted)
+TEST(Messages, TheDensityThatTexturesLoseInTheBakedSceneIsSaid)
 {
     const Workplace place;
-    const Outcome bake = run_lumel({"bake", own_scene("room.gltf"), place.path("out"), "--size",
-                                    "96", "--shots", "3", "--preview-width", "0"});
+    const Outcome bake =
+        run_lumel({"bake", own_scene("room.gltf"), place.path("out"), "--size", "96", "--shots",
+                   "3", "--preview-width", "0", "--baked-size", "96"});
     ASSERT_EQ(bake.code, 0) << bake.err;
-    EXPECT_TRUE(has(bake.err, "scene-baked.glb shows ")) << bake.err;
-    EXPECT_TRUE(has(report_in(place)["notes"].dump(), "more coarsely than they are"));
+    EXPECT_TRUE(has(bake.err, "scene-baked.glb shows textures at ")) << bake.err;
+    EXPECT_TRUE(has(report_in(place)["notes"].dump(), "% of their density, as --baked-size is 96"));
     // Where there are none, nothing is lost.
     EXPECT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).err, "");
 }
