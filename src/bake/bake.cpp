@@ -101,7 +101,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
     output.outdate(kMatrixFile);
-    if (!(stopped && options.resume))
+    if (!stopped)
         output.outdate(kCheckpointFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);

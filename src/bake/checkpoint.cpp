@@ -38,6 +38,16 @@ std::string settings_of(const BakeOptions& options)
     return json_text(settings);
 }
 
+/// Throws Error{input} if the file does not begin as a checkpoint does.
+void pass_magic(std::istream& file, const std::string& path)
+{
+    char magic[sizeof kMagic] = {};
+    file.read(magic, sizeof magic);
+    if (std::memcmp(magic, kMagic, sizeof magic) != 0)
+        throw Error(ErrorKind::input, path,
+                    "is no checkpoint of this version of Lumel; bake without --resume");
+}
+
 }  // namespace
 
 void check_resume(const BakeOptions& options)
@@ -76,17 +86,14 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
     if (!can_ || missing)
         return {};
     if (!resume_) {
+        older_ = seconds_of_older(size);
         log_info(path_ + " is of a bake that was not finished; this one begins anew, and would go "
                          "on with --resume");
         return {};
     }
     std::ifstream file(path_, std::ios::binary);
-    char magic[sizeof kMagic] = {};
-    file.read(magic, sizeof magic);
-    if (std::memcmp(magic, kMagic, sizeof magic) != 0)
-        throw Error(ErrorKind::input, path_,
-                    "is no checkpoint of this version of Lumel; bake without --resume");
-    StateReader reader(file, size - sizeof magic, path_);
+    pass_magic(file, path_);
+    StateReader reader(file, size - sizeof kMagic, path_);
     Origin origin;
     reader(origin);
     if (!(origin == origin_)) {
@@ -108,9 +115,24 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
     return run;
 }
 
+double Checkpoint::seconds_of_older(std::uint64_t size) const
+{
+    try {
+        std::ifstream file(path_, std::ios::binary);
+        pass_magic(file, path_);
+        StateReader reader(file, size - sizeof kMagic, path_);
+        Origin origin;
+        double seconds = 0.0;
+        reader(origin, seconds);
+        return seconds;
+    } catch (const Error&) {
+        return 0.0;  // of no use to anybody
+    }
+}
+
 void Checkpoint::keep(Solver& solver, const Run& run)
 {
-    if (!can_ || every_ <= 0.0 || wall_seconds() < next_)
+    if (!can_ || every_ <= 0.0 || wall_seconds() < next_ || (older_ && run.seconds <= *older_))
         return;
     write(solver, run);
 }
@@ -144,9 +166,10 @@ void Checkpoint::stop(Solver& solver, const Run& run)
 {
     if (!can_)
         return;
-    if (resume_ && every_ > 0.0) {
-        write(solver, run);
-    } else {
+    if (resume_) {
+        if (every_ > 0.0)
+            write(solver, run);
+    } else if (!older_) {
         std::error_code ignored;
         fs::remove(path_, ignored);
     }

@@ -2,6 +2,7 @@
 // The state of an unfinished bake on the disk, from which it can go on.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,10 @@ public:
     /// Error{input} if it is of other work or damaged.
     Run take_up(Solver& solver);
     /// Writes it if it is time. What cannot be written is a warning, and the former one stays.
+    /// Without --resume it takes the place of another bake's once this one has solved for longer.
     void keep(Solver& solver, const Run& run);
-    /// For a solve that the user has stopped: kept with --resume, removed without.
+    /// For a solve that the user has stopped: kept with --resume. Without, it is removed, unless
+    /// there was one before this bake.
     void stop(Solver& solver, const Run& run);
 
 private:
@@ -50,6 +53,7 @@ private:
         }
     };
 
+    double seconds_of_older(std::uint64_t size) const;
     void write(Solver& solver, const Run& run);
 
     std::string path_;
@@ -57,7 +61,8 @@ private:
     const char* unit_;  ///< of shots
     double every_;      ///< [s], 0: never
     Origin origin_;
-    double next_ = 0.0;  ///< [s] of wall_seconds()
+    double next_ = 0.0;            ///< [s] of wall_seconds()
+    std::optional<double> older_;  ///< [s] of solving in one that this bake does not go on from
     bool warned_ = false;
 };
 

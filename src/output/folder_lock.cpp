@@ -19,21 +19,23 @@ namespace fs = std::filesystem;
     throw fs::filesystem_error(what, path, std::error_code(reason, std::generic_category()));
 }
 
-int open_folder(const fs::path& folder)
+int open_folder(const fs::path& folder, int flags = 0)
 {
-    return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | flags);
 }
 
-/// False if another has the lock.
-bool lock(int descriptor, int operation)
+enum class Got { lock, nothing, unknown };
+
+/// Nothing if another has the lock, unknown if the file system knows no locks.
+Got lock(int descriptor, int operation)
 {
     while (flock(descriptor, operation) != 0) {
         if (errno == EWOULDBLOCK)
-            return false;
+            return Got::nothing;
         if (errno != EINTR)
-            break;  // the file system knows no locks
+            return Got::unknown;
     }
-    return true;
+    return Got::lock;
 }
 
 /// Does the path still lead to what is open?
@@ -53,21 +55,23 @@ FolderLock::FolderLock(const fs::path& folder, Kind kind)
         *this = FolderLock(open_folder(folder));
         if (descriptor_ < 0)
             fail("cannot open folder", folder, errno);
-        lock(descriptor_, kind == Kind::shared ? LOCK_SH : LOCK_EX);
+        keeps_out_ = lock(descriptor_, kind == Kind::shared ? LOCK_SH : LOCK_EX) == Got::lock;
     } while (!leads_to(folder, descriptor_));
 }
 
 std::optional<FolderLock> FolderLock::try_to(const fs::path& folder)
 {
-    FolderLock result(open_folder(folder));
+    FolderLock result(open_folder(folder, O_NOFOLLOW));
     if (result.descriptor_ < 0) {
         if (errno == ENOENT)
             return {};
         fail("cannot open folder", folder, errno);
     }
+    const Got got = lock(result.descriptor_, LOCK_EX | LOCK_NB);
     // Its last owner may have removed it between the two.
-    if (!lock(result.descriptor_, LOCK_EX | LOCK_NB) || !leads_to(folder, result.descriptor_))
+    if (got == Got::nothing || !leads_to(folder, result.descriptor_))
         return {};
+    result.keeps_out_ = got == Got::lock;
     return result;
 }
 
@@ -78,13 +82,15 @@ FolderLock::~FolderLock()
 }
 
 FolderLock::FolderLock(FolderLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1))
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      keeps_out_(other.keeps_out_)
 {
 }
 
 FolderLock& FolderLock::operator=(FolderLock&& other) noexcept
 {
     std::swap(descriptor_, other.descriptor_);
+    std::swap(keeps_out_, other.keeps_out_);
     return *this;
 }
 

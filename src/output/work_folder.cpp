@@ -4,8 +4,10 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <thread>
 
 #include <fcntl.h>
@@ -49,10 +51,37 @@ std::vector<fs::path> work_folders(const fs::path& target)
     return found;
 }
 
+/// A folder of this user's, not a link to one. mode: may be null.
+bool is_ours(const fs::path& folder, mode_t* mode = nullptr)
+{
+    struct stat there = {};
+    if (lstat(folder.c_str(), &there) != 0 || !S_ISDIR(there.st_mode) || there.st_uid != geteuid())
+        return false;
+    if (mode)
+        *mode = there.st_mode;
+    return true;
+}
+
+/// Can no other user have put anything there? In a shared folder anybody can make a folder with the
+/// name of a work folder, and lists in it.
+bool is_only_ours(const fs::path& folder)
+{
+    mode_t mode = 0;
+    return is_ours(folder, &mode) && (mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
 bool is_committed(const fs::path& work)
 {
     std::error_code ignored;
-    return fs::exists(work / kList, ignored);
+    return is_only_ours(work) && fs::exists(work / kList, ignored);
+}
+
+/// Is it a target that was exchanged for a new one? It may be one that others can write into.
+bool is_replaced(const fs::path& old)
+{
+    std::error_code ignored;
+    return is_ours(old) && is_only_ours(old / kWork) &&
+           fs::exists(old / kWork / kReplaced, ignored);
 }
 
 bool is_plain_name(const std::string& name)
@@ -110,28 +139,55 @@ std::string name_in(const fs::path& folder)
     return std::string(kWork) + "-" + folder.string();
 }
 
-/// Names in a list, sorted.
-std::vector<std::string> lines_of(const fs::path& list)
+/// Names with the inodes of files that were linked to the new target; kNoInode for results.
+using Replaced = std::map<std::string, std::uint64_t>;
+constexpr std::uint64_t kNoInode = 0;
+
+std::uint64_t inode_of(const fs::path& path)
 {
-    std::vector<std::string> lines;
-    std::ifstream file(list);
-    for (std::string line; std::getline(file, line);)
-        lines.push_back(line);
-    std::sort(lines.begin(), lines.end());
-    return lines;
+    struct stat there = {};
+    return lstat(path.c_str(), &there) == 0 ? there.st_ino : kNoInode;
+}
+
+void write_replaced(const fs::path& path, const Replaced& replaced)
+{
+    std::ofstream list(path);
+    for (const auto& [name, inode] : replaced)
+        list << inode << ' ' << name << '\n';
+    list.close();
+    if (!list)
+        throw Error(ErrorKind::output, path.string(), "cannot be written");
+    sync_to_disk(path);
+}
+
+Replaced read_replaced(const fs::path& path)
+{
+    Replaced replaced;
+    std::ifstream list(path);
+    std::string name;
+    for (std::uint64_t inode = 0; list >> inode && list.get() && std::getline(list, name);)
+        replaced[name] = inode;
+    return replaced;
 }
 
 /// Moves what others put into a target, before it was replaced but after its files were linked, to
-/// the new one.
+/// the new one. What they have changed or removed there since stays as it is.
 void give_back(const fs::path& old, const fs::path& target)
 {
-    const std::vector<std::string> results = lines_of(old / kWork / kReplaced);
+    // What is removed in part must still pass for ours.
+    std::error_code ignored;
+    fs::permissions(old, fs::perms::owner_all, ignored);
+    const Replaced replaced = read_replaced(old / kWork / kReplaced);
     for (const fs::directory_entry& entry : fs::directory_iterator(old)) {
-        const fs::path name = entry.path().filename();
-        std::error_code absent;
-        if (name != kWork && !std::binary_search(results.begin(), results.end(), name.string()) &&
-            !fs::equivalent(entry.path(), target / name, absent))
-            fs::rename(entry.path(), target / name);
+        const fs::path from = entry.path(), name = from.filename(), to = target / name;
+        if (name == kWork)
+            continue;
+        const auto known = replaced.find(name.string());
+        if (known == replaced.end())
+            renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
+        else if (known->second != kNoInode && inode_of(from) != known->second &&
+                 inode_of(to) == known->second)
+            fs::rename(from, to);  // saved anew in the old one, and untouched in the new
     }
 }
 
@@ -139,18 +195,15 @@ void give_back(const fs::path& old, const fs::path& target)
 /// process is dead.
 void settle(const fs::path& target, const fs::path& work)
 {
-    std::optional<FolderLock> own;
-    try {
-        own = FolderLock::try_to(work);
-    } catch (const fs::filesystem_error&) {
-        // Another user's.
-    }
-    if (!own)
+    if (!is_only_ours(work) && !is_replaced(work))
+        return;
+    const std::optional<FolderLock> own = FolderLock::try_to(work);
+    if (!own || !own->keeps_others_out())
         return;
     if (is_committed(work)) {
         const FolderLock lock(target, FolderLock::Kind::exclusive);
         put_in_place(target, work);
-    } else if (fs::exists(work / kWork / kReplaced)) {
+    } else if (is_replaced(work)) {
         const std::string name = work.filename().string().substr(name_in({}).size());
         if (fs::is_directory(target / name))
             give_back(work, target / name);
@@ -174,13 +227,26 @@ void settle(const fs::path& target)
     settle(beside.parent_path(), beside);
 }
 
+/// Makes a folder for this user alone. False if there is something of that name.
+bool make_folder(const fs::path& folder)
+{
+    if (mkdir(folder.c_str(), S_IRWXU) == 0)
+        return true;
+    if (errno == EEXIST)
+        return false;
+    throw fs::filesystem_error("cannot make folder", folder,
+                               std::error_code(errno, std::generic_category()));
+}
+
 /// A new folder that nobody else uses; empty if others were quicker.
 std::optional<FolderLock> make(const fs::path& work)
 {
-    std::error_code ignored;
-    if (fs::create_directory(work))
-        fs::permissions(work, fs::perms::owner_all, ignored);
+    const bool is_new = make_folder(work);
+    if (!is_new && !is_only_ours(work))
+        return {};
     std::optional<FolderLock> lock = FolderLock::try_to(work);
+    if (lock && !is_new && !lock->keeps_others_out())
+        return {};
     if (lock && !fs::is_empty(work))
         return {};  // left by a process that has just died: it is to be settled
     return lock;
@@ -219,6 +285,8 @@ std::optional<std::vector<fs::path>> others_in(const fs::path& target,
         const fs::file_type type = entry.symlink_status().type();
         if (type != fs::file_type::regular && type != fs::file_type::symlink)
             return {};
+        if (name.string().find('\n') != std::string::npos)
+            return {};  // the list of names has one in each line
         others.push_back(name);
         if (others.size() > kMostLinks)
             return {};
@@ -251,33 +319,20 @@ bool has_attributes(const fs::path& folder)
     return size < 0 && errno != ENOTSUP;
 }
 
-/// Gives a folder the owner and the rights of another. False if that cannot be done, or if there
-/// is more to give.
+/// Gives a folder the group and the rights of another. False if that cannot be done, if there
+/// is more to give, or if the owner is another.
 bool take_attributes(const fs::path& from, const fs::path& to)
 {
     struct stat wanted = {}, made = {};
     if (stat(from.c_str(), &wanted) != 0 || stat(to.c_str(), &made) != 0)
         return false;
-    if ((wanted.st_uid != made.st_uid || wanted.st_gid != made.st_gid) &&
-        chown(to.c_str(), wanted.st_uid, wanted.st_gid) != 0)
+    if (wanted.st_uid != made.st_uid)
+        return false;  // what is left of the old one could not be told from a stranger's
+    if (wanted.st_gid != made.st_gid && chown(to.c_str(), wanted.st_uid, wanted.st_gid) != 0)
         return false;
     if (has_attributes(from) || has_attributes(to))
         return false;
     return chmod(to.c_str(), wanted.st_mode & 07777u) == 0;
-}
-
-void write_names(const fs::path& path, const std::vector<fs::path>& files,
-                 const std::vector<std::string>& outdated)
-{
-    std::ofstream list(path);
-    for (const fs::path& file : files)
-        list << file.string() << '\n';
-    for (const std::string& name : outdated)
-        list << name << '\n';
-    list.close();
-    if (!list)
-        throw Error(ErrorKind::output, path.string(), "cannot be written");
-    sync_to_disk(path);
 }
 
 void write_list(const fs::path& work, const std::vector<std::string>& names)
@@ -308,7 +363,9 @@ WorkFolder::WorkFolder(const fs::path& target, const std::string& what)
     if (!lock_)
         throw Error(
             ErrorKind::output, (what.empty() ? target_ : target_ / what).string(),
-            "another lumel is writing there; wait until it is done, or choose another place");
+            "another lumel is writing there; wait until it is done, or choose another place. If "
+            "none is, remove " +
+                path_.string());
 }
 
 WorkFolder::~WorkFolder()
@@ -349,20 +406,27 @@ bool WorkFolder::exchange(const std::vector<fs::path>& files,
     const std::optional<std::vector<fs::path>> others = others_in(target_, files, outdated);
     if (!others || is_current(target_))
         return false;
-    std::error_code reason;
     std::optional<FolderLock> fresh_lock;
-    if (fs::create_directory(fresh, reason))
+    if (mkdir(fresh.c_str(), S_IRWXU) == 0)
         fresh_lock = FolderLock::try_to(fresh);
     if (!fresh_lock)
         return false;
     const FolderLock lock(target_, FolderLock::Kind::exclusive);
     bool is_made = false;
     try {
-        is_made = link_all(path_, files, fresh) && link_all(target_, *others, fresh) &&
-                  take_attributes(target_, fresh);
-        write_names(path_ / kReplaced, files, outdated);
+        is_made = link_all(path_, files, fresh) && link_all(target_, *others, fresh);
+        Replaced replaced;
+        for (const fs::path& name : *others)
+            replaced[name.string()] = inode_of(fresh / name);
+        for (const fs::path& name : files)
+            replaced[name.string()] = kNoInode;
+        for (const std::string& name : outdated)
+            replaced[name] = kNoInode;
+        write_replaced(path_ / kReplaced, replaced);
         sync_to_disk(fresh);
         sync_to_disk(fresh.parent_path());
+        // Late: one that others can write into is not known as ours until it is in place.
+        is_made = is_made && take_attributes(target_, fresh);
     } catch (const std::exception&) {
         is_made = false;
     }
@@ -398,6 +462,8 @@ ResultsLock::ResultsLock(const std::string& folder)
     try {
         for (;;) {
             lock_.emplace(target, FolderLock::Kind::shared);
+            if (!lock_->keeps_others_out())
+                return;  // nor can it be told who is alive
             const std::vector<fs::path> works = work_folders(target);
             if (std::none_of(works.begin(), works.end(), is_committed))
                 return;

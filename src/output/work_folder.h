@@ -24,9 +24,10 @@ namespace lumel {
 ///    new one after it.
 /// 4. What others put into the old target since 2 is moved to the new one, and the old one is
 ///    removed: the new target. The next run does what is left of this.
+///    What somebody has changed or removed in the new target meanwhile stays so.
 ///
 /// That cannot be done where the target is a mount or the current folder, holds folders, very many
-/// files or what cannot be linked, or is not ours to make again, and where the file system knows no
+/// files or what cannot be linked, or is another user's, and where the file system knows no
 /// exchange. There instead of 2 to 4:
 /// 5. A list of what is to go from the target is made. It appears in one step, and that is the
 ///    step that replaces the results.
@@ -34,6 +35,10 @@ namespace lumel {
 ///    Lumel that read results take a lock that waits for the end of this (ResultsLock), or finish
 ///    it first if its process has died: every part of it may be repeated. They see all old files,
 ///    or all new ones. Another program that looks between two moves sees some of each.
+///
+/// A folder that another user owns or can write into is no work folder, whatever its name: its
+/// lists are not followed. Where the file system knows no locks, what a dead process has left stays
+/// until the user removes it.
 class WorkFolder {
 public:
     /// Finishes or removes what dead processes have left in the target, whatever it was for. Throws

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 #include <random>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,15 @@ int kills()
 {
     const char* given = std::getenv("LUMEL_KILLS");
     return given ? std::atoi(given) : 5;
+}
+
+/// A seed that differs from run to run, and is printed: LUMEL_KILL_SEED repeats a run.
+unsigned fresh_seed()
+{
+    const char* given = std::getenv("LUMEL_KILL_SEED");
+    const unsigned seed = given ? unsigned(std::atoll(given)) : std::random_device{}();
+    std::cout << "LUMEL_KILL_SEED=" << seed << '\n';
+    return seed;
 }
 
 double seconds_of(const std::function<void()>& work)
@@ -73,7 +83,7 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
     ASSERT_EQ(contents(place.path("out")), old);
 
     // Half of the moments are in the last tenth, where files are written and moved.
-    std::mt19937 random(std::random_device{}());
+    std::mt19937 random(fresh_seed());
     std::uniform_real_distribution<double> any(0.001, whole), late(0.9 * whole, 1.05 * whole);
     int kept = 0, replaced = 0, mixed = 0, left_over = 0, ended = 0;
     for (int k = 0; k < kills(); ++k) {
@@ -88,6 +98,7 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
     }
     std::cout << kills() << " kills: old " << kept << ", new " << replaced << " (too late " << ended
               << "), mixed " << mixed << ", left over after the next run " << left_over << '\n';
+    EXPECT_LT(ended, kills());
     EXPECT_EQ(mixed, 0);
     EXPECT_EQ(left_over, 0);
 }
@@ -117,7 +128,7 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
     double seconds = 0.0;
     seconds = seconds_of([&] { ASSERT_EQ(run_lumel(resumable(place.path("out"))).code, 0); });
     const auto whole = contents(place.path("whole"));
-    std::mt19937 random(std::random_device{}());
+    std::mt19937 random(fresh_seed());
     std::uniform_real_distribution<double> moment(0.0, seconds);
     const int most = 20 * kills();
     int same = 0, went_on = 0;
@@ -140,14 +151,17 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
     EXPECT_EQ(same, kills());
 }
 
-/// A folder in which a bake has left its checkpoint.
-void leave_checkpoint(const std::string& folder)
+/// A folder in which a bake has left its checkpoint. Returns after how long it was killed [s].
+double leave_checkpoint(const std::string& folder)
 {
-    for (double seconds = 0.5; !fs::exists(folder + "/.lumel-checkpoint"); seconds *= 1.2) {
+    double seconds = 0.5;
+    for (; !fs::exists(folder + "/.lumel-checkpoint"); seconds *= 1.2) {
         fs::remove_all(folder);
-        ASSERT_LT(seconds, 60.0);
+        if (seconds > 60.0)
+            throw std::runtime_error("no checkpoint appears");
         run_lumel(resumable(folder, {.error = "0.001"}), {.kill_after = seconds});
     }
+    return seconds;
 }
 
 TEST(Resume, RefusesACheckpointOfOtherWorkOrADamagedOne)
@@ -191,6 +205,45 @@ TEST(Resume, ABakeThatIsNotToGoOnRemovesTheCheckpoint)
     EXPECT_EQ(bake.code, 0) << bake.err;
     EXPECT_NE(bake.err.find("--resume"), std::string::npos) << bake.err;
     EXPECT_EQ(hidden(place.path("out")), std::vector<std::string>{});
+}
+
+TEST(Resume, ABakeThatIsStoppedLeavesTheCheckpointThatItDidNotGoOnFrom)
+{
+    const Workplace place;
+    leave_checkpoint(place.path("out"));
+    const std::string checkpoint = bytes_of(place.path("out/.lumel-checkpoint"));
+    const auto stop = [&](const Job& job) {
+        const Outcome stopped =
+            run_lumel(resumable(place.path("out"), job), {.interrupt_at = "rays per lumel"});
+        EXPECT_EQ(stopped.code, 130) << stopped.err;
+        EXPECT_EQ(bytes_of(place.path("out/.lumel-checkpoint")), checkpoint);
+    };
+    stop({.error = "0.001", .checkpoint = "60"});
+    stop({.error = "0.001", .checkpoint = "0"});
+    stop({.error = "0.001", .checkpoint = "0", .more = {"--resume"}});
+}
+
+TEST(Resume, ABakeThatIsStoppedLeavesNoCheckpointWhereNoneWas)
+{
+    const Workplace place;
+    const Outcome stopped = run_lumel(resumable(place.path("out"), {.error = "0.001"}),
+                                      {.interrupt_at = "rays per lumel"});
+    EXPECT_EQ(stopped.code, 130) << stopped.err;
+    EXPECT_EQ(hidden(place.path("out")), std::vector<std::string>{});
+}
+
+TEST(Resume, OnlyALongerBakeWritesItsCheckpointOverAnOlderOne)
+{
+    const Workplace place;
+    const double seconds = leave_checkpoint(place.path("out"));
+    const auto run = [&](double kill_after, std::vector<std::string> more) {
+        run_lumel(resumable(place.path("out"), {.error = "0.001", .more = std::move(more)}),
+                  {.kill_after = kill_after});
+        return bytes_of(place.path("out/.lumel-checkpoint"));
+    };
+    const std::string longer = run(2.0 * seconds, {"--resume"});
+    EXPECT_EQ(run(seconds, {}), longer);
+    EXPECT_NE(run(6.0 * seconds, {}), longer);
 }
 
 TEST(Resume, CtrlCKeepsWhatTheNextResumeGoesOnFrom)

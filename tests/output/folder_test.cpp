@@ -1,4 +1,7 @@
+#include <array>
+#include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -6,7 +9,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
 #include <sys/ptrace.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -287,12 +294,149 @@ TEST(OutputFolder, WhatOthersPutThereWhileItIsMadeAnewIsKept)
     put_old(old);
     write(old + "/late.txt", "mine too");
     fs::create_directory(old + "/.lumel-writing");
-    write(old + "/.lumel-writing/.replaced", "gone.txt\nc.txt\nb.txt\na.txt\n");
+    write(old + "/.lumel-writing/.replaced", "0 gone.txt\n0 c.txt\n0 b.txt\n0 a.txt\n");
+    for (const char* folder : {"", "/.lumel-writing"})
+        fs::permissions(old + folder, fs::perms::owner_all);
     auto expected = kNew;
     expected["late.txt"] = "mine too";
     OutputFolder next(place / "out");
     EXPECT_EQ(shown(place / "out"), expected);
     EXPECT_EQ(entries(place.path()), 1u);
+}
+
+TEST(OutputFolder, WhatTheUserHasDoneInTheNewFolderIsNotUndoneWhereAProcessHasDied)
+{
+    int seen = 0;
+    for (int call = 1;; ++call) {
+        const test::TemporaryFolder place;
+        const std::string folder = place / "out";
+        put_old(folder);
+        write(folder + "/dropped.txt", "mine");
+        if (!dies_at(call, [&] { put_new(folder); }))
+            break;
+        if (text_of(folder + "/a.txt") != "new")
+            continue;
+        ++seen;
+        write(folder + "/notes.tmp", "newer");
+        fs::rename(folder + "/notes.tmp", folder + "/notes.txt");
+        fs::remove(folder + "/dropped.txt");
+        put_new(folder);
+        auto expected = kNew;
+        expected["notes.txt"] = "newer";
+        ASSERT_EQ(contents(folder), expected) << "killed at system call " << call;
+    }
+    EXPECT_GT(seen, 3);
+}
+
+/// A work folder in `target`, whose lists ask to remove a.txt and to replace b.txt.
+std::string plant(const std::string& target)
+{
+    const std::string work = target + "/.lumel-writing-x";
+    fs::create_directories(work);
+    write(work + "/.committed", "a.txt\n");
+    write(work + "/b.txt", "theirs");
+    return work;
+}
+
+/// And an old target beside it, which asks to add late.txt.
+std::string plant_beside(const std::string& target)
+{
+    const fs::path path = target;
+    const std::string old = path.parent_path() / (".lumel-writing-" + path.filename().string());
+    fs::create_directories(old + "/.lumel-writing");
+    write(old + "/.lumel-writing/.replaced", "");
+    write(old + "/late.txt", "theirs");
+    return old;
+}
+
+void expect_not_followed(const std::string& folder)
+{
+    const ResultsLock reading(folder);
+    const OutputFile other(folder + "/picture.png");
+    EXPECT_EQ(shown(folder), kOld);
+}
+
+TEST(OutputFolder, ListsThatOthersCanHaveWrittenAreNotFollowed)
+{
+    const test::TemporaryFolder place;
+    const std::string folder = place / "out";
+    put_old(folder);
+    fs::permissions(plant(folder), fs::perms::all);
+    const std::string old = plant_beside(folder);
+    fs::permissions(old, fs::perms::all);
+    fs::permissions(old + "/.lumel-writing", fs::perms::all);
+    expect_not_followed(folder);
+    EXPECT_EQ(text_of(old + "/late.txt"), "theirs");
+}
+
+TEST(OutputFolder, ListsOfAnotherUserAreNotFollowed)
+{
+    if (geteuid() != 0)
+        GTEST_SKIP() << "only root can make a folder of another user's";
+    constexpr uid_t kOther = 1;
+    const test::TemporaryFolder place;
+    const std::string folder = place / "out";
+    put_old(folder);
+    const std::string old = plant_beside(folder);
+    for (const std::string& planted : {plant(folder), old, old + "/.lumel-writing"}) {
+        fs::permissions(planted, fs::perms::owner_all);
+        ASSERT_EQ(chown(planted.c_str(), kOther, gid_t(-1)), 0);
+    }
+    expect_not_followed(folder);
+    EXPECT_EQ(text_of(old + "/late.txt"), "theirs");
+}
+
+TEST(OutputFolder, NoOtherUserSeesUnfinishedResults)
+{
+    const test::TemporaryFolder place;
+    const OutputFolder out(place.path().string());
+    EXPECT_EQ(fs::status(place / ".lumel-writing").permissions(), fs::perms::owner_all);
+}
+
+/// From now on this process has a system that knows no locks.
+bool forget_locks()
+{
+    std::array<sock_filter, 4> filter = {
+        sock_filter BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+        sock_filter BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, __NR_flock, 0, 1),
+        sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | ENOSYS),
+        sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+    const sock_fprog program = {filter.size(), filter.data()};
+    return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+           prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+
+TEST(OutputFolder, WithoutLocksAProcessDoesNotRemoveItsOwnUnfinishedResults)
+{
+    const test::TemporaryFolder place;
+    const std::string folder = place / "out";
+    put_old(folder);
+    const pid_t child = fork();
+    if (child == 0) {
+        if (!forget_locks())
+            _exit(2);
+        try {
+            OutputFolder out(folder);
+            out.outdate("gone.txt");
+            write(out.path("a.txt"), "new");
+            write(out.path("b.txt"), "new");
+            OutputFile checkpoint(folder + "/c.txt");
+            write(checkpoint.path(), "new");
+            checkpoint.commit();
+            out.commit();
+            const ResultsLock reading(folder);
+        } catch (const std::exception&) {
+            _exit(1);
+        }
+        _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    if (WEXITSTATUS(status) == 2)
+        GTEST_SKIP() << "this system lets no process do without locks";
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_EQ(contents(folder), kNew);
 }
 
 TEST(OutputFolder, KeepsTheRightsOfTheFolderAndLinksToIt)
@@ -361,6 +505,7 @@ TEST(OutputFolder, AListOfWhatIsToGoReachesNothingOutsideTheFolder)
     const test::TemporaryFolder place;
     write(place / "mine.txt", "mine");
     fs::create_directories(place / "out/.lumel-writing");
+    fs::permissions(place / "out/.lumel-writing", fs::perms::owner_all);
     write(place / "out/.lumel-writing/.committed", "../mine.txt\n" + (place / "mine.txt") + "\n");
     const ResultsLock reading(place / "out");
     EXPECT_EQ(text_of(place / "mine.txt"), "mine");
