@@ -94,7 +94,7 @@ std::string bash_command(const CLI::App& program, const CLI::App& command)
 
 std::string bash_script(const CLI::App& program)
 {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::vector<std::string> first = names_of_commands(program);
     for (const std::string& option : names_of_options(program))
         first.push_back(option);
@@ -171,7 +171,7 @@ std::string zsh_command(const CLI::App& program, const CLI::App& command)
 
 std::string zsh_script(const CLI::App& program)
 {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     std::string text = fmt::format("#compdef {0}\n"
                                    "# zsh completion of {0}, printed by {0} completion zsh\n\n"
                                    "_{0}()\n{{\n"

@@ -19,7 +19,7 @@ std::string upper_case(std::string text)
 void add_row(std::vector<OptionSection>& sections, const CLI::Option& option,
              const std::string& command)
 {
-    const std::string title = option.get_group();
+    const std::string& title = option.get_group();
     auto section = std::find_if(sections.begin(), sections.end(),
                                 [&](const OptionSection& known) { return known.title == title; });
     if (section == sections.end())

@@ -107,7 +107,7 @@ std::string environment_section()
 
 std::string man_page(const CLI::App& program)
 {
-    const std::string name = program.get_name();
+    const std::string& name = program.get_name();
     // No date: the same program prints the same page.
     std::string text =
         fmt::format(".TH LUMEL 1 \"\" \"{} {}\" \"User Commands\"\n", name, plain(LUMEL_VERSION)) +
