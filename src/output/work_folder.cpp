@@ -170,6 +170,14 @@ Replaced read_replaced(const fs::path& path)
     return replaced;
 }
 
+void move_unless_there(const fs::path& from, const fs::path& to)
+{
+    if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) != 0 &&
+        errno != EEXIST)
+        throw fs::filesystem_error("cannot move", from, to,
+                                   std::error_code(errno, std::generic_category()));
+}
+
 /// Moves what others put into a target, before it was replaced but after its files were linked, to
 /// the new one. What they have changed or removed there since stays as it is.
 void give_back(const fs::path& old, const fs::path& target)
@@ -179,12 +187,13 @@ void give_back(const fs::path& old, const fs::path& target)
     fs::permissions(old, fs::perms::owner_all, ignored);
     const Replaced replaced = read_replaced(old / kWork / kReplaced);
     for (const fs::directory_entry& entry : fs::directory_iterator(old)) {
-        const fs::path from = entry.path(), name = from.filename(), to = target / name;
+        const fs::path& from = entry.path();
+        const fs::path name = from.filename(), to = target / name;
         if (name == kWork)
             continue;
         const auto known = replaced.find(name.string());
         if (known == replaced.end())
-            renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE);
+            move_unless_there(from, to);
         else if (known->second != kNoInode && inode_of(from) != known->second &&
                  inode_of(to) == known->second)
             fs::rename(from, to);  // saved anew in the old one, and untouched in the new
