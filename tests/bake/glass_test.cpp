@@ -91,10 +91,11 @@ SolverOptions gather()
 }
 
 // With stochastic layers the nearest of several pixels counts, each of which decides by chance
-// whether the pane blocks: it does too often.
+// whether the pane blocks: it does too often. The glossy method shoots from each lumel some nine
+// times, and the pane has lumels on both sides.
 INSTANTIATE_TEST_SUITE_P(By, Glass,
                          testing::Values(method("links", 256), method("stochastic", 6144),
-                                         method("glossy", 18432), method("directions", 24576),
+                                         method("glossy", 36864), method("directions", 24576),
                                          gather()),
                          [](const auto& test) {
                              return std::string(method_of(test.param.method).id);
