@@ -20,13 +20,15 @@ constexpr float kFar = std::numeric_limits<float>::max();
 
 /// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more
 /// before it looks anything up, and direct light is seen for there: so near, neither the cells of a
-/// lumel nor its parts are fine enough.
-constexpr float kTooNear = 0.25f;
+/// lumel nor its parts are fine enough. Next to a corner indirect light changes within a lumel,
+/// whose mean is all that is known: a first hit counts as near from further away. In hollow things
+/// all hits are near, time after time.
+constexpr float kTooNearAtFirst = 2.0f, kTooNear = 0.25f;
 /// Within so many sides what is met may be a sliver of a lumel that its cells know nothing of, as
 /// in a gap between two walls: light is looked up in a cell that sees it, or not at all.
 constexpr float kMayBeHidden = 1.0f;
 /// Reflections before that, at most.
-constexpr int kMostReflections = 4;
+constexpr int kMostReflections = 8;
 /// Lookups are checked by rays this far above the surfaces, in sides of the lumel.
 constexpr float kLift = 0.05f;
 /// Texels around a hit without a lumel that are searched for one.
@@ -215,13 +217,14 @@ void LinkTracer::meet(Wave& wave) const
         }
         const glm::vec3 position = ray.origin + hit.distance * ray.direction;
         const float sides = hit.distance / std::max(path.size, place_.lumels.lumels[j].size);
+        const float too_near = wave.reflections == 0 ? kTooNearAtFirst : kTooNear;
         wave.arrivals.push_back(
             {.ray = r,
              .lumel = j,
              .cell = cells_.cell(j, position),
              .position = position,
              .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
-             .goes_on = wave.reflections < kMostReflections && sides < kTooNear});
+             .goes_on = wave.reflections < kMostReflections && sides < too_near});
     }
 }
 
