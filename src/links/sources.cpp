@@ -375,8 +375,24 @@ SourceSample LightSources::from_polygons(const Source& source, const RayStart& s
         at.x = std::clamp(mark / factors[t], 0.0f, 0x1.fffffep-1f);
         sample = from_triangle(source, triangles_[source.first + t], factors[t] / sum, start, at);
     }
-    sample.open = sum * source.emission;
+    if (is_above_surface(source, start))
+        sample.open = sum * source.emission;
     return sample;
+}
+
+/// Form factors know the interpolated normal only: is all that it may see above the surface too?
+bool LightSources::is_above_surface(const Source& source, const RayStart& start) const
+{
+    if (start.geometric == start.normal)
+        return true;
+    const auto above = [&](const glm::vec3& corner) {
+        return glm::dot(start.geometric, corner - start.position) >= 0.0f;
+    };
+    return std::all_of(triangles_.begin() + source.first, triangles_.begin() + source.last,
+                       [&](const Triangle& triangle) {
+                           return std::all_of(std::begin(triangle.corner),
+                                              std::end(triangle.corner), above);
+                       });
 }
 
 /// Chooses among points on triangles drawn by power one by what it sends here. [TCE05]

@@ -76,6 +76,7 @@ private:
     SourceSample from_triangle(const Source& source, const Triangle& triangle, float chance,
                                const RayStart& start, const glm::vec2& at) const;
     SourceSample from_polygons(const Source& source, const RayStart& start, glm::vec2 at) const;
+    bool is_above_surface(const Source& source, const RayStart& start) const;
     SourceSample from_mesh(const Source& source, const RayStart& start, const glm::vec2& at) const;
     SourceSample from_lamp(const PunctualLight& light, const RayStart& start,
                            const glm::vec2& at) const;

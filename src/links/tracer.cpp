@@ -18,12 +18,13 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more
-/// before it looks anything up, and direct light is seen for there: so near, neither the cells of a
-/// lumel nor its parts are fine enough. Next to a corner indirect light changes within a lumel,
-/// whose mean is all that is known: a first hit counts as near from further away. In hollow things
-/// all hits are near, time after time.
-constexpr float kTooNearAtFirst = 2.0f, kTooNear = 0.25f;
+/// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more,
+/// and looks for direct light there: so near, neither the cells of a lumel nor its parts are fine
+/// enough.
+constexpr float kTooNear = 0.25f;
+/// A first hit nearer than this is reflected too, and has the direct light of the cell: next to a
+/// corner indirect light changes within a lumel, and is known for parts only.
+constexpr float kNear = 2.0f;
 /// Within so many sides what is met may be a sliver of a lumel that its cells know nothing of, as
 /// in a gap between two walls: light is looked up in a cell that sees it, or not at all.
 constexpr float kMayBeHidden = 1.0f;
@@ -59,6 +60,7 @@ struct LinkTracer::Arrival {
     std::uint32_t lumel, cell;
     glm::vec3 position;              ///< [m]
     bool may_be_hidden;              ///< from cells of the lumel
+    bool looks_around;               ///< finds direct light for itself, not by a cell
     bool goes_on;                    ///< reflected there
     bool is_hidden = false;          ///< no cell sees it
     std::uint32_t unseen_cells = 0;  ///< bit c: cell c was looked for, and is hidden
@@ -84,6 +86,7 @@ struct LinkTracer::Wave {
     Looks looks;
     std::vector<RaySpan> next_rays;
     std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
+    std::vector<std::uint32_t> looking;       ///< paths that look around
 
     Wave() { begin(); }
     void begin()
@@ -217,14 +220,16 @@ void LinkTracer::meet(Wave& wave) const
         }
         const glm::vec3 position = ray.origin + hit.distance * ray.direction;
         const float sides = hit.distance / std::max(path.size, place_.lumels.lumels[j].size);
-        const float too_near = wave.reflections == 0 ? kTooNearAtFirst : kTooNear;
+        const bool may_go_on = wave.reflections < kMostReflections;
         wave.arrivals.push_back(
             {.ray = r,
              .lumel = j,
              .cell = cells_.cell(j, position),
              .position = position,
              .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
-             .goes_on = wave.reflections < kMostReflections && sides < too_near});
+             .looks_around = may_go_on && sides < kTooNear,
+             .goes_on =
+                 may_go_on && sides < (wave.reflections == 0 ? kNear : kTooNear)});
     }
 }
 
@@ -235,7 +240,7 @@ void LinkTracer::find_seen_cells(Wave& wave) const
     std::vector<std::uint32_t>& open = wave.open;
     open.clear();
     for (std::uint32_t a = 0; a < wave.arrivals.size(); ++a)
-        if (!wave.arrivals[a].goes_on && wave.arrivals[a].may_be_hidden)
+        if (!wave.arrivals[a].looks_around && wave.arrivals[a].may_be_hidden)
             open.push_back(a);
     while (!open.empty()) {
         // One ray for each that has a cell left.
@@ -248,7 +253,7 @@ void LinkTracer::find_seen_cells(Wave& wave) const
                 return false;
             }
             arrival.is_hidden = true;
-            arrival.goes_on = wave.reflections < kMostReflections;
+            arrival.goes_on = arrival.looks_around = wave.reflections < kMostReflections;
             return true;
         });
         wave.passing.resize(wave.to_cells.size());
@@ -291,6 +296,7 @@ void LinkTracer::end_or_reflect(Wave& wave) const
 {
     wave.next_rays.clear();
     wave.next_path_of.clear();
+    wave.looking.clear();
     wave.looks.clear();
     for (const Arrival& arrival : wave.arrivals) {
         const std::uint32_t p = wave.path_of[arrival.ray];
@@ -298,8 +304,9 @@ void LinkTracer::end_or_reflect(Wave& wave) const
         const glm::vec3& albedo = place_.lumels.lumels[arrival.lumel].albedo;
         if (arrival.is_hidden && !arrival.goes_on)
             continue;
-        if (!arrival.goes_on) {
+        if (!arrival.looks_around)
             path.reflected += path.weight * albedo * direct_.at(arrival.lumel, arrival.cell);
+        if (!arrival.goes_on) {
             path.part = parts_.part(arrival.lumel, arrival.cell);
             path.met = Met::part;
             continue;
@@ -309,17 +316,19 @@ void LinkTracer::end_or_reflect(Wave& wave) const
             continue;
         wave.next_rays.push_back(reflect(wave, arrival, path, wave.looks));
         wave.next_path_of.push_back(p);
+        if (arrival.looks_around)
+            wave.looking.push_back(p);
     }
     wave.looks.cast(place_.caster);
-    for (std::uint32_t r = 0; r < wave.next_rays.size(); ++r) {
-        Path& path = wave.paths[wave.next_path_of[r]];
-        path.reflected += path.weight * direct_.light_of(wave.looks, r * direct_.looks_around());
+    for (std::uint32_t n = 0; n < wave.looking.size(); ++n) {
+        Path& path = wave.paths[wave.looking[n]];
+        path.reflected += path.weight * direct_.light_of(wave.looks, n * direct_.looks_around());
     }
     wave.rays.swap(wave.next_rays);
     wave.path_of.swap(wave.next_path_of);
 }
 
-/// Looks for light from where a path has arrived, and goes on from there.
+/// Looks for light from where a path has arrived, if it should, and goes on from there.
 RaySpan LinkTracer::reflect(const Wave& wave, const Arrival& arrival, Path& path,
                             Looks& looks) const
 {
@@ -333,8 +342,9 @@ RaySpan LinkTracer::reflect(const Wave& wave, const Arrival& arrival, Path& path
     const glm::vec3 origin =
         ray.origin + ray.direction * std::max(0.0f, hit.distance - lift_) + lift_ * normal;
     path.size = place_.lumels.lumels[arrival.lumel].size;
-    direct_.look_around({origin, normal, normal, arrival.cell}, path.size, path.samples.bits(pair),
-                        looks);
+    if (arrival.looks_around)
+        direct_.look_around({origin, normal, normal, arrival.cell}, path.size,
+                            path.samples.bits(pair), looks);
     return ray_out(origin, frame_about(normal) * by_cosine(path.samples.random(pair + 1)),
                    path.samples.bits(pair_of(wave.reflections + 1)));
 }
