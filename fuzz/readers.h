@@ -10,6 +10,7 @@ using Input = std::span<const std::uint8_t>;
 
 // Each reads the input as a file or text of its kind, and throws what the reader throws.
 void read_glb(Input input);         ///< scene.glb or .gltf, with its animation
+void rewrite_glb(Input input);      ///< the same, written again with a lightmap
 void read_image(Input input);       ///< PNG, JPEG
 void read_hdr(Input input);         ///< Radiance
 void read_exr(Input input);         ///< OpenEXR
@@ -26,11 +27,17 @@ struct Reader {
     void (*read)(Input);
 };
 inline constexpr Reader kReaders[] = {
-    {"glb", read_glb},       {"image", read_image},
-    {"hdr", read_hdr},       {"exr", read_exr},
-    {"ies", read_ies},       {"solution", read_solution},
-    {"report", read_report}, {"states", read_states},
-    {"matrix", read_matrix}, {"checkpoint", read_checkpoint},
+    {"glb", read_glb},
+    {"rewrite", rewrite_glb},
+    {"image", read_image},
+    {"hdr", read_hdr},
+    {"exr", read_exr},
+    {"ies", read_ies},
+    {"solution", read_solution},
+    {"report", read_report},
+    {"states", read_states},
+    {"matrix", read_matrix},
+    {"checkpoint", read_checkpoint},
     {"text", read_text},
 };
 
