@@ -190,13 +190,13 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
     run.curve = std::move(so_far.curve);
     if (!run.finished && solver.state().shots == 0)
         throw_stopped();
-    if (run.finished)
-        tell_missed(options, solver.state(), stages);
     if (solver.state().full)
         stages.warn(
             fmt::format("there is no memory for more rays: it ends at an estimated error "
                         "of {:.2g} %; allow more with --max-memory, or use a smaller --size",
                         100.0 * solver.state().error));
+    else if (run.finished)
+        tell_missed(options, solver.state(), stages);
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
                             method_of(options.method).shots, solver.state().iterations));
     stages.note_times(solver.times());
