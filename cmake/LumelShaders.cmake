@@ -106,6 +106,12 @@ function(lumel_shader_header target header name)
         COMMENT "Writing ${header}"
         VERBATIM)
     target_sources(${target} PRIVATE ${output})
+    if(LUMEL_FUZZ)
+        # A header alone, without the target and all that it links.
+        string(MAKE_C_IDENTIFIER ${header} alone)
+        add_custom_target(${alone} DEPENDS ${output})
+        set_property(GLOBAL APPEND PROPERTY LUMEL_SHADER_HEADERS ${alone})
+    endif()
     target_include_directories(${target} PUBLIC ${PROJECT_BINARY_DIR}/shaders)
 endfunction()
 

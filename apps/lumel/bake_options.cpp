@@ -49,6 +49,7 @@ Command bake_command(CLI::App& program)
     add_stop_options(command, bake.options.solver);
     add_resume_options(command, bake.options);
     add_device_option(command, bake.options.device);
+    add_memory_option(command, bake.options.max_memory);
     add_half_option(command, bake.options.half);
     add_keep_lights_option(command, bake.options.keep_lights);
     add_scene_file_options(command, bake.options);

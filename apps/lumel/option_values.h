@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,9 @@ CLI::Validator positive();
 
 /// Accepts finite numbers from `low` to `high`.
 CLI::Validator between(double low, double high);
+
+/// The bytes of "512M", "2G" or "1.5G"; nothing for what is no such size.
+std::optional<std::uint64_t> bytes_of(const std::string& text);
 
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;

@@ -221,6 +221,20 @@ void add_device_option(CLI::App& app, std::string& device)
         ->default_str("the best");
 }
 
+void add_memory_option(CLI::App& app, std::uint64_t& bytes)
+{
+    app.option_defaults()->group(kProgramGroup);
+    app.add_option_function<std::string>(
+           "--max-memory", [&bytes](const std::string& text) { bytes = *bytes_of(text); },
+           "Memory that the host and the device may each take, such as 512M or 2G: what needs more "
+           "is refused with a --size that fits, and links stop adding rays")
+        ->type_name("SIZE")
+        ->default_str("what they have")
+        ->check([](const std::string& text) -> std::string {
+            return bytes_of(text) ? "" : fmt::format("'{}' is no size such as 512M or 2G", text);
+        });
+}
+
 void add_dump_option(CLI::App& app, std::string& folder)
 {
     app.option_defaults()->group(kProgramGroup);

@@ -51,6 +51,9 @@ void add_directional_option(CLI::App& app, Directional& directional);
 
 void add_device_option(CLI::App& app, std::string& device);
 
+/// How much memory a bake may take [bytes].
+void add_memory_option(CLI::App& app, std::uint64_t& bytes);
+
 void add_dump_option(CLI::App& app, std::string& folder);
 
 void add_preview_option(CLI::App& app, int& width);

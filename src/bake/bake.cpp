@@ -8,6 +8,7 @@
 #include "bake/checkpoint.h"
 #include "bake/dump.h"
 #include "bake/lighting.h"
+#include "bake/memory_plan.h"
 #include "bake/outputs.h"
 #include "bake/sources.h"
 #include "core/log.h"
@@ -57,7 +58,10 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
         dump.emplace(options.dump, "dump");
     const gpu::Device device(options.device);
 
+    const MemoryLimits limits = memory_limits(options, device.info());
+    check_memory(scene, options, limits);
     const Setting setting(std::move(scene), device, options, stages);
+    options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
         keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)

@@ -32,6 +32,8 @@ struct BakeOptions {
     std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
     bool resume = false;               ///< goes on from a checkpoint, if one is there
     double checkpoint_seconds = 60.0;  ///< between two checkpoints, see Checkpoint; 0: none
+    /// Of the host and of the device each [bytes]; 0: what they have.
+    std::uint64_t max_memory = 0;
 };
 
 /// State of a running bake, for a progress display.

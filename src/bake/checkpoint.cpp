@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kMagic[] = "lumel checkpoint 1\n";
+constexpr char kMagic[] = "lumel checkpoint 2\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 

@@ -6,53 +6,18 @@
 #include <fmt/format.h>
 
 #include "bake/bake.h"
-#include "bake/lighting.h"
-#include "bake/shortage.h"
+#include "bake/memory_plan.h"
 #include "bake/sources.h"
 #include "core/error.h"
-#include "core/usage.h"
 #include "gpu/device.h"
-#include "gpu/staging.h"
 #include "nearfield/buried.h"
 #include "prepare/lit_sides.h"
 #include "prepare/prepare.h"
-#include "relight/relight_solver.h"
-#include "solve/methods.h"
 #include "world/occluders.h"
-#include "world/world.h"
 #include "json/json_file.h"
 
 namespace lumel {
 namespace {
-
-/// Bytes on the device, by what takes them. Direct light is gone before the solver is made.
-struct GraphicsMemory {
-    std::uint64_t staging = 0, world = 0, direct_light = 0, solver = 0, directional = 0;
-
-    std::uint64_t most() const
-    {
-        return staging + world + std::max(direct_light, solver + directional);
-    }
-};
-
-GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
-                               const BakeOptions& options)
-{
-    const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
-    const SolveSize size{
-        &prepared.lumels,
-        near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
-    return {.staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
-            .world = needs_world(options) ? World::device_bytes(prepared.lumels, occluders) : 0,
-            .direct_light = method_of(options.solver.method).finds_lights
-                                ? 0
-                                : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
-            .solver = keeps_sources_apart(options)
-                          ? RelightSolver::device_bytes(
-                                size, std::get<MatrixOptions>(options.solver.method))
-                          : solver_bytes(size, options.solver),
-            .directional = directional_bytes(size, directional_options(options, 0))};
-}
 
 Json json_of(const GraphicsMemory& bytes)
 {
@@ -61,6 +26,15 @@ Json json_of(const GraphicsMemory& bytes)
             {"direct_light", bytes.direct_light},
             {"solver", bytes.solver},
             {"directional", bytes.directional}};
+}
+
+Json json_of(const HostMemory& bytes)
+{
+    return {{"program", bytes.program},
+            {"scene", bytes.scene},
+            {"lumels", bytes.lumels},
+            {"solver", bytes.solver},
+            {"links", bytes.links}};
 }
 
 /// Buried lumels and open area, from looks at some of the lumels.
@@ -118,15 +92,14 @@ private:
     Prepared prepared_;
 };
 
-/// A sentence if the device that bakes take where none is named has less memory than that.
-std::string shortage_of_usual_device(std::uint64_t needed)
+/// A sentence if a bake does not fit on the device that is taken where none is named.
+std::string shortage_on_usual_device(const GraphicsMemory& device, const HostMemory& host, int side,
+                                     const BakeOptions& options)
 {
-    if (needed == 0)
-        return {};
     try {
         const std::vector<gpu::DeviceInfo> infos = gpu::list_devices();
         if (const gpu::DeviceInfo* best = gpu::best_of(infos))
-            return shortage(needed, *best, available_memory_bytes());
+            return shortage(device, host, side, memory_limits(options, *best));
     } catch (const Error&) {
         // What is wrong with devices, a bake says, and lumel devices.
     }
@@ -191,8 +164,12 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
+    const HostMemory host = host_memory(prepared, options);
+    json["host_memory_bytes"] = host.most();
+    json["host_memory_parts"] = json_of(host);
     std::vector<std::string> warnings = scene.warnings;
-    if (std::string text = shortage_of_usual_device(memory.most()); !text.empty())
+    if (std::string text = shortage_on_usual_device(memory, host, prepared.atlas.width, options);
+        !text.empty())
         warnings.push_back(std::move(text));
     json["warnings"] = warnings;
     json["notes"] = prepared.atlas.notes;
@@ -235,6 +212,8 @@ std::string text_of(const Json& json)
                                count("back_lumels"), count("buried_lumels")));
     line("graphics memory",
          fmt::format("about {:.1f} MiB", json["graphics_memory_bytes"].get<double>() / 1048576.0));
+    line("host memory",
+         fmt::format("about {:.1f} MiB", json["host_memory_bytes"].get<double>() / 1048576.0));
     for (const auto& warning : json["warnings"])
         line("warning", warning.get<std::string>());
     for (const auto& note : json["notes"])

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bake/checkpoint.h"
+#include "bake/memory_plan.h"
 #include "core/log.h"
 #include "prepare/lit_sides.h"
 #include "solve/methods.h"
@@ -45,10 +46,13 @@ Scene in_stage(Scene scene, Stages& stages)
     return scene;
 }
 
-NearField near_field_of(const Prepared& prepared, const SolverOptions& options, Stages& stages)
+NearField near_field_of(const Prepared& prepared, const gpu::Device& device,
+                        const BakeOptions& given, Stages& stages)
 {
+    const SolverOptions& options = given.solver;
     tell_user(prepared);
     note_sizes(prepared, stages);
+    check_memory(prepared, given, memory_limits(given, device.info()));
     if (!has_near_field(options.method))
         return {};
     stages.begin("near field");
@@ -122,7 +126,7 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
     : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.watch()),
-      near(near_field_of(prepared, options.solver, stages)),
+      near(near_field_of(prepared, device, options, stages)),
       world(world_on(device, prepared, options, stages)),
       particles(particles_for(prepared, options.solver))
 {
@@ -186,7 +190,12 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
     run.curve = std::move(so_far.curve);
     if (!run.finished && solver.state().shots == 0)
         throw_stopped();
-    if (run.finished)
+    if (solver.state().full)
+        stages.warn(
+            fmt::format("there is no memory for more rays: it ends at an estimated error "
+                        "of {:.2g} %; allow more with --max-memory, or use a smaller --size",
+                        100.0 * solver.state().error));
+    else if (run.finished)
         tell_missed(options, solver.state(), stages);
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
                             method_of(options.method).shots, solver.state().iterations));

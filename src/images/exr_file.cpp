@@ -24,18 +24,13 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "images/exr_claims.h"
 #include "images/image_files.h"
 
 namespace lumel {
 namespace {
 
 constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
-constexpr std::int64_t kMaxTexels = std::int64_t(1) << 28;  // 16384², 4 GiB as floats
-
-// No compression of EXR packs more bytes into one, roughly: deflate's limit is 1032, and DWA puts
-// a cosine transform before it.
-constexpr std::int64_t kLargestRatio = 1 << 17;
-
 // Collects the file in memory, so that it can be written, and fail, in one place.
 class MemoryStream : public Imf::OStream {
 public:
@@ -78,15 +73,6 @@ private:
     const Bytes& bytes_;
     std::size_t place_ = 0;
 };
-
-// Bytes of a texel of all channels, as they are before they are compressed.
-std::int64_t bytes_per_texel(const Imf::Header& header)
-{
-    std::int64_t bytes = 0;
-    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
-        bytes += channel.channel().type == Imf::HALF ? 2 : 4;
-    return bytes;
-}
 
 // A slice that reads or writes channel c of interleaved texels whose data window starts at (x, y).
 template <class T>
@@ -185,24 +171,17 @@ Image read_exr(const std::string& path, const std::string& layer)
 {
     try {
         const Bytes bytes = read_file(path, path);
+        check_exr_claims(bytes, path);
         MemoryFile stream(path, bytes);
         Imf::InputFile file(stream);
         const Imath::Box2i window = file.header().dataWindow();
-        const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
-        const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
-        if (width <= 0 || height <= 0 || width > kMaxTexels || width * height > kMaxTexels)
-            throw Error(ErrorKind::input, path, "has a header with an impossible size");
-        if (width * height > kLargestRatio * std::int64_t(bytes.size()) /
-                                 std::max(bytes_per_texel(file.header()), std::int64_t(1)))
-            throw Error(ErrorKind::input, path,
-                        "claims to hold more texels than its bytes can; it is damaged");
         for (int c = 0; c < 3; ++c)
             if (!file.header().channels().findChannel(channel_name(layer, c)))
                 throw Error(ErrorKind::input, path,
                             "has no channel " + channel_name(layer, c) +
                                 "; an RGB or RGBA image is needed");
 
-        Image image(int(width), int(height), 4);
+        Image image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, 4);
         Imf::FrameBuffer frame;
         for (int c = 0; c < 4; ++c)
             frame.insert(channel_name(layer, c),

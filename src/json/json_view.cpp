@@ -210,8 +210,16 @@ std::string quoted(const std::string& text)
 
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size)
 {
+    // What walks through a document calls itself for each level.
+    constexpr int kDeepest = 200;
+    const auto check_depth = [&](int depth, Json::parse_event_t, const Json&) {
+        if (depth > kDeepest)
+            throw Error(ErrorKind::input, file,
+                        "its JSON is nested more than " + std::to_string(kDeepest) + " deep");
+        return true;
+    };
     try {
-        return Json::parse(text, text + size);
+        return Json::parse(text, text + size, check_depth);
     } catch (const Json::parse_error& error) {
         const std::size_t stop = std::min(size, error.byte > 0 ? error.byte - 1 : 0);
         const auto line = 1 + std::count(text, text + stop, '\n');

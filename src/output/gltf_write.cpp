@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "images/image_files.h"
 #include "output/baked_materials.h"
@@ -85,11 +86,18 @@ void write(const std::string& path, GlbBuilder& builder)
     write_bytes(path, std::as_bytes(std::span(file)));
 }
 
+/// Of JSON that the reader does not look at, but that what is written is based on.
+[[noreturn]] void fail_to_rewrite(const Scene& scene, const Json::exception& error)
+{
+    throw Error(ErrorKind::input, scene.path,
+                std::string("cannot be written again as it is: ") + error.what());
+}
+
 }  // namespace
 
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& map, const SceneLights& lights)
-{
+try {
     const GltfDocument document = load_gltf_document(scene.path);
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
@@ -109,11 +117,13 @@ void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& a
     }
     tell_of_lightmap(builder.json, materials, kMapBeside);
     write(path, builder);
+} catch (const Json::exception& error) {
+    fail_to_rewrite(scene, error);
 }
 
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& shown)
-{
+try {
     const GltfDocument document = load_gltf_document(scene.path);
     GlbBuilder builder(document);
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
@@ -128,6 +138,8 @@ void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& a
     erase_extensions(builder.json);
     bind_emission(builder.json, materials, builder.add_texture("baked light", png));
     write(path, builder);
+} catch (const Json::exception& error) {
+    fail_to_rewrite(scene, error);
 }
 
 }  // namespace lumel

@@ -1,5 +1,6 @@
 #include "scene/gltf_document.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <utility>
 
@@ -52,6 +53,23 @@ void check_collections(const JsonView& root)
     for (const char* key : {"accessors", "buffers", "bufferViews", "cameras", "images", "materials",
                             "meshes", "nodes", "samplers", "scenes", "textures"})
         root.each(key, [](const JsonView& element, std::size_t) { element.as_object(); });
+}
+
+/// Every texture that materials name is there, also where it is not read: a written scene has it.
+void check_texture_uses(const JsonView& object, std::size_t textures)
+{
+    for (const auto& [name, value] : object.json().items()) {
+        if (!value.is_object())
+            continue;
+        const JsonView use = object.get(name.c_str());
+        if (name.ends_with("Texture") || name == "MOZ_lightmap") {
+            if (const auto index = use.find("index"))
+                index->index(textures, "textures");
+            if (const auto texcoord = use.find("texCoord"))
+                texcoord->integer(0, INT32_MAX);
+        }
+        check_texture_uses(use, textures);
+    }
 }
 
 Bytes load_buffer(const JsonView& view, const std::string& path, const Bytes* binary_chunk)
@@ -123,6 +141,9 @@ GltfDocument load_gltf_document(const std::string& path)
     root.each("buffers", [&](const JsonView& view, std::size_t i) {
         const bool has_chunk = i == 0 && chunks.binary_offset.has_value();
         document.buffers.push_back(load_buffer(view, path, has_chunk ? &binary_chunk : nullptr));
+    });
+    root.each("materials", [&](const JsonView& material, std::size_t) {
+        check_texture_uses(material, root.count("textures"));
     });
     check_buffer_views(document);
     check_accessors(document);

@@ -68,11 +68,29 @@ Claim png_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
-/// What stb says of the last failure; it does not know all of them.
+/// True if every chunk is as long as it says. The decoder takes memory by what they say.
+bool png_is_complete(const Bytes& bytes)
+{
+    constexpr std::size_t kFrame = 12;  // its length, its type and its checksum
+    for (std::size_t at = sizeof kPngSignature; at < bytes.size();) {
+        const std::size_t left = bytes.size() - at;
+        if (left < kFrame || big_endian(bytes, at) > left - kFrame)
+            return false;
+        if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0)
+            return true;
+        at += kFrame + big_endian(bytes, at);
+    }
+    return false;
+}
+
+/// What stb says of the last failure; it does not know all of them. It may quote the file.
 std::string why_not()
 {
     const char* reason = stbi_failure_reason();
-    return reason ? reason : "damaged data";
+    std::string text = reason ? reason : "damaged data";
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
 }
 
 Claim jpeg_claim(const Bytes& bytes, const std::string& place)
@@ -192,8 +210,8 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
     // Believe the claimed size only if it can be true, before any memory is taken for it.
     const Claim claim = png ? png_claim(bytes, place) : jpeg_claim(bytes, place);
     check_claim(claim, bytes.size(), place);
-    if (!png && !jpeg_is_complete(bytes))
-        fail(place, "is a JPEG image that is cut short");
+    if (png ? !png_is_complete(bytes) : !jpeg_is_complete(bytes))
+        fail(place, std::string("is a ") + (png ? "PNG" : "JPEG") + " image that is cut short");
 
     Texture texture;
     constexpr int kChannels = 4;

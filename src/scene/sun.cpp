@@ -24,6 +24,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "core/error.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {
@@ -33,9 +34,8 @@ constexpr double kSecondsPerDay = 86400.0;
 [[noreturn]] void refuse(const std::string& date_time)
 {
     throw Error(ErrorKind::input, "",
-                "'" + date_time +
-                    "' is not a date and time such as 2024-06-21T12:00:00Z (UTC) or "
-                    "2024-06-21T14:00:00+02:00");
+                quoted(date_time) + " is not a date and time such as 2024-06-21T12:00:00Z (UTC) or "
+                                    "2024-06-21T14:00:00+02:00");
 }
 
 /// How far local time is ahead of UTC [s]: "+02:00", "+0200" or "+02", or "Z" or nothing for UTC.

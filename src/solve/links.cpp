@@ -46,6 +46,8 @@ constexpr double kLeastMore = 0.4, kMostMore = 3.0;
 /// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMostRays = 4096;
+/// [bytes] A link; what a part keeps of each round in each solution: where its links begin.
+constexpr double kLinkBytes = sizeof(std::uint32_t), kPartBytes = 2 * sizeof(std::uint32_t);
 /// Share of its rays that go to all lumels alike.
 constexpr double kEvenShare = 0.25;
 /// Blocks of links that one step traces at the first round's number of rays.
@@ -157,6 +159,7 @@ LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, c
       target_error_(limits.target_error),
       target_dark_error_(limits.target_dark_error),
       most_shots_(limits.max_shots),
+      most_bytes_(limits.max_bytes),
       parts_wanted_(parts),
       lumels_(lumels),
       surfaces_(host.scene),
@@ -171,6 +174,11 @@ LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, c
 }
 
 LinkRadiosity::~LinkRadiosity() = default;
+
+std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels)
+{
+    return std::uint64_t(kSolutions * double(lumels) * (kFirstRays * kLinkBytes + kPartBytes));
+}
 
 void LinkRadiosity::step()
 {
@@ -240,6 +248,7 @@ void LinkRadiosity::read_state(StateReader& reader)
         return;
     cut();
     state(reader);
+    state_.full = false;
     check_sizes();
 }
 
@@ -286,6 +295,13 @@ void LinkRadiosity::cut()
 void LinkRadiosity::begin_round()
 {
     mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
+    const double fit = rays_that_fit();
+    if (state_.shots > 0 && fit < kLeastMore * double(state_.shots) / double(kSolutions)) {
+        state_.full = true;
+        stage_ = Stage::direct;  // of which there is nothing to do
+        return;
+    }
+    mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
     if (most_shots_ > state_.shots)
         mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
     share_out_rays();
@@ -311,6 +327,17 @@ double LinkRadiosity::more_rays() const
                           kMostMore * so_far);
     }
     return std::min(more, double(kMostRays));
+}
+
+/// Rays that each solution can have more, by the memory that their links take.
+double LinkRadiosity::rays_that_fit() const
+{
+    if (most_bytes_ == 0)
+        return kMostRays;
+    const double lumels = double(order_.size()), parts = double(parts_->count());
+    const double taken = double(state_.shots) * lumels * kLinkBytes +
+                         kSolutions * double(round_ + 1) * parts * kPartBytes;
+    return std::max(double(most_bytes_) - taken, 0.0) / (kSolutions * lumels * kLinkBytes);
 }
 
 /// What the square of each lumel's error counts [N]: where dark lumels are asked for, what they

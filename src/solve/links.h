@@ -29,8 +29,11 @@ public:
                   const LinksOptions& options, const SolverOptions& limits, Parts parts);
     ~LinkRadiosity() override;
 
-    /// Bytes on the device: none. On the host it takes host_bytes.
+    /// Bytes on the device: none.
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
+
+    /// Bytes on the host that the links of the first round take.
+    static std::uint64_t first_bytes(std::size_t lumels);
 
     /// Rays of a lumel count as shots.
     void step() override;
@@ -70,6 +73,7 @@ private:
     double share_of_direct(const Errors& now) const;
     bool refine_direct();
     double more_rays() const;
+    double rays_that_fit() const;
     std::vector<double> weights() const;
     glm::vec3 indirect(std::size_t lumel, std::size_t solution) const;
     glm::vec3 brought(std::size_t lumel, std::size_t solution) const;
@@ -81,6 +85,7 @@ private:
     const LinksOptions options_;
     const double target_error_, target_dark_error_;
     const std::uint64_t most_shots_;  ///< 0: no limit
+    const std::uint64_t most_bytes_;  ///< of links, 0: no limit
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;

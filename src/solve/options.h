@@ -86,6 +86,7 @@ struct SolverOptions {
     double max_seconds = 0.0;        ///< 0: no limit. Of a bake: from its beginning
     double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
     double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
+    std::uint64_t max_bytes = 0;     ///< of the host that links may take, 0: no limit
 };
 
 // What most methods have, and what stands for it in the others.

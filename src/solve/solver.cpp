@@ -28,6 +28,8 @@ bool solve(Solver& solver, const SolverOptions& options,
             met(state.error, options.target_error) &&
             met(state.dark_error, options.target_dark_error))
             return true;
+        if (state.full)
+            return true;
         solver.step();
     }
 }

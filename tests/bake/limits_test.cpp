@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bake/memory_plan.h"
 #include "bake/setting.h"
-#include "bake/shortage.h"
 #include "core/log.h"
 #include "solve/solver.h"
 
@@ -79,19 +79,36 @@ TEST(Error, ThatWasMissedIsAWarning)
               1u);
 }
 
-TEST(Memory, ThatIsNotThereIsASentence)
+constexpr std::uint64_t kMebibyte = 1 << 20;
+const gpu::DeviceInfo kCard{.name = "Card", .type = "discrete", .memory_bytes = 100 * kMebibyte};
+const gpu::DeviceInfo kSoftware{.name = "llvmpipe", .type = "cpu", .memory_bytes = kMebibyte};
+
+/// What is said of a bake of 1024 × 1024 texels that takes `device` and `host` [MiB].
+std::string shortage_of(std::uint64_t device, std::uint64_t host, const MemoryLimits& limits)
 {
-    constexpr std::uint64_t kMebibyte = 1 << 20;
-    const gpu::DeviceInfo card{.name = "Card", .type = "discrete", .memory_bytes = 100 * kMebibyte};
-    const gpu::DeviceInfo software{.name = "llvmpipe", .type = "cpu", .memory_bytes = kMebibyte};
-    EXPECT_EQ(shortage(100 * kMebibyte, card, 50 * kMebibyte), "");
-    const std::string sentence = shortage(101 * kMebibyte, card, 500 * kMebibyte);
-    EXPECT_NE(sentence.find("101.0 MiB"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("Card has 100.0 MiB"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("--size"), std::string::npos) << sentence;
-    EXPECT_EQ(shortage(101 * kMebibyte, software, 500 * kMebibyte), "");
-    EXPECT_NE(shortage(501 * kMebibyte, software, 500 * kMebibyte), "");
-    EXPECT_EQ(shortage(501 * kMebibyte, software, 0), "");
+    return shortage({.solver = device * kMebibyte}, {.lumels = host * kMebibyte}, 1024, limits);
+}
+
+TEST(Memory, ThatIsNotThereIsASentenceWithASizeThatFits)
+{
+    const MemoryLimits card = memory_limits(0, kCard, 500 * kMebibyte);
+    EXPECT_EQ(shortage_of(100, 500, card), "");
+    const std::string sentence = shortage_of(400, 1, card);
+    for (const char* part : {"400.0 MiB of graphics memory", "Card has 100.0 MiB", "1024 × 1024",
+                             "--size 480 or less"})  // half, and some to spare
+        EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
+    EXPECT_NE(shortage_of(1, 501, card).find("501.0 MiB of host memory"), std::string::npos);
+    EXPECT_EQ(shortage_of(101, 1, memory_limits(0, kSoftware, 500 * kMebibyte)), "");
+    EXPECT_NE(shortage_of(501, 1, memory_limits(0, kSoftware, 500 * kMebibyte)), "");
+    EXPECT_EQ(shortage_of(501, 1, memory_limits(0, kSoftware, 0)), "");
+}
+
+TEST(Memory, ThatIsAllowedBoundsDeviceAndHostEach)
+{
+    const MemoryLimits limits = memory_limits(200 * kMebibyte, kCard, 50 * kMebibyte);
+    EXPECT_EQ(shortage_of(200, 200, limits), "");
+    for (const std::string& sentence : {shortage_of(201, 1, limits), shortage_of(1, 201, limits)})
+        EXPECT_NE(sentence.find("--max-memory allows 200.0 MiB"), std::string::npos) << sentence;
 }
 
 }  // namespace

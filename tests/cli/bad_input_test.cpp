@@ -70,6 +70,35 @@ TEST(BadInput, ASceneOfNothing)
                    {"void.gltf"});
 }
 
+TEST(BadInput, BothSidesWhereTheLightOfEachSourceIsKept)
+{
+    const Workplace place;
+    for (const char* sides : {"both", "auto"}) {
+        const std::vector<std::string> what = {own_scene("sealed-box.gltf"),
+                                               "--solver",
+                                               "matrix",
+                                               "--patches",
+                                               "16",
+                                               "--size",
+                                               "16",
+                                               "--sides",
+                                               sides};
+        std::vector<std::string> info = {"info"}, bake = {"bake"};
+        info.insert(info.end(), what.begin(), what.end());
+        bake.insert(bake.end(), what.begin(), what.end());
+        bake.insert(bake.begin() + 2, place.path("out"));
+        if (std::string(sides) == "both") {
+            for (const auto& arguments : {info, bake})
+                expect_one_sentence(run_lumel(arguments), 2, {"--sides both", "scene.lumelmat"});
+            EXPECT_TRUE(place.listing().empty());
+        } else {
+            for (const auto& arguments : {info, bake})
+                EXPECT_EQ(run_lumel(arguments).code, 0);
+            EXPECT_TRUE(std::filesystem::exists(place.path("out/scene.lumelmat")));
+        }
+    }
+}
+
 TEST(BadInput, MapsToCompareMustBeExrFiles)
 {
     const Workplace place;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -145,6 +146,56 @@ TEST(ExrFile, AHeaderThatClaimsFarMoreThanTheFileHoldsIsAnInputError)
     }
     std::ofstream(path, std::ios::binary) << bytes;
     EXPECT_THROW(read_exr(path), Error);
+}
+
+/// What is said of an EXR after `from` in its header was replaced by `to`.
+std::string error_with(const std::string& from, const std::string& to)
+{
+    const test::TemporaryFolder folder;
+    write_exr(folder / "a.exr", gradient(4, 4, 3), Precision::float16, {{"note", "word"}});
+    std::vector<char> bytes = test::bytes_of(folder / "a.exr");
+    const auto place = std::search(bytes.begin(), bytes.end(), from.begin(), from.end());
+    EXPECT_NE(place, bytes.end());
+    std::copy(to.begin(), to.end(), place);
+    std::ofstream(folder / "a.exr", std::ios::binary)
+        .write(bytes.data(), std::streamsize(bytes.size()));
+    try {
+        read_exr(folder / "a.exr");
+        return "";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        return error.what();
+    }
+}
+
+std::string with_zeros(const char* text, std::size_t size)
+{
+    return {text, size};
+}
+
+// The library takes memory for these before it looks whether there is anything; it would have
+// failed later and with other words.
+
+TEST(ExrFile, AnAttributeLargerThanTheFileIsRefusedBeforeMemoryIsTakenForIt)
+{
+    EXPECT_NE(
+        error_with(with_zeros("string\0\4\0\0\0word", 15), with_zeros("string\0\4\0\0\x60word", 15))
+            .find("its header is cut short"),
+        std::string::npos);
+}
+
+TEST(ExrFile, AnAttributeOfAnotherSizeThanItsTypeIsRefused)
+{
+    EXPECT_NE(error_with(with_zeros("float\0\4\0\0\0", 10), with_zeros("float\0\5\0\0\0", 10))
+                  .find("wrong size"),
+              std::string::npos);
+}
+
+TEST(ExrFile, MoreRowsThanTheFileHasPlacesOfIsRefusedBeforeMemoryIsTakenForThem)
+{
+    const std::string window("dataWindow\0box2i\0\x10\0\0\0\0\0\0\0\0\0\0\0\3\0\0\0", 33);
+    std::string tall = window + std::string("\xff\xff\xff\0", 4);
+    EXPECT_NE(error_with(window, tall).find("claims to hold more texels"), std::string::npos);
 }
 
 TEST(ExrFile, APipeThatNobodyWritesToIsRefused)

@@ -13,6 +13,7 @@
 #include "hand_atlas.h"
 #include "images/image_files.h"
 #include "output/gltf_write.h"
+#include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
 
 namespace lumel {
@@ -513,6 +514,22 @@ TEST_F(TwoQuads, BakingAgainReplacesTheOlderLightmap)
     EXPECT_EQ(test::bytes_of(folder_ / "again.glb").size(), first.size());
 }
 
+TEST_F(TwoQuads, AnOlderLightmapWithAnImageThatIsNotThereIsReplacedToo)
+{
+    constexpr std::size_t kNotThere = 99;
+    Json json = file();
+    json["extensionsUsed"] = {"MOZ_lightmap", "KHR_texture_basisu"};
+    json["images"].push_back({{"uri", "red.png"}});
+    json["textures"].push_back(
+        {{"source", 1}, {"extensions", {{"KHR_texture_basisu", {{"source", kNotThere}}}}}});
+    json["materials"][0]["extensions"]["MOZ_lightmap"] = {{"index", 1}};
+    json["nodes"][2].erase("mesh");  // nobody else shows the older map
+    const Json written = lit(json);
+    EXPECT_EQ(written["images"].size(), 3u);  // red, and the map in two forms
+    for (const Json& image : written["images"])
+        EXPECT_TRUE(image.is_object()) << image;
+}
+
 TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
 {
     const Scene before = scene(file());
@@ -541,6 +558,67 @@ std::string without_marks(const std::string& path, const std::string& copy)
         text.replace(at, mark.size(), unknown);
     std::ofstream(copy, std::ios::binary) << text;
     return copy;
+}
+
+/// Each element of an attribute.
+std::vector<glm::vec4> attribute(const GltfDocument& document, const Json& primitive,
+                                 const char* name)
+{
+    const std::vector<float> values =
+        to_floats(read_accessor(document, primitive["attributes"][name].get<std::size_t>()));
+    const std::size_t each = std::string(name) == "TANGENT" ? 4 : 3;
+    std::vector<glm::vec4> elements(values.size() / each, glm::vec4(0.0f));
+    for (std::size_t i = 0; i < values.size(); ++i)
+        elements[i / each][int(i % each)] = values[i];
+    return elements;
+}
+
+/// What a texel of a normal map makes of the normal.
+glm::vec3 bent(const glm::vec3& normal, const glm::vec4& tangent, const glm::vec3& texel)
+{
+    return texel.x * glm::vec3(tangent) +
+           texel.y * tangent.w * glm::cross(normal, glm::vec3(tangent)) + texel.z * normal;
+}
+
+// glTF turns the bent normal of double-sided materials where the back is seen.
+TEST_F(TwoQuads, BacksBendTheirNormalsAsBacksOfDoubleSidedSurfacesDo)
+{
+    constexpr glm::vec3 kNormal(0.0f, 0.0f, 1.0f), kTexel(0.3f, 0.5f, 0.8f);
+    constexpr glm::vec4 kTangent(0.6f, 0.8f, 0.0f, 1.0f);
+    std::ofstream bytes(folder_ / "tangents.bin", std::ios::binary);
+    for (int i = 0; i < 4; ++i)
+        bytes.write(reinterpret_cast<const char*>(&kNormal), sizeof kNormal);
+    for (int i = 0; i < 4; ++i)
+        bytes.write(reinterpret_cast<const char*>(&kTangent), sizeof kTangent);
+    bytes.close();
+    Json json = file();
+    json["buffers"].push_back({{"uri", "tangents.bin"}, {"byteLength", 112}});
+    json["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 48}});
+    json["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 48}, {"byteLength", 64}});
+    json["accessors"].push_back(
+        {{"bufferView", 2}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
+    json["accessors"].push_back(
+        {{"bufferView", 3}, {"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});
+    json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 2;
+    json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = 3;
+    json["materials"][0]["doubleSided"] = true;
+
+    const Scene read = scene(json);
+    const Atlas atlas = with_own_backs(test::corner_atlas(read));
+    write_scene_glb(folder_ / "out.glb", read, atlas, test::any_map(atlas));
+    const GltfDocument written =
+        load_gltf_document(without_marks(folder_ / "out.glb", folder_ / "viewed.glb"));
+    const auto mesh = written.json["nodes"][0]["mesh"].get<std::size_t>();
+    const Json& primitives = written.json["meshes"][mesh]["primitives"];
+    ASSERT_EQ(primitives.size(), 2u);
+    const auto normals = attribute(written, primitives[1], "NORMAL"),
+               tangents = attribute(written, primitives[1], "TANGENT");
+    ASSERT_FALSE(normals.empty());
+    ASSERT_EQ(normals.size(), tangents.size());
+    for (std::size_t i = 0; i < normals.size(); ++i)
+        EXPECT_LT(glm::distance(bent(glm::vec3(normals[i]), tangents[i], kTexel),
+                                -bent(kNormal, kTangent, kTexel)),
+                  1e-6f);
 }
 
 TEST(GltfWrite, HasAFaceForEachSideAndIsReadAsDoubleSidedAgain)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
+#include "scene/split_sides.h"
 
 using namespace lumel;
 using namespace lumel::test;
@@ -157,4 +158,42 @@ TEST(Document, DeeplyNestedJsonDoesNotOverflowTheStack)
     const TempFolder folder;
     const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
     EXPECT_NE(error_of_file(folder.write("a.gltf", "{\"asset\": " + deep + "}")), "");
+}
+
+TEST(Document, JsonThatIsNestedWithoutEndIsRefused)
+{
+    constexpr std::size_t kDepth = 100'000;
+    GltfBuilder builder = one_triangle();
+    builder.json["extras"] = "here";
+    std::string text = builder.json.dump();
+    const std::string mark = "\"here\"";
+    text.replace(text.find(mark), mark.size(), std::string(kDepth, '[') + std::string(kDepth, ']'));
+    const TempFolder folder;
+    EXPECT_TRUE(contains(error_of_file(folder.write("deep.gltf", text)), "nested more than"));
+}
+
+TEST(Document, TexturesThatMaterialsNameMustBeThereThoughNobodyReadsThem)
+{
+    for (const char* name : {"normalTexture", "MOZ_lightmap"})
+        for (const Json& index : {Json(1), Json("0"), Json(-1)}) {
+            GltfBuilder builder = one_triangle();
+            Json material = {{"extensions", {{"AN_extension", {{name, {{"index", index}}}}}}}};
+            builder.push("materials", material);
+            EXPECT_TRUE(contains(error_of(builder), std::string(name) + "/index"));
+        }
+}
+
+TEST(SplitSides, MaterialsOfVariantsBecomeDoubleSidedAgainToo)
+{
+    Json gltf = Json::parse(R"({"materials": [{}, {}, {}, {}], "meshes": [{"primitives": [
+        {"material": 0, "extensions": {"KHR_materials_variants": {"mappings": [
+            {"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}]}}},
+        {"material": 0}]}]})");
+    mark_side(gltf["meshes"][0]["primitives"][0], MarkedSide::front);
+    mark_side(gltf["meshes"][0]["primitives"][1], MarkedSide::back);
+    join_sides(gltf);
+    EXPECT_EQ(gltf["meshes"][0]["primitives"].size(), 1u);
+    for (std::size_t material = 0; material < 3; ++material)
+        EXPECT_TRUE(gltf["materials"][material].value("doubleSided", false)) << material;
+    EXPECT_FALSE(gltf["materials"][3].contains("doubleSided"));
 }

@@ -73,6 +73,25 @@ TEST(Images, JpegIsDecodedAsOpaque)
     EXPECT_EQ(texture.rgba[3], 255);
 }
 
+TEST(Images, AChunkLongerThanTheFileIsRefusedBeforeMemoryIsTakenForIt)
+{
+    Bytes png = small_png();
+    constexpr std::size_t kFirstChunk = 8, kHeaderChunk = 25;
+    png[kFirstChunk + kHeaderChunk] = 0x3F;  // of IDAT: 1 GiB
+    EXPECT_TRUE(contains(error_with_image(png), "is a PNG image that is cut short"));
+}
+
+TEST(Images, AChunkOfAnyNameGivesOneLine)
+{
+    Bytes png = small_png();
+    constexpr std::size_t kNameOfSecondChunk = 8 + 25 + 4;
+    for (std::size_t i = 0; i < 4; ++i)
+        png[kNameOfSecondChunk + i] = '\n';
+    const std::string error = error_with_image(png);
+    EXPECT_NE(error, "");
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
 TEST(Images, HugeClaimsAreRefusedBeforeDecoding)
 {
     EXPECT_TRUE(contains(error_with_image(claiming(65536, 32768)), "65536 x 32768 pixels"));

@@ -90,6 +90,17 @@ TEST(Sun, DatesAreReadOrRefused)
         EXPECT_THROW(seconds_since_2000(text), Error) << text;
 }
 
+TEST(Sun, ADateThatIsNoneIsRefusedInOneLine)
+{
+    try {
+        seconds_since_2000("2024\n06\x1b[31m");
+        FAIL() << "was read";
+    } catch (const Error& error) {
+        for (const char letter : std::string(error.what()))
+            EXPECT_GE(static_cast<unsigned char>(letter), ' ');
+    }
+}
+
 TEST(ClearSky, LightsAPlaneAsThePracticeSays)
 {
     for (const double degrees : {2.0, 20.0, 60.0, 90.0}) {

@@ -1,0 +1,24 @@
+#include <sstream>
+
+#include "core/state_bytes.h"
+#include "links/tracer.h"
+#include "readers.h"
+#include "record/report.h"
+
+namespace lumel::fuzz {
+
+void read_checkpoint(Input input)
+{
+    std::istringstream stream(std::string(input.begin(), input.end()));
+    StateReader reader(stream, input.size(), "checkpoint");
+    // As a checkpoint begins, then what stands for all that solvers keep.
+    std::string version, scene;
+    double seconds = 0.0;
+    std::vector<ConvergencePoint> curve;
+    Gathered gathered(0);
+    std::map<std::string, double> times;
+    reader(version, scene, seconds, curve, gathered, times);
+    reader.finish();
+}
+
+}  // namespace lumel::fuzz

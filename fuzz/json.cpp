@@ -1,0 +1,28 @@
+// Readers of JSON beside glTF.
+
+#include "bake/states_file.h"
+#include "memory_file.h"
+#include "record/bake_record.h"
+#include "record/solver_settings.h"
+#include "json/json_file.h"
+
+namespace lumel::fuzz {
+
+void read_report(Input input)
+{
+    const std::string path = "report.json";
+    const Json report = parse_json(path, input.data(), input.size());
+    const BakeRecord record = record_of(JsonView(path, report), "");
+    const Json written = solver_settings(record.solver);
+    const JsonView settings(path, written);
+    require(solver_settings(solver_options_of(settings)) == written,
+            "what was read can be written, and is read the same");
+}
+
+void read_states(Input input)
+{
+    const MemoryFile file(input);
+    require(!lumel::read_states(file.path()).empty(), "there is a state");
+}
+
+}  // namespace lumel::fuzz
