@@ -51,7 +51,8 @@ void expect_agreement(const gpu::Device& device, const Scene& scene)
     std::size_t other_hits = 0, other_passing = 0, clear = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
         other_hits += !support::same(by_host[i], by_query[i]);
-        other_passing += !(glm::distance(passing_host[i], passing_query[i]) < support::kHitRounding);
+        other_passing +=
+            !(glm::distance(passing_host[i], passing_query[i]) < support::kHitRounding);
         clear += passing_host[i] != glm::vec3(0.0f);
     }
     EXPECT_LE(double(other_hits), kOnEdges * kRays);

@@ -1,0 +1,84 @@
+// Links whose rays are cast by drawing, against those of the host.
+
+#include "../bake/solved.h"
+#include "../query/rooms.h"
+
+namespace lumel {
+namespace {
+
+/// As many rays for all: an error to stop at may be reached a round earlier by one of them.
+support::Solved solved(const Prepared& world, const LinksOptions& method, std::uint64_t rays)
+{
+    return support::solve_scene(world,
+                                {.method = method, .max_shots = rays, .target_error = 0.0});
+}
+
+/// Mean of |difference| in terms of the mean.
+double apart(const std::vector<glm::vec3>& one, const std::vector<glm::vec3>& other)
+{
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            difference += std::abs(double(one[i][c]) - double(other[i][c]));
+            sum += double(other[i][c]);
+        }
+    return difference / sum;
+}
+
+double power(const Lumels& lumels, const std::vector<glm::vec3>& light)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        sum += double(lumels.lumels[i].area) * double(light[i].r + light[i].g + light[i].b);
+    return sum;
+}
+
+/// The host is asked for the same rays, and for directions of each lumel's own.
+void expect_agreement(const Prepared& world)
+{
+    constexpr std::uint64_t kRays = 192;
+    const support::Solved raster = solved(world, {.rays = Rays::raster}, kRays);
+    const support::Solved same =
+        solved(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
+    const support::Solved own = solved(world, {.rays = Rays::host}, kRays);
+    EXPECT_EQ(raster.state.shots, same.state.shots);
+    const double difference = apart(raster.irradiance, same.irradiance);
+    const double level =
+        power(world.lumels, raster.irradiance) / power(world.lumels, own.irradiance) - 1.0;
+    std::printf("%.5f %% apart, %.3f %% more light than by own directions (%.2f, %.2f %% stated)\n",
+                100.0 * difference, 100.0 * level, 100.0 * raster.state.error,
+                100.0 * own.state.error);
+    EXPECT_LE(difference, 0.005);
+    EXPECT_NEAR(level, 0.0, 0.005);
+    EXPECT_NEAR(raster.state.error, same.state.error, 0.02 * same.state.error);
+}
+
+TEST(LinksByRaster, LightTheCornellBoxAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("cornell-box"), {.size = 64}));
+}
+
+TEST(LinksByRaster, LightTwoRoomsAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("two-rooms"), {.size = 64}));
+}
+
+TEST(LinksByRaster, LightAFurnishedRoomAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("room"), {.size = 96}));
+}
+
+TEST(LinksByRaster, PassGlassCutOutsAndVeilsAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::room_with_curtains(), {.size = 48}));
+}
+
+TEST(LinksByRaster, GiveTheSameBytesAgain)
+{
+    const Prepared world(support::scene_path("cornell-box"), {.size = 32});
+    EXPECT_EQ(solved(world, {.rays = Rays::raster}, 48).irradiance,
+              solved(world, {.rays = Rays::raster}, 48).irradiance);
+}
+
+}  // namespace
+}  // namespace lumel
