@@ -39,6 +39,8 @@ constexpr double kTrianglesPerPixel = 2.0;
 static_assert(kListed >= kMostSide * kMostSide, "a triangle alone has room");
 /// Around the scene, so that rays that start on its edge have a pixel [pixels].
 constexpr float kBorder = 1.0f;
+/// Small scenes are drawn in several views by one call, which is then of so many boxes at most.
+constexpr std::uint32_t kMostBoxes = 1u << 16;
 /// Indices of the two triangles that make the box around one.
 constexpr std::uint32_t kIndices = 6;
 /// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
@@ -69,13 +71,19 @@ std::uint32_t slots_for(const gpu::Device& device, std::uint32_t side)
         std::min({kMostSlots, device.max_image_side() / side, kMostPixels / (side * side)}));
 }
 
-std::vector<std::uint32_t> box_indices(std::uint32_t triangles)
+/// Views of one draw call.
+std::uint32_t views_at_once(std::uint32_t triangles, std::uint32_t slots)
+{
+    return std::clamp(kMostBoxes / std::max(triangles, 1u), 1u, slots);
+}
+
+std::vector<std::uint32_t> box_indices(std::uint32_t boxes)
 {
     std::vector<std::uint32_t> indices;
-    indices.reserve(std::size_t(kIndices) * triangles);
-    for (std::uint32_t t = 0; t < triangles; ++t)
+    indices.reserve(std::size_t(kIndices) * boxes);
+    for (std::uint32_t box = 0; box < boxes; ++box)
         for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u})
-            indices.push_back(4 * t + corner);
+            indices.push_back(4 * box + corner);
     return indices;
 }
 
@@ -122,7 +130,7 @@ struct Go {
     std::vector<std::uint32_t> which;  ///< [rays] of all
 };
 
-/// A part of the views with a part of the triangles.
+/// A part of the views with all triangles, or one with a part of them.
 struct Job {
     std::uint32_t view, views, triangle, triangles;
 };
@@ -141,7 +149,8 @@ struct BundleCaster::Data {
     const RayScene& rays;
     DeviceTriangles triangles;
     std::uint32_t side, slots;
-    std::uint32_t at_once;  ///< views of the next drawing
+    std::uint32_t per_call;  ///< views of a draw call
+    std::uint32_t at_once;   ///< views of the next drawing
     gpu::Raster<shaders::BundleCaster> raster;
     gpu::Kernel<shaders::BundleCasterCast> tester;
     gpu::Commands commands;
@@ -162,11 +171,12 @@ BundleCaster::Data::Data(const gpu::Device& device, const RayScene& scene)
       triangles(scene),
       side(side_for(triangles.count())),
       slots(slots_for(able_to_list(device), side)),
+      per_call(views_at_once(triangles.count(), slots)),
       at_once(slots),
       raster(device, {.depth_test = false}),
       tester(device),
       commands(device, gpu::Timing::off),
-      indices(device, box_indices(triangles.count())),
+      indices(device, box_indices(triangles.count() * per_call)),
       depth(device, gpu::Pixel::depth, side, side * slots),
       views(device, kMostViews),
       heads(device, std::size_t(side) * side * slots),
@@ -195,13 +205,17 @@ void BundleCaster::Data::draw(const Job& job)
                                        .lists = lists,
                                        .used = used},
                                       {}, indices);
-    for (std::uint32_t slot = 0; slot < job.views; ++slot)
-        drawing.draw({.view = job.view + slot,
-                      .slot = slot,
-                      .slots = slots,
-                      .side = side,
-                      .capacity = kListed},
-                     {kIndices * job.triangle, kIndices * job.triangles});
+    for (std::uint32_t slot = 0; slot < job.views; slot += per_call) {
+        const std::uint32_t more = std::min(per_call, job.views - slot) - 1;
+        drawing.draw(
+            {.view = job.view + slot,
+             .slot = slot,
+             .slots = slots,
+             .side = side,
+             .triangles = triangles.count(),
+             .capacity = kListed},
+            {kIndices * job.triangle, kIndices * (job.triangles + more * triangles.count())});
+    }
     commands.end_pass();
 }
 

@@ -11,6 +11,7 @@ layout(location = 0) flat in vec2 a;
 layout(location = 1) flat in vec2 b;
 layout(location = 2) flat in vec2 c;
 layout(location = 3) flat in uint triangle;
+layout(location = 4) flat in uint top;  // of the view in the image [pixels]
 
 // Half a pixel, and more than what rounding moves [pixels].
 const float kReach = 0.5 + 1.0 / 64.0;
@@ -26,7 +27,7 @@ bool parted(vec2 edge, vec2 centre)
 
 void main()
 {
-    const vec2 centre = gl_FragCoord.xy - vec2(0, p.slot * p.side);
+    const vec2 centre = gl_FragCoord.xy - vec2(0, top);
     if (parted(b - a, centre) || parted(c - b, centre) || parted(a - c, centre))
         discard;
     const uint index = atomicAdd(used, 1u);

@@ -37,10 +37,11 @@ struct BundleHit {
 /// Push constants of bundle_caster.vert and .frag. Views lie below one another in an image.
 struct BundleDrawParams {
     uint view;
-    uint slot;      ///< where it lies
-    uint slots;     ///< of the image
-    uint side;      ///< of a view [pixels]
-    uint capacity;  ///< of the lists
+    uint slot;       ///< where it lies
+    uint slots;      ///< of the image
+    uint side;       ///< of a view [pixels]
+    uint triangles;  ///< of the scene; the next view follows after them
+    uint capacity;   ///< of the lists
 };
 
 /// Push constants of bundle_caster.cast.comp.

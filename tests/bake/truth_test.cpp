@@ -16,6 +16,9 @@ const auto kEverySolver =
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 
+/// Drawings are slow without a GPU, and so many fewer rays are enough.
+constexpr std::uint64_t kFewerDrawn = 8;
+
 MethodOptions method_named(const std::string& name)
 {
     return name == "raster" ? LinksOptions{.rays = Rays::raster} : support::method(name);
@@ -33,6 +36,9 @@ SolverOptions with_shots(SolverOptions options, std::uint64_t shooters, const Lu
 {
     options.target_error = 0.0;
     options.max_shots = shooters;
+    if (const auto* links = std::get_if<LinksOptions>(&options.method))
+        if (links->rays == Rays::raster)
+            options.max_shots /= kFewerDrawn;
     if (auto* gather = std::get_if<GatherOptions>(&options.method)) {
         gather->batch = 64;
         gather->hemicube = gathering.hemicube;
