@@ -2,8 +2,8 @@
 #include "bundles/bundle_caster.shared.h"
 #include "bundles/bundle_caster.glsl"
 
-// Corners of the pixels around a triangle: four vertices for each of all triangles in a view, and in
-// the views that follow. The pixels that a triangle does not touch are left out by the next stage.
+// Corners of the pixels around a triangle: four vertices for each triangle in a view, then in the
+// views that follow. The pixels that a triangle does not touch are left out by the next stage.
 
 layout(push_constant, scalar) uniform Params { BundleDrawParams p; };
 layout(scalar) readonly buffer Views { BundleView views[]; };
