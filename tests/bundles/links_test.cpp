@@ -117,7 +117,7 @@ TEST(SharedDirections, PassGlassCutOutsAndVeilsAsOwnOnesDo)
 /// true. Sixteen do not, nor do they cost accuracy.
 TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
 {
-    const Prepared world(support::scene_path("cornell-box"), {.size = 64});
+    const Prepared world(support::scene_path("cornell-box"), {.size = 128});
     const auto truth = [&](std::uint32_t seed) {
         return solved(world, {.seed = seed, .rays = Rays::host}, 1536).irradiance;
     };
