@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "bundles/bundle_caster.h"
 #include "links/looks.h"
 #include "links/sources.h"
 #include "nearfield/hit_lumels.h"
@@ -17,7 +18,8 @@ struct LinkScene {
     const Scene& scene;
     const Surfaces& surfaces;
     const RayScene& rays;
-    const RayCaster& caster;  ///< of the same rays
+    const RayCaster& caster;      ///< of the same rays
+    const BundleCaster* bundles;  ///< of those that share directions; null: they go the same way
     const Atlas& atlas;
     const Lumels& lumels;
 };

@@ -77,6 +77,8 @@ struct LinkTracer::Wave {
     std::vector<RaySpan> rays;
     std::vector<std::uint32_t> path_of;  ///< [rays]
     std::vector<RayHit> hits;            ///< [rays or more]
+    std::vector<std::uint32_t> along;    ///< [rays] before any is reflected: of shared directions
+    bool is_cast = false;                ///< hits are known before any is reflected
     std::vector<Arrival> arrivals;
 
     // Of one reflection; kept so as to be allocated once.
@@ -96,6 +98,7 @@ struct LinkTracer::Wave {
         paths.clear();
         rays.clear();
         path_of.clear();
+        along.clear();
     }
 };
 
@@ -160,18 +163,33 @@ std::uint32_t LinkTracer::lumel_near(const RayHit& hit) const
 }
 
 /// Rays that lumel i sends out.
-void LinkTracer::add(std::uint32_t i, std::uint32_t rays, std::uint32_t stream, Wave& wave) const
+void LinkTracer::add(std::uint32_t i, const Sending& sending, Wave& wave) const
 {
-    const bool buried = (place_.lumels.lumels[i].flags & kLumelBuried) != 0;
-    const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, stream), i);
-    for (std::uint32_t k = 0; k < (buried ? 0u : rays); ++k) {
+    const Lumel& lumel = place_.lumels.lumels[i];
+    const std::uint32_t rays = (lumel.flags & kLumelBuried) != 0 ? 0u : sending.rays[i];
+    const std::uint32_t own = PathSamples::hash(PathSamples::hash(seed_, sending.stream), i);
+    std::optional<CosineDraw> shared;
+    if (sending.shared) {
+        const auto width = std::uint32_t(place_.lumels.width);
+        shared.emplace(*sending.shared,
+                       sending.shared->set(lumel.texel % width, lumel.texel / width));
+    }
+    for (std::uint32_t k = 0; k < rays; ++k) {
         const PathSamples samples(own, k);
         const RayStart start = starts_.start(i, samples.stratified(kStartPair));
-        const glm::vec3 direction =
-            frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
+        std::uint32_t along = 0;
+        glm::vec3 direction;
+        if (shared) {
+            const float at = (float(k) + samples.random(kDirectionPair).x) / float(rays);
+            along = shared->draw(start.normal, at);
+            direction = sending.shared->all()[along];
+        } else {
+            direction = frame_about(start.normal) * by_cosine(samples.stratified(kDirectionPair));
+        }
         if (start.cosine(direction) > 0.0f) {
             wave.path_of.push_back(std::uint32_t(wave.paths.size()));
             wave.rays.push_back(ray_out(start.position, direction, samples.bits(kPassPair)));
+            wave.along.push_back(along);
         }
         wave.paths.push_back(
             {.samples = samples, .from = parts_.part(i, start.cell), .size = world_[i].size});
@@ -180,12 +198,33 @@ void LinkTracer::add(std::uint32_t i, std::uint32_t rays, std::uint32_t stream, 
     wave.paths_before.push_back(std::uint32_t(wave.paths.size()));
 }
 
+/// Casts the rays of waves before they are followed, all together.
+void LinkTracer::cast_bundles(const SharedDirections& shared, std::vector<Wave>& waves) const
+{
+    std::vector<std::uint32_t> along;
+    std::vector<RaySpan> rays;
+    for (const Wave& wave : waves) {
+        along.insert(along.end(), wave.along.begin(), wave.along.end());
+        rays.insert(rays.end(), wave.rays.begin(), wave.rays.end());
+    }
+    std::vector<RayHit> hits(rays.size());
+    place_.bundles->closest({shared.all(), along, rays}, hits);
+    auto next = hits.begin();
+    for (Wave& wave : waves) {
+        const auto end = next + std::ptrdiff_t(wave.rays.size());
+        wave.hits.assign(next, end);
+        wave.is_cast = true;
+        next = end;
+    }
+}
+
 void LinkTracer::follow(Wave& wave) const
 {
     for (wave.reflections = 0; !wave.rays.empty(); ++wave.reflections) {
         const std::size_t count = wave.rays.size();
         wave.hits.resize(std::max(wave.hits.size(), count));
-        place_.caster.closest(wave.rays, std::span(wave.hits).first(count));
+        if (wave.reflections > 0 || !wave.is_cast)
+            place_.caster.closest(wave.rays, std::span(wave.hits).first(count));
         meet(wave);
         find_seen_cells(wave);
         end_or_reflect(wave);
@@ -380,43 +419,75 @@ void LinkTracer::keep(const Wave& wave, std::size_t n, LinkBlock& block, Gathere
     }
 }
 
-void LinkTracer::trace_blocks(std::size_t first, std::size_t last,
-                              const std::vector<std::uint16_t>& rays, std::uint32_t stream,
+/// Takes over what a wave has found, whose lumels are those of order_ from `first` on.
+void LinkTracer::keep_all(const Wave& wave, std::size_t first, Gathered& into) const
+{
+    for (std::size_t n = 0; n < wave.lumels.size(); ++n) {
+        LinkBlock& block = into.rounds.back()[(first + n) / kLinkBlock];
+        if (block.first.empty()) {
+            block.first.push_back(0);
+            block.first_weak.push_back(0);
+        }
+        keep(wave, n, block, into);
+    }
+}
+
+void LinkTracer::trace_blocks(std::size_t first, std::size_t last, const Sending& sending,
                               Gathered& into) const
 {
-    const std::size_t begin = first * kLinkBlock;
     const std::size_t end = std::min(last * kLinkBlock, order_.size());
-    for (std::size_t b = first; b < last; ++b) {
-        into.rounds.back()[b].first.push_back(0);
-        into.rounds.back()[b].first_weak.push_back(0);
-    }
     Wave wave;
-    for (std::size_t o = begin, kept = begin; o < end; ++o) {
-        add(order_[o], rays[order_[o]], stream, wave);
+    for (std::size_t o = first * kLinkBlock; o < end; ++o) {
+        add(order_[o], sending, wave);
         if (wave.paths.size() < place_.caster.batch() && o + 1 < end)
             continue;
         follow(wave);
-        for (std::size_t n = 0; n < wave.lumels.size(); ++n, ++kept)
-            keep(wave, n, into.rounds.back()[kept / kLinkBlock], into);
+        keep_all(wave, o + 1 - wave.lumels.size(), into);
         wave.begin();
+    }
+}
+
+/// The same by bundles: a drawing serves all of the blocks.
+void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sending& sending,
+                               Gathered& into) const
+{
+    std::vector<Wave> waves(last - first);
+    const auto for_each_wave = [&](const auto& what) {
+        parallel_for(waves.size(), 1, [&](std::size_t from, std::size_t to) {
+            for (std::size_t w = from; w < to; ++w)
+                what(waves[w], (first + w) * kLinkBlock);
+        });
+    };
+    for_each_wave([&](Wave& wave, std::size_t begin) {
+        for (std::size_t o = begin; o < std::min(begin + kLinkBlock, order_.size()); ++o)
+            add(order_[o], sending, wave);
+    });
+    cast_bundles(*sending.shared, waves);
+    for_each_wave([&](Wave& wave, std::size_t begin) {
+        follow(wave);
+        keep_all(wave, begin, into);
+    });
+}
+
+void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sending,
+                       Gathered& into) const
+{
+    if (sending.shared && place_.bundles) {
+        trace_bundles(first, last, sending, into);
+    } else {
+        const std::size_t end = std::min(last * kLinkBlock, order_.size());
+        std::size_t all = 1;
+        for (std::size_t o = first * kLinkBlock; o < end; ++o)
+            all += sending.rays[order_[o]];
+        const std::size_t grain = place_.caster.batch() * (last - first) / all;
+        parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
+            trace_blocks(first + from, first + to, sending, into);
+        });
     }
     for (std::size_t b = first; b < last; ++b) {
         into.rounds.back()[b].target.shrink_to_fit();
         into.rounds.back()[b].weak.shrink_to_fit();
     }
-}
-
-void LinkTracer::trace(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
-                       std::uint32_t stream, Gathered& into) const
-{
-    const std::size_t end = std::min(last * kLinkBlock, order_.size());
-    std::size_t all = 1;
-    for (std::size_t o = first * kLinkBlock; o < end; ++o)
-        all += rays[order_[o]];
-    const std::size_t grain = place_.caster.batch() * (last - first) / all;
-    parallel_for(last - first, grain, [&](std::size_t from, std::size_t to) {
-        trace_blocks(first + from, first + to, rays, stream, into);
-    });
 }
 
 }  // namespace lumel

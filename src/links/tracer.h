@@ -10,6 +10,7 @@
 
 #include "links/cells.h"
 #include "links/direct.h"
+#include "links/shared_directions.h"
 #include "paths/samples.h"
 
 namespace lumel {
@@ -75,10 +76,14 @@ public:
 
     std::size_t blocks() const { return (order_.size() + kLinkBlock - 1) / kLinkBlock; }
 
-    /// Traces rays[i] rays from each lumel i of blocks [first, last) into the last round of `into`;
-    /// powers of two stratify best. stream: of random numbers.
-    void trace(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
-               std::uint32_t stream, Gathered& into) const;
+    /// Rays that lumels send out.
+    struct Sending {
+        const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
+        std::uint32_t stream;                    ///< of random numbers
+        const SharedDirections* shared;          ///< null: every lumel has directions of its own
+    };
+    /// Traces those of blocks [first, last) into the last round of `into`.
+    void trace(std::size_t first, std::size_t last, const Sending& sending, Gathered& into) const;
 
 private:
     enum class Met { part, sky, nothing, lost };
@@ -86,7 +91,8 @@ private:
     struct Arrival;
     struct Wave;
 
-    void add(std::uint32_t lumel, std::uint32_t rays, std::uint32_t stream, Wave& wave) const;
+    void add(std::uint32_t lumel, const Sending& sending, Wave& wave) const;
+    void cast_bundles(const SharedDirections& shared, std::vector<Wave>& waves) const;
     void follow(Wave& wave) const;
     void meet(Wave& wave) const;
     void find_seen_cells(Wave& wave) const;
@@ -95,8 +101,11 @@ private:
     RaySpan reflect(const Wave& wave, const Arrival& arrival, Path& path, Looks& looks) const;
     void keep(const Wave& wave, std::size_t lumel, LinkBlock& block, Gathered& into) const;
     std::uint32_t lumel_near(const RayHit& hit) const;
-    void trace_blocks(std::size_t first, std::size_t last, const std::vector<std::uint16_t>& rays,
-                      std::uint32_t stream, Gathered& into) const;
+    void keep_all(const Wave& wave, std::size_t first, Gathered& into) const;
+    void trace_blocks(std::size_t first, std::size_t last, const Sending& sending,
+                      Gathered& into) const;
+    void trace_bundles(std::size_t first, std::size_t last, const Sending& sending,
+                       Gathered& into) const;
 
     const LinkScene place_;
     const LightSources& sources_;

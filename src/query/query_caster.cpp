@@ -14,6 +14,7 @@
 #include "gpu/commands.h"
 #include "gpu/triangle_tree.h"
 #include "query/query_caster.cast.comp.h"
+#include "rays/device_triangles.h"
 
 namespace lumel {
 namespace {
@@ -27,62 +28,20 @@ constexpr std::size_t kMostRays = 4 * kBatch;
 constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// The triangles of a scene as the device numbers them: parts that are solid, then those that may
-/// let light pass.
-struct Numbering {
-    std::vector<std::size_t> parts;     ///< in the order of their triangles
-    std::vector<std::uint32_t> before;  ///< [parts] triangles
-    std::uint32_t solid = 0;            ///< triangles
-    std::uint32_t all = 0;
-
-    explicit Numbering(const RayScene& rays)
-    {
-        for (const bool passable : {false, true}) {
-            for (std::size_t part = 0; part < rays.parts(); ++part)
-                if (rays.may_let_pass(part) == passable) {
-                    parts.push_back(part);
-                    before.push_back(all);
-                    all += std::uint32_t(rays.corners(part).size() / 3);
-                }
-            if (!passable)
-                solid = all;
-        }
-    }
-
-    struct Place {
-        std::size_t part;
-        std::uint32_t triangle;
-    };
-    Place place(std::uint32_t triangle) const
-    {
-        const auto next = std::upper_bound(before.begin(), before.end(), triangle);
-        const auto n = std::size_t(next - before.begin()) - 1;
-        return {parts[n], triangle - before[n]};
-    }
-};
-
 gpu::TriangleTree make_tree(const gpu::Device& device, const RayScene& rays,
-                            const Numbering& numbering)
+                            const DeviceTriangles& triangles)
 {
     if (!device.can_query_rays())
         throw Error(ErrorKind::device, "--rays query",
                     device.info().name +
                         " has no ray queries (VK_KHR_ray_query); use --rays host, or choose a "
                         "device that has them with --device");
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> corners;
-    for (const std::size_t part : numbering.parts) {
-        const auto first = std::uint32_t(positions.size());
-        const std::vector<glm::vec3> own = rays.positions(part);
-        positions.insert(positions.end(), own.begin(), own.end());
-        for (const std::uint32_t corner : rays.corners(part))
-            corners.push_back(first + corner);
-    }
-    const std::span<const std::uint32_t> all(corners);
-    const std::size_t solid = 3 * std::size_t(numbering.solid);
+    const DeviceTriangles::Mesh mesh = triangles.mesh(rays);
+    const std::span<const std::uint32_t> all(mesh.corners);
+    const std::size_t solid = 3 * std::size_t(triangles.solid());
     const gpu::TriangleTree::Triangles lists[] = {{.corners = all.first(solid), .opaque = true},
                                                   {.corners = all.subspan(solid), .opaque = false}};
-    return {device, positions, lists};
+    return {device, mesh.positions, lists};
 }
 
 /// Rays that are still on their way, of a longer list.
@@ -104,8 +63,8 @@ class QueryCaster final : public RayCaster {
 public:
     QueryCaster(const gpu::Device& device, const RayScene& rays)
         : rays_(rays),
-          numbering_(rays),
-          tree_(make_tree(device, rays, numbering_)),
+          triangles_(rays),
+          tree_(make_tree(device, rays, triangles_)),
           cast_(device),
           commands_(device, gpu::Timing::off),
           sent_(device, kMostRays, gpu::Buffer::Place::host, "rays to cast"),
@@ -121,11 +80,11 @@ public:
     const char* name() const override { return "query"; }
 
 private:
-    bool has_passable() const { return numbering_.solid < numbering_.all; }
+    bool has_passable() const { return triangles_.solid() < triangles_.count(); }
     /// The tint of what gets through; empty if the ray ends here.
     std::optional<glm::vec3> passing(const CastHit& hit, std::uint32_t seed) const
     {
-        const auto [part, triangle] = numbering_.place(hit.triangle);
+        const auto [part, triangle] = triangles_.place(hit.triangle);
         return rays_.passing(part, triangle, hit.barycentric, seed);
     }
     std::vector<CastHit> cast(std::span<const CastRay> rays, std::uint32_t wanted) const;
@@ -133,7 +92,7 @@ private:
                       std::span<CastHit> hits) const;
 
     const RayScene& rays_;
-    Numbering numbering_;
+    DeviceTriangles triangles_;
     gpu::TriangleTree tree_;
     gpu::Kernel<shaders::QueryCasterCast> cast_;
     mutable std::mutex mutex_;  ///< of what follows, and of the device
@@ -159,13 +118,13 @@ void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits)
             if (one.triangle == kNoTriangle)
                 continue;
             const std::uint32_t i = going.which[n];
-            if (one.triangle >= numbering_.solid)
+            if (one.triangle >= triangles_.solid())
                 if (const auto tint = passing(one, rays[i].seed)) {
                     hits[i].tint *= *tint;
                     next.add(i, rays[i], kBehind * one.distance);
                     continue;
                 }
-            const auto [part, triangle] = numbering_.place(one.triangle);
+            const auto [part, triangle] = triangles_.place(one.triangle);
             const glm::vec3 tint = hits[i].tint;
             hits[i] = rays_.hit(part, triangle, one.barycentric, one.distance, rays[i].direction);
             hits[i].tint = tint;
@@ -225,7 +184,7 @@ void QueryCaster::cast_at_once(std::span<const CastRay> rays, std::uint32_t want
     commands_.copy(sent_.buffer(), asked_.buffer(), rays.size_bytes());
     commands_.dispatch(
         cast_, {.triangles = tree_, .rays = asked_, .hits = found_},
-        {.rays = std::uint32_t(rays.size()), .wanted = wanted, .solid = numbering_.solid},
+        {.rays = std::uint32_t(rays.size()), .wanted = wanted, .solid = triangles_.solid()},
         rays.size());
     commands_.copy(found_.buffer(), returned_.buffer(), hits.size_bytes());
     commands_.run();

@@ -93,7 +93,7 @@ struct Report {
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
     std::uint64_t directional_shots = 0;  ///< 0: no directional layers
-    std::string rays;                     ///< what cast the method's: "host" or "query"
+    std::string rays;                     ///< what cast the method's: "host", "query" or "raster"
     double estimated_error = -1.0;        ///< relative, < 0: not known
     double estimated_dark_error = -1.0;   ///< of lumels below a third of the mean, of their own
     bool interrupted = false;

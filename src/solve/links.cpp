@@ -32,6 +32,7 @@
 #include "core/luminance.h"
 #include "core/state_bytes.h"
 #include "links/deviation.h"
+#include "links/shared_directions.h"
 #include "paths/samples.h"
 #include "query/query_caster.h"
 #include "solve/methods.h"
@@ -52,6 +53,8 @@ constexpr double kLinkBytes = sizeof(std::uint32_t), kPartBytes = 2 * sizeof(std
 constexpr double kEvenShare = 0.25;
 /// Blocks of links that one step traces at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
+/// The same where they are drawn, which costs the same for more of them: a million rays (200 MB).
+constexpr std::size_t kBlocksPerDrawing = 512;
 /// Direct light is found better if its variance is so many times what it should be; in one go at
 /// most to this share of what it is.
 constexpr double kTooUncertain = 1.25, kLeastDirect = 1.0 / 16.0;
@@ -70,8 +73,9 @@ constexpr double kDarkest = 1e-2;
 /// Key of the lumels' order: cells of the scene along each axis, within which lumels are sorted by
 /// the side that they face.
 constexpr double kOrderCells = 32.0;
-/// Random streams: of parts, of direct light, and of links of the solutions.
-constexpr std::uint32_t kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
+/// Random streams: of directions that are shared, of parts, of direct light, and of links of the
+/// solutions.
+constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
 
 /// Lumels such that neighbours in space that face alike come together: their rays meet the same
 /// things.
@@ -120,17 +124,36 @@ std::vector<char> buried(const Lumels& lumels)
     return result;
 }
 
+/// What something makes; null, and a word of it, where the device cannot.
+template <class Make>
+auto unless_refused(const Make& make) -> decltype(make())
+{
+    try {
+        return make();
+    } catch (const Error& error) {
+        log_info(std::string("the host casts the rays: ") + error.what());
+        return nullptr;
+    }
+}
+
+std::unique_ptr<BundleCaster> bundles_for(const gpu::Device& device, const RayScene& rays,
+                                          Rays wanted)
+{
+    const auto make = [&] { return std::make_unique<BundleCaster>(device, rays); };
+    if (wanted == Rays::raster)
+        return make();
+    const bool draws = !device.can_query_rays() && device.info().type != "cpu";
+    return wanted == Rays::automatic && draws ? unless_refused(make) : nullptr;
+}
+
 std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
 {
+    const auto make = [&] { return cast_by_queries(device, rays); };
     if (wanted == Rays::query)
-        return cast_by_queries(device, rays);
-    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu") {
-        try {
-            return cast_by_queries(device, rays);
-        } catch (const Error& error) {
-            log_info(std::string("the host casts the rays: ") + error.what());
-        }
-    }
+        return make();
+    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu")
+        if (auto queries = unless_refused(make))
+            return queries;
     return cast_on_host(rays);
 }
 
@@ -163,8 +186,9 @@ LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, c
       parts_wanted_(parts),
       lumels_(lumels),
       surfaces_(host.scene),
+      bundles_(bundles_for(device, host.rays, options.rays)),
       caster_(caster_for(device, host.rays, options.rays)),
-      place_{host.scene, surfaces_, host.rays, *caster_, host.atlas, lumels},
+      place_{host.scene, surfaces_, host.rays, *caster_, bundles_.get(), host.atlas, lumels},
       world_(host.scene, host.rays, lumels),
       cells_(world_),
       starts_(world_, cells_, host.rays.lift(), options.rule == SampleRule::centre),
@@ -203,13 +227,7 @@ void LinkRadiosity::step()
     }
     case Stage::links: {
         const Clock clock(times_["links"]);
-        const std::size_t count =
-            std::max(std::size_t(double(kBlocksPerStep * kFirstRays) / mean_rays_), std::size_t(1));
-        const std::size_t last = std::min(traced_ + count, tracer_->blocks());
-        for (std::uint32_t k = 0; k < kSolutions; ++k)
-            tracer_->trace(traced_, last, rays_, kLinkStream + kSolutions * round_ + k,
-                           *gathered_[k]);
-        traced_ = last;
+        trace();
         if (traced_ == tracer_->blocks())
             stage_ = Stage::solve;
         break;
@@ -289,6 +307,27 @@ void LinkRadiosity::cut()
     solver_.emplace(lumels_, world_, *parts_, order_);
     for (std::optional<Gathered>& gathered : gathered_)
         gathered.emplace(parts_->count());
+}
+
+/// A step of the round's rays.
+void LinkRadiosity::trace()
+{
+    const std::size_t blocks = bundles_ ? kBlocksPerDrawing : kBlocksPerStep;
+    const std::size_t count =
+        std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
+    const std::size_t last = std::min(traced_ + count, tracer_->blocks());
+    const std::uint32_t side =
+        bundles_ && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+    for (std::uint32_t k = 0; k < kSolutions; ++k) {
+        const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
+        std::optional<SharedDirections> shared;
+        if (side > 0)
+            shared.emplace(
+                side, mean_rays_,
+                PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
+        tracer_->trace(traced_, last, {rays_, stream, shared ? &*shared : nullptr}, *gathered_[k]);
+    }
+    traced_ = last;
 }
 
 /// As many rays as the error still asks for, within limits.

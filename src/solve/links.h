@@ -41,7 +41,7 @@ public:
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return 0.0; }
-    std::string rays() const override { return caster_->name(); }
+    std::string rays() const override { return bundles_ ? "raster" : caster_->name(); }
     void write_state(StateWriter& writer) override;
     void read_state(StateReader& reader) override;
 
@@ -62,6 +62,7 @@ private:
     void state(Archive& archive);
     void check_sizes() const;
     void cut();
+    void trace();
     void begin_round();
     void share_out_rays();
     void end_round();
@@ -89,6 +90,7 @@ private:
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;
+    std::unique_ptr<BundleCaster> bundles_;  ///< null: caster_ casts all rays
     std::unique_ptr<RayCaster> caster_;
     LinkScene place_;
     WorldLumels world_;

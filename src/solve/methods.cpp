@@ -41,8 +41,10 @@ constexpr Word<Projection> kProjections[] = {{"hemicube", Projection::hemicube},
 constexpr Word<Scheme> kSchemes[] = {{"phased", Scheme::phased}, {"paper", Scheme::paper}};
 constexpr Word<Layers> kLayers[] = {
     {"list", Layers::list}, {"peel", Layers::peel}, {"stochastic", Layers::stochastic}};
-constexpr Word<Rays> kRays[] = {
-    {"auto", Rays::automatic}, {"host", Rays::host}, {"query", Rays::query}};
+constexpr Word<Rays> kRays[] = {{"auto", Rays::automatic},
+                                {"host", Rays::host},
+                                {"query", Rays::query},
+                                {"raster", Rays::raster}};
 constexpr Word<bool> kSwitch[] = {{"on", true}, {"off", false}};
 constexpr Word<int> kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
 
@@ -249,10 +251,10 @@ constexpr OptionInfo kLinksOptions[] = {
          "Average lumels with those around them that look alike; without it the result is exact in "
          "expectation"}),
     choice<LinksOptions, kRays, ray_caster>(
-        {"rays", "auto|host|query",
-         "What casts the rays: the host, or ray queries of the "
-         "device (VK_KHR_ray_query); auto: the "
-         "device where it has them and is no CPU, else the host"}),
+        {"rays", "auto|host|query|raster",
+         "What casts the rays: the host, ray queries of the device (VK_KHR_ray_query), or drawings "
+         "by the device for rays that leave lumels; auto: the host on a device that is a CPU, else "
+         "queries where the device has them, else drawings"}),
 };
 
 constexpr OptionInfo kStochasticOptions[] = {

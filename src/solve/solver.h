@@ -30,7 +30,7 @@ public:
     virtual const gpu::StageTimes& times() const = 0;
     /// Longest submission so far [ms].
     virtual double longest_submission() const = 0;
-    /// Who casts its rays, "host" or "query"; empty if it casts none.
+    /// Who casts its rays, "host", "query" or "raster"; empty if it casts none.
     virtual std::string rays() const { return {}; }
     /// All that another solver needs that was made in the same way, to go on as this one would:
     /// only of methods with MethodInfo::can_resume, between steps.

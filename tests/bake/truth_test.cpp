@@ -10,10 +10,19 @@ namespace {
 using support::LumelError;
 using support::Solved;
 
-/// Solvers that are held to the same truths.
-const auto kEverySolver = testing::Values("links", "stochastic", "progressive", "gather", "matrix");
+/// Solvers that are held to the same truths; "raster" is links whose rays are drawn.
+const auto kEverySolver =
+    testing::Values("links", "raster", "stochastic", "progressive", "gather", "matrix");
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
+
+/// Drawings are slow without a GPU, and so many fewer rays are enough.
+constexpr std::uint64_t kFewerDrawn = 8;
+
+MethodOptions method_named(const std::string& name)
+{
+    return name == "raster" ? LinksOptions{.rays = Rays::raster} : support::method(name);
+}
 
 /// What is enough of a solver that gathers where it is to meet closed forms.
 struct Gathering {
@@ -27,6 +36,9 @@ SolverOptions with_shots(SolverOptions options, std::uint64_t shooters, const Lu
 {
     options.target_error = 0.0;
     options.max_shots = shooters;
+    if (const auto* links = std::get_if<LinksOptions>(&options.method))
+        if (links->rays == Rays::raster)
+            options.max_shots /= kFewerDrawn;
     if (auto* gather = std::get_if<GatherOptions>(&options.method)) {
         gather->batch = 64;
         gather->hemicube = gathering.hemicube;
@@ -67,16 +79,14 @@ INSTANTIATE_TEST_SUITE_P(By, Furnace, kEverySolver, kMethodName);
 
 TEST_P(Furnace, AlbedoOneHalfGlowsTwiceItsEmission)
 {
-    const Glow glow =
-        furnace_glow("furnace-0.5", 2.0, 0.03, {.method = support::method(GetParam())});
+    const Glow glow = furnace_glow("furnace-0.5", 2.0, 0.03, {.method = method_named(GetParam())});
     EXPECT_NEAR(glow.mean, 2.0, 0.005 * 2.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
 
 TEST_P(Furnace, AlbedoNineTenthsGlowsTenTimesItsEmission)
 {
-    const Glow glow =
-        furnace_glow("furnace-0.9", 10.0, 0.05, {.method = support::method(GetParam())});
+    const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, {.method = method_named(GetParam())});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
     EXPECT_GE(glow.share_within, 0.99);
 }
@@ -87,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(By, FurnaceOnDiscs, kEveryShooter, kMethodName);
 
 TEST_P(FurnaceOnDiscs, GlowsAlikeThroughHemispheres)
 {
-    MethodOptions method = support::method(GetParam());
+    MethodOptions method = method_named(GetParam());
     ASSERT_TRUE(set_option(method, "projection", "hemisphere"));
     const Glow glow = furnace_glow("furnace-0.9", 10.0, 0.05, {.method = method});
     EXPECT_NEAR(glow.mean, 10.0, 0.01 * 10.0);
@@ -112,7 +122,7 @@ double plate_error(const std::string& method, const support::Quad& emitter,
     const RayScene rays(plates.scene);
     const Solved solved = support::solve_scene(
         plates.scene, rays, plates.lumels,
-        with_shots({.method = support::method(method)}, 4096, plates.lumels), &atlas);
+        with_shots({.method = method_named(method)}, 4096, plates.lumels), &atlas);
     double square = 0.0, sum = 0.0;
     for (std::size_t i = plates.first[0]; i < plates.first[1]; ++i) {
         // A lumel is the mean over its area: average the closed form over it.
@@ -195,7 +205,7 @@ TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)
     const RayScene rays(place.scene);
     const Solved solved = support::solve_scene(
         place.scene, rays, place.lumels,
-        with_shots({.method = support::method(GetParam())}, 4096, place.lumels, {3, 96}), &atlas);
+        with_shots({.method = method_named(GetParam())}, 4096, place.lumels, {3, 96}), &atlas);
     double arrived[3] = {}, truth[3] = {};  // by metre of distance
     for (std::size_t i = place.first[0]; i < place.first[1]; ++i) {
         const glm::vec3 x = place.lumels.lumels[i].position;
@@ -218,7 +228,7 @@ TEST_P(SealedBox, StaysExactlyDarkInside)
     const bool gathers = std::string(method) == "gather";
     const Prepared world(support::scene_path("sealed-box"),
                          AtlasOptions{.size = gathers ? 64 : 128});
-    MethodOptions options = support::method(method);
+    MethodOptions options = method_named(method);
     if (projection == Projection::hemisphere) {
         ASSERT_TRUE(set_option(options, "projection", "hemisphere"));
     }
@@ -254,7 +264,8 @@ INSTANTIATE_TEST_SUITE_P(By, SealedBox,
 INSTANTIATE_TEST_SUITE_P(ByHemicubes, SealedBox,
                          testing::Values(Seen{"gather", Projection::hemicube},
                                          Seen{"matrix", Projection::hemicube},
-                                         Seen{"links", Projection::hemicube}),
+                                         Seen{"links", Projection::hemicube},
+                                         Seen{"raster", Projection::hemicube}),
                          seen_name);
 
 class PatchworkSphere : public testing::TestWithParam<const char*> {};
@@ -297,7 +308,7 @@ TEST_P(PatchworkSphere, LightsAllPatchesAlike)
     const RayScene rays(sphere.scene);
     const Solved solved = support::solve_scene(
         sphere.scene, rays, sphere.lumels,
-        with_shots({.method = support::method(GetParam())}, 4096, sphere.lumels), &atlas);
+        with_shots({.method = method_named(GetParam())}, 4096, sphere.lumels), &atlas);
     double by_albedo[2] = {}, by_emission[2] = {}, counts[4] = {};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const bool bright = quads[i].albedo.g > 0.5f, emits = quads[i].emission.g > 0.0f;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "../bake/solved.h"
+#include "../support/compare_hits.h"
 #include "rooms.h"
 
 namespace lumel {
@@ -16,7 +17,6 @@ using QueryCaster = support::OnDeviceWithRayQueries;
 constexpr std::size_t kRays = 20'000;
 /// Rays that run into an edge of two triangles may meet either.
 constexpr double kOnEdges = 1e-3;
-constexpr float kRounding = 1e-4f;
 
 /// Rays between random points of the scene's bounding box.
 std::vector<RaySpan> random_rays(const RayScene& rays)
@@ -35,18 +35,6 @@ std::vector<RaySpan> random_rays(const RayScene& rays)
     return result;
 }
 
-bool same(const RayHit& one, const RayHit& other)
-{
-    if (one.distance == RayCaster::kNothing || other.distance == RayCaster::kNothing)
-        return one.distance == other.distance && one.tint == other.tint;
-    const bool alike = glm::distance(one.barycentric, other.barycentric) < kRounding &&
-                       glm::distance(one.normal, other.normal) < kRounding &&
-                       glm::distance(one.tint, other.tint) < kRounding;
-    return one.instance == other.instance && one.primitive == other.primitive &&
-           one.triangle == other.triangle && one.front == other.front && alike &&
-           std::abs(one.distance - other.distance) < kRounding;
-}
-
 void expect_agreement(const gpu::Device& device, const Scene& scene)
 {
     const RayScene rays(scene);
@@ -62,8 +50,9 @@ void expect_agreement(const gpu::Device& device, const Scene& scene)
     query->passing(between, passing_query);
     std::size_t other_hits = 0, other_passing = 0, clear = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
-        other_hits += !same(by_host[i], by_query[i]);
-        other_passing += !(glm::distance(passing_host[i], passing_query[i]) < kRounding);
+        other_hits += !support::same(by_host[i], by_query[i]);
+        other_passing +=
+            !(glm::distance(passing_host[i], passing_query[i]) < support::kHitRounding);
         clear += passing_host[i] != glm::vec3(0.0f);
     }
     EXPECT_LE(double(other_hits), kOnEdges * kRays);
