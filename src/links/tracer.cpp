@@ -110,6 +110,17 @@ bool Gathered::is_closed() const
     });
 }
 
+std::size_t Gathered::bytes() const
+{
+    std::size_t bytes = 0;
+    for (const std::vector<LinkBlock>& blocks : rounds)
+        for (const LinkBlock& block : blocks)
+            bytes += (block.first.size() + block.target.size() + block.first_weak.size()) *
+                         sizeof(std::uint32_t) +
+                     block.weak.size() * sizeof(WeakLink);
+    return bytes;
+}
+
 LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
                        const WorldLumels& world, const RayStarts& starts, const Cells& cells,
                        const LumelParts& parts, const DirectFinder& direct,

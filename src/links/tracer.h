@@ -51,6 +51,8 @@ struct Gathered {
 
     /// Did every ray meet a surface that reflects?
     bool is_closed() const;
+    /// That links take.
+    std::size_t bytes() const;
 
     std::vector<std::vector<LinkBlock>> rounds;  ///< [rounds][blocks]
     std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of the direct light that they met [lx]

@@ -373,10 +373,13 @@ double LinkRadiosity::rays_that_fit() const
 {
     if (most_bytes_ == 0)
         return kMostRays;
-    const double lumels = double(order_.size()), parts = double(parts_->count());
-    const double taken = double(state_.shots) * lumels * kLinkBytes +
-                         kSolutions * double(round_ + 1) * parts * kPartBytes;
-    return std::max(double(most_bytes_) - taken, 0.0) / (kSolutions * lumels * kLinkBytes);
+    double taken = 0.0;
+    for (const std::optional<Gathered>& gathered : gathered_)
+        taken += double(gathered->bytes());
+    const double of_ray = state_.shots > 0 ? taken / double(state_.shots)
+                                           : double(order_.size()) * kLinkBytes;
+    const double starts = kSolutions * double(parts_->count()) * kPartBytes;
+    return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
 }
 
 /// What the square of each lumel's error counts [N]: where dark lumels are asked for, what they

@@ -55,7 +55,7 @@ TEST(MaxMemory, LinksStopAddingRaysBeforeTheyTakeMore)
     const Workplace place;
     const Outcome done = run_lumel({"bake", own_scene("cornell-box.gltf"), place.path("out"),
                                     "--size", "128", "--error", "0.3", "--time", "60",
-                                    "--preview-width", "0", "--max-memory", "370M"});
+                                    "--preview-width", "0", "--max-memory", "390M"});
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_NE(done.err.find("no memory for more rays"), std::string::npos) << done.err;
     const Json report = read_json(place.path("out/report.json"));
