@@ -376,8 +376,8 @@ double LinkRadiosity::rays_that_fit() const
     double taken = 0.0;
     for (const std::optional<Gathered>& gathered : gathered_)
         taken += double(gathered->bytes());
-    const double of_ray = state_.shots > 0 ? taken / double(state_.shots)
-                                           : double(order_.size()) * kLinkBytes;
+    const double of_ray =
+        state_.shots > 0 ? taken / double(state_.shots) : double(order_.size()) * kLinkBytes;
     const double starts = kSolutions * double(parts_->count()) * kPartBytes;
     return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
 }

