@@ -16,13 +16,10 @@ enum class ErrorKind {
 
 /// "where: what is wrong; what to do". `where` is a file, or a file and the place in it
 /// (a JSON pointer such as /meshes/0/primitives/1), or empty.
+/// It is one line: control characters of a file's text become spaces.
 class Error : public std::runtime_error {
 public:
-    Error(ErrorKind kind, const std::string& where, const std::string& what)
-        : std::runtime_error(where.empty() ? what : where + ": " + what),
-          kind_(kind)
-    {
-    }
+    Error(ErrorKind kind, const std::string& where, const std::string& what);
 
     ErrorKind kind() const { return kind_; }
 
