@@ -1,142 +1,174 @@
 #include "links/filter.h"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 
 #include "core/parallel.h"
+#include "links/filter_tile.h"
 
 namespace lumel {
 namespace {
 
-/// Lumels to either side, and the deviation of the bell over them.
-constexpr int kReach = 2;
-constexpr float kSpread = 1.5f;
-/// Lumels to either side of two that are compared with each other.
-constexpr int kPatch = 1;
-/// Normals of lumels that mix differ by less than 25 degrees.
-const float kCosAlike = std::cos(glm::radians(25.0f));
-/// One may lie this far out of the plane of the other, and be so many times as large.
-constexpr float kOutOfPlane = 0.5f, kSizes = 2.0f;
-/// Something nearer than this many times their distance may stand between two lumels; a ray between
-/// them tells, this far above them in sides of a lumel.
+/// Something nearer than this many times their distance may stand between two neighbours; a ray
+/// between them tells, this far above them in sides of a lumel.
 constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
-/// Lumels to either side over which the variance is averaged: so many that the weights hardly know
-/// the lumel's own.
-constexpr int kNoiseReach = 3;
 constexpr std::size_t kGrain = 256;
 
-}  // namespace
+/// visit(lumel, texel of the tile) for each within a tile.
+template <class Visit>
+void for_each_lumel(const FilterTile& tile, const Visit& visit)
+{
+    for (int y = 0; y < kTile; ++y)
+        for (int x = 0; x < kTile; ++x)
+            if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
+                visit(i, std::size_t(y * kTile + x));
+}
 
-struct ChartFilter::Guide {
-    const Estimates& light;
-    std::vector<float> variance;  ///< [N] of one estimate, all channels together
-};
+glm::vec3 weighted(const std::array<Inner, 3>& sum, const Inner& weight, std::size_t t)
+{
+    return glm::vec3(sum[0][t], sum[1][t], sum[2][t]) / weight[t];
+}
+
+/// The followers a and b of a solution at lumel i, filtered to one and other.
+void take(const glm::vec3& a, const glm::vec3& b, const glm::vec3& one, const glm::vec3& other,
+          std::uint32_t i, Mean& mean)
+{
+    constexpr float kShare = 1.0f / float(kSolutions);
+    const glm::vec3 d = one - other;
+    mean.light[i] += 0.5f * kShare * (one + other);
+    // d² is twice the variance of one; the mean of all three pairs has a third of it.
+    mean.noise[i] += kShare * glm::dot(d, d) / 6.0f;
+    mean.wrong[i] += kShare * glm::dot(one - a, other - b);
+}
+
+}  // namespace
 
 ChartFilter::ChartFilter(const LinkScene& place, const WorldLumels& world, const LumelParts& parts,
                          const std::vector<float>& nearest)
     : place_(place),
       world_(world),
       parts_(parts),
-      nearest_(nearest),
-      by_side_(lumels_by_side(place.lumels))
+      by_side_(lumels_by_side(place.lumels)),
+      steps_(world.size())
 {
+    parallel_for(world.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            steps_[i] = find_steps(i, nearest);
+    });
 }
 
-/// On the same chart and side; kNoLumel where there is none.
-std::uint32_t ChartFilter::neighbour(std::size_t i, int dx, int dy) const
+/// kNoLumel where there is none that light reaches.
+std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
 {
-    const Lumel& lumel = place_.lumels.lumels[i];
     const int width = place_.lumels.width;
-    const int x = int(lumel.texel) % width + dx, y = int(lumel.texel) / width + dy;
     if (x < 0 || x >= width || y < 0 || y >= place_.lumels.height)
         return kNoLumel;
     const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-    const std::uint32_t j = by_side_[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
-    if (j == kNoLumel || place_.lumels.lumels[j].chart != lumel.chart ||
-        (place_.lumels.lumels[j].flags & kLumelBuried) != 0)
-        return kNoLumel;
-    return j;
+    const std::uint32_t i = by_side_[2 * texel + std::size_t(side)];
+    return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
 }
 
-bool ChartFilter::may_mix(std::size_t i, std::size_t j) const
+/// To which of its neighbours on the same chart and side light may mix.
+std::uint8_t ChartFilter::find_steps(std::size_t i, const std::vector<float>& nearest) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    if ((lumel.flags & kLumelBuried) || parts_.is_cut(i))
+        return 0;
+    const int width = place_.lumels.width, x = int(lumel.texel) % width,
+              y = int(lumel.texel) / width, side = lumel.flags & kLumelBack ? 1 : 0;
+    unsigned steps = 0;
+    for (unsigned s = 0; s < kSteps.size(); ++s) {
+        const std::uint32_t j = lumel_at(x + kSteps[s].x, y + kSteps[s].y, side);
+        if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && !parts_.is_cut(j) &&
+            may_step(i, j, std::min(nearest[i], nearest[j])))
+            steps |= 1u << s;
+    }
+    return std::uint8_t(steps);
+}
+
+/// Nothing stands between two neighbours. nearest [m]: what may.
+bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
 {
     const WorldLumel &a = world_[i], &b = world_[j];
-    const glm::vec3 apart = b.centre - a.centre;
-    if (parts_.is_cut(j) || glm::dot(a.normal, b.normal) < kCosAlike ||
-        std::abs(glm::dot(a.normal, apart)) > kOutOfPlane * a.size || a.size > kSizes * b.size ||
-        b.size > kSizes * a.size)
-        return false;
-    const float distance = glm::length(apart);
-    if (std::min(nearest_[i], nearest_[j]) > kMayStandBetween * distance)
+    if (nearest > kMayStandBetween * glm::distance(a.centre, b.centre))
         return true;
     const float lift = std::max(kLift * std::max(a.size, b.size), place_.rays.lift());
     return place_.rays.sees(a.centre + lift * a.normal, b.centre + lift * b.normal, 0.0f,
                             std::uint32_t(i));
 }
 
-/// By how far the guide differs around the two, beyond its noise.
-float ChartFilter::weight(const Guide& guide, std::size_t i, std::size_t j, int dx, int dy) const
+/// All but variances. False if there is nothing to filter.
+bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const
 {
-    float squares = 0.0f, noise = 0.0f;
-    for (int y = -kPatch; y <= kPatch; ++y)
-        for (int x = -kPatch; x <= kPatch; ++x) {
-            const std::uint32_t a = neighbour(i, x, y), b = neighbour(i, dx + x, dy + y);
-            if (a == kNoLumel || b == kNoLumel)
-                continue;
-            const glm::vec3 d = guide.light[a] - guide.light[b];
-            squares += glm::dot(d, d);
-            noise += guide.variance[a] + guide.variance[b];
+    bool any = false;
+    for (int y = -kHalo; y < kTile + kHalo; ++y)
+        for (int x = -kHalo; x < kTile + kHalo; ++x) {
+            const std::size_t t = wide_at(x, y);
+            const std::uint32_t i = tile.lumel[t] = lumel_at(left + x, top + y, side);
+            const bool is = i != kNoLumel;
+            any = any || (is && x >= 0 && x < kTile && y >= 0 && y < kTile);
+            tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
+            tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
+            tile.size[t] = is ? world_[i].size : 0.0f;
+            for (int c = 0; c < 3; ++c) {
+                const auto axis = std::size_t(c);
+                tile.centre[axis][t] = is ? world_[i].centre[c] : 0.0f;
+                tile.normal[axis][t] = is ? world_[i].normal[c] : 0.0f;
+                for (std::uint32_t k = 0; k < kSolutions; ++k)
+                    tile.light[k][axis][t] = is ? found[k][i][c] : 0.0f;
+            }
         }
-    const float own = guide.variance[i], theirs = guide.variance[j];
-    const float expected =
-        noise > 0.0f ? noise * (own + std::min(own, theirs)) / (own + theirs + 1e-30f) : 0.0f;
-    return noise > 0.0f ? std::exp(-std::max(0.0f, squares - expected) / noise)
-                        : (squares > 0.0f ? 0.0f : 1.0f);
+    return any;
 }
 
-void ChartFilter::filter(const Estimates& light, const Estimates& one, const Estimates& other,
-                         Estimates& filtered_one, Estimates& filtered_other) const
+/// visit(tile) for each that holds lumels, on all cores.
+template <class Visit>
+void ChartFilter::for_each_tile(const Solutions& found, const Visit& visit) const
 {
-    const std::size_t count = light.size();
-    Guide guide{light, std::vector<float>(count)};
-    parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            float sum = 0.0f, n = 0.0f;
-            for (int y = -kNoiseReach; y <= kNoiseReach; ++y)
-                for (int x = -kNoiseReach; x <= kNoiseReach; ++x)
-                    if (const std::uint32_t j = neighbour(i, x, y); j != kNoLumel) {
-                        const glm::vec3 d = one[j] - other[j];
-                        sum += 0.5f * glm::dot(d, d);
-                        n += 1.0f;
-                    }
-            guide.variance[i] = n > 0.0f ? sum / n : 0.0f;
+    const std::size_t across = std::size_t((place_.lumels.width + kTile - 1) / kTile),
+                      down = std::size_t((place_.lumels.height + kTile - 1) / kTile);
+    parallel_for(2 * across * down, 1, [&](std::size_t first, std::size_t last) {
+        const auto tile = std::make_unique<FilterTile>();
+        for (std::size_t n = first; n < last; ++n) {
+            const int left = int(n / 2 % across) * kTile, top = int(n / 2 / across) * kTile;
+            if (fill(*tile, left, top, int(n % 2), found))
+                visit(*tile);
         }
     });
-    filtered_one = one;
-    filtered_other = other;
-    parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            if ((place_.lumels.lumels[i].flags & kLumelBuried) || parts_.is_cut(i))
-                continue;
-            float weights = 1.0f;
-            for (int dy = -kReach; dy <= kReach; ++dy)
-                for (int dx = -kReach; dx <= kReach; ++dx) {
-                    const std::uint32_t j = dx || dy ? neighbour(i, dx, dy) : kNoLumel;
-                    if (j == kNoLumel)
-                        continue;
-                    const float near =
-                        std::exp(-0.5f * float(dx * dx + dy * dy) / (kSpread * kSpread));
-                    const float w = near * weight(guide, i, j, dx, dy);
-                    if (w < 0.01f || !may_mix(i, j))
-                        continue;
-                    weights += w;
-                    filtered_one[i] += w * one[j];
-                    filtered_other[i] += w * other[j];
-                }
-            filtered_one[i] /= weights;
-            filtered_other[i] /= weights;
+}
+
+std::vector<Mean> ChartFilter::filter(const Solutions& found) const
+{
+    std::array<std::vector<float>, kSolutions> variance;
+    variance.fill(std::vector<float>(world_.size()));
+    for_each_tile(found, [&](const FilterTile& tile) {
+        Inner inner;
+        for (std::uint32_t k = 0; k < kSolutions; ++k) {
+            find_variance(tile, k, inner);
+            for_each_lumel(tile,
+                           [&](std::uint32_t i, std::size_t t) { variance[k][i] = inner[t]; });
         }
     });
+    const std::vector<float> none(world_.size(), 0.0f);
+    std::vector<Mean> result(kBells, {Estimates(world_.size(), glm::vec3(0.0f)), none, none});
+    for_each_tile(found, [&](FilterTile& tile) {
+        for (std::size_t t = 0; t < tile.lumel.size(); ++t)
+            for (std::uint32_t k = 0; k < kSolutions; ++k)
+                tile.variance[k][t] = tile.lumel[t] == kNoLumel ? 0.0f : variance[k][tile.lumel[t]];
+        const auto filtered = std::make_unique<FilteredTiles>();
+        filter_tile(tile, *filtered);
+        for (std::size_t b = 0; b < kBells; ++b)
+            for (std::uint32_t k = 0; k < kSolutions; ++k) {
+                const FilteredTile& of = (*filtered)[b][k];
+                const Estimates &one = found[(k + 1) % kSolutions],
+                                &other = found[(k + 2) % kSolutions];
+                for_each_lumel(tile, [&](std::uint32_t i, std::size_t t) {
+                    take(one[i], other[i], weighted(of.one, of.weight, t),
+                         weighted(of.other, of.weight, t), i, result[b]);
+                });
+            }
+    });
+    return result;
 }
 
 }  // namespace lumel

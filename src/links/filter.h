@@ -5,44 +5,46 @@
 // [RKZ12] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Rendering with Non-Local Means Filtering.
 //         SIGGRAPH Asia 2012.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 #include "links/cells.h"
 #include "links/direct.h"
+#include "links/mean.h"
+#include "links/solutions.h"
 
 namespace lumel {
 
-/// Estimates of one quantity at the lumels [N], independent of each other.
-using Estimates = std::vector<glm::vec3>;
+struct FilterTile;
 
 /// Averages lumels with others around them on their chart that look alike in a guide [RKZ12]: not
 /// where their normals or sizes differ, geometry cuts them, or something stands between.
 class ChartFilter {
 public:
-    /// What is given must outlive it. nearest [N] [m]: how near a lumel's rays met anything.
+    /// What is given must outlive it, but for nearest [N] [m]: how near a lumel's rays met
+    /// anything.
     ChartFilter(const LinkScene& place, const WorldLumels& world, const LumelParts& parts,
                 const std::vector<float>& nearest);
 
-    /// Filters both by the same weights, which come from the guide alone but for its variance, that
-    /// is taken from the difference of the two.
-    void filter(const Estimates& guide, const Estimates& one, const Estimates& other,
-                Estimates& filtered_one, Estimates& filtered_other) const;
+    /// For each width of the filter, narrowest first. Solution k filters its followers, k + 1 and
+    /// k + 2, by the same weights, which come from solution k alone, but for its variance, that is
+    /// taken from the difference of the two. Lumels without light stay dark.
+    std::vector<Mean> filter(const Solutions& found) const;
 
 private:
-    struct Guide;
-
-    std::uint32_t neighbour(std::size_t lumel, int dx, int dy) const;
-    bool may_mix(std::size_t i, std::size_t j) const;
-    float weight(const Guide& guide, std::size_t i, std::size_t j, int dx, int dy) const;
+    std::uint32_t lumel_at(int x, int y, int side) const;
+    std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
+    bool may_step(std::size_t i, std::size_t j, float nearest) const;
+    bool fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const;
+    template <class Visit>
+    void for_each_tile(const Solutions& found, const Visit& visit) const;
 
     const LinkScene place_;
     const WorldLumels& world_;
     const LumelParts& parts_;
-    const std::vector<float>& nearest_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
+    std::vector<std::uint8_t> steps_;     ///< [N] bit s: light may mix over kSteps[s]
 };
 
 }  // namespace lumel

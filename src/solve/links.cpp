@@ -11,7 +11,8 @@
 // Three solutions have links of their own, and direct light is found in two halves. The result is
 // the mean of the solutions, filtered over charts. The weights of the filter for two of them, A and
 // B, come from the third, so that the error of the filtered A', B' can be stated: their variance is
-// in A' - B', and the square of what the filter gets wrong is the mean of (A' - A)(B' - B).
+// in A' - B', and the square of what the filter gets wrong is the mean of (A' - A)(B' - B). See
+// links/filter.h, links/mean.h.
 //
 // A lumel is too coarse where light changes within it: it has a grid of cells for direct light, and
 // parts, each with an X of its own, where geometry cuts it (links/cells.h).
@@ -19,10 +20,8 @@
 #include "solve/links.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "atlas/morton.h"
@@ -107,13 +106,6 @@ std::vector<std::uint32_t> order_in_space(const WorldLumels& world)
     std::transform(keys.begin(), keys.end(), order.begin(),
                    [](const Key& key) { return key.lumel; });
     return order;
-}
-
-/// Squared differences of each two of three, all channels together.
-double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
-{
-    const glm::vec3 ab = a - b, bc = b - c, ca = c - a;
-    return double(glm::dot(ab, ab) + glm::dot(bc, bc) + glm::dot(ca, ca));
 }
 
 std::vector<char> buried(const Lumels& lumels)
@@ -246,8 +238,8 @@ void LinkRadiosity::step()
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
-    archive(*direct_, round_, mean_rays_, rays_, traced_, indirect_, square_, mean_light_, all_,
-            dark_, state_, times_);
+    archive(*direct_, round_, mean_rays_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
+            mean_light_, all_, dark_, state_, times_);
     for (std::size_t k = 0; k < kSolutions; ++k)
         archive(*gathered_[k], received_[k]);
 }
@@ -277,8 +269,9 @@ void LinkRadiosity::check_sizes() const
     const auto is = [](std::size_t size, std::size_t wanted) {
         return size == 0 || size == wanted;
     };
-    bool fits = direct_->fits() && is(rays_.size(), lumels) && is(indirect_.size(), lumels) &&
-                is(square_.size(), lumels) && traced_ <= tracer_->blocks();
+    bool fits = direct_->fits() && is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
+                is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
+                traced_ <= tracer_->blocks();
     for (std::size_t k = 0; k < kSolutions; ++k)
         fits = fits && gathered_[k]->rays.size() == parts && is(received_[k].size(), parts);
     if (!fits)
@@ -561,50 +554,19 @@ std::vector<float> LinkRadiosity::nearest() const
     return nearest;
 }
 
-/// Takes the mean of the solutions, filtered if that is better, and its squared errors.
+/// Takes the mean of the solutions.
 void LinkRadiosity::combine()
 {
-    const std::size_t count = lumels_.lumels.size();
-    std::array<Estimates, kSolutions> found;
+    Solutions found;
     for (std::size_t k = 0; k < kSolutions; ++k) {
-        found[k].resize(count);
-        for (std::size_t i = 0; i < count; ++i)
+        found[k].resize(lumels_.lumels.size());
+        for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
-    square_.resize(count);
-    indirect_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        indirect_[i] = (found[0][i] + found[1][i] + found[2][i]) / 3.0f;
-        square_[i] = spread(found[0][i], found[1][i], found[2][i]) / 18.0;
-    }
-    if (!options_.filter)
-        return;
-    const std::vector<float> near = nearest();
-    const ChartFilter filter(place_, world_, *parts_, near);
-    Estimates mean(count, glm::vec3(0.0f)), one, other;
-    std::vector<double> noise(count, 0.0), wrong(count, 0.0);
-    for (std::size_t k = 0; k < kSolutions; ++k) {
-        const Estimates &a = found[(k + 1) % kSolutions], &b = found[(k + 2) % kSolutions];
-        filter.filter(found[k], a, b, one, other);
-        for (std::size_t i = 0; i < count; ++i) {
-            const glm::vec3 d = one[i] - other[i];
-            noise[i] += double(glm::dot(d, d)) / (6.0 * kSolutions);
-            wrong[i] += double(glm::dot(one[i] - a[i], other[i] - b[i])) / kSolutions;
-            mean[i] += (one[i] + other[i]) / (2.0f * kSolutions);
-        }
-    }
-    const auto sum_of = [](const std::vector<double>& values) {
-        return std::accumulate(values.begin(), values.end(), 0.0);
-    };
-    // What is filtered wrongly can not be less than nothing: where it seems so, it is small.
-    const double all_wrong = sum_of(wrong);
-    if (!(sum_of(noise) + std::max(all_wrong, 0.0) < sum_of(square_)))
-        return;
-    square_ = noise;
-    if (all_wrong > 0.0)
-        for (std::size_t i = 0; i < count; ++i)
-            square_[i] += wrong[i];
-    indirect_ = std::move(mean);
+    std::optional<ChartFilter> filter;
+    if (options_.filter)
+        filter.emplace(place_, world_, *parts_, nearest());
+    mean_ = mean_of(found, filter ? &*filter : nullptr);
 }
 
 /// Beside the error of what rays brought, that of direct light: the difference of two independent
@@ -612,19 +574,21 @@ void LinkRadiosity::combine()
 void LinkRadiosity::estimate()
 {
     struct Sums {
-        double rays = 0.0, direct = 0.0, light = 0.0, count = 0.0;
+        SquaredError rays;
+        double direct = 0.0, light = 0.0, count = 0.0;
 
         /// √(Σ d² / 3n) / (Σ H / 3n), squared
         double relative(double squares) const
         {
-            return light > 0.0 ? 3.0 * count * std::max(squares, 0.0) / (light * light) : 0.0;
+            return light > 0.0 ? 3.0 * count * squares / (light * light) : 0.0;
         }
-        Errors errors() const { return {relative(rays), relative(direct)}; }
+        Errors errors() const { return {relative(rays.sum()), relative(direct)}; }
     };
     const auto add = [&](Sums& sums, std::size_t i, double light) {
         const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
         sums.direct += parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
-        sums.rays += square_[i];
+        if (!mean_.light.empty())
+            sums.rays.add(mean_, i);
         sums.light += light;
         sums.count += 1.0;
     };
@@ -652,7 +616,7 @@ void LinkRadiosity::estimate()
 glm::vec3 LinkRadiosity::arrived(std::size_t i) const
 {
     const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f) : direct_->mean(i);
-    return indirect_.empty() ? direct : direct + indirect_[i];
+    return mean_.light.empty() ? direct : direct + mean_.light[i];
 }
 
 std::vector<glm::vec3> LinkRadiosity::irradiance()

@@ -46,8 +46,6 @@ public:
     void read_state(StateReader& reader) override;
 
 private:
-    /// Two to state the error, and a third to filter them by.
-    static constexpr std::uint32_t kSolutions = 3;
     enum class Stage { begin, direct, links, solve };
     /// Squares of what rays and what direct light have in an error.
     struct Errors {
@@ -70,7 +68,6 @@ private:
     void go_on();
     double begun() const;
     std::vector<Wanted> wanted() const;
-    double missing() const;
     double share_of_direct(const Errors& now) const;
     bool refine_direct();
     double more_rays() const;
@@ -105,13 +102,12 @@ private:
     // Solutions that share nothing random but direct light.
     std::array<std::optional<Gathered>, kSolutions> gathered_;
     std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] beside direct light
-    Estimates indirect_;                                       ///< [N] [lx] the result, beside it
+    Mean mean_;                                                ///< of them, the result beside it
     Stage stage_ = Stage::begin;
     std::uint32_t round_ = 0;          ///< that is traced
     double mean_rays_ = 0.0;           ///< of a lumel in it, in each half
     std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
     std::size_t traced_ = 0;           ///< blocks of it
-    std::vector<double> square_;       ///< [N] squared errors of indirect_
     double mean_light_ = 0.0;          ///< of all channels together [lx]
     Errors all_, dark_;
     SolverState state_;
