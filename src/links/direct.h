@@ -51,6 +51,8 @@ public:
         const std::uint32_t index = varying_[lumel];
         return index == kSame ? mean(lumel) : cells_[index][cell];
     }
+    /// Whether it differs from cell to cell.
+    bool varies(std::size_t lumel) const { return varying_[lumel] != kSame; }
     /// A point that may be anywhere looks for light, with as many looks as any other such point.
     /// size: of the lumel there.
     void look_around(const RayStart& start, float size, std::uint32_t seed, Looks& looks) const;

@@ -60,11 +60,15 @@ Way way_to(Offset to, const std::vector<Way>& nearer)
     const auto step = std::find_if(kSteps.begin(), kSteps.end(), [&](Offset s) {
         return is(s, last.x, last.y) || is(s, -last.x, -last.y);
     });
-    Way way{to, std::size_t(from - nearer.begin()), unsigned(step - kSteps.begin()),
-            in_tile(is(*step, last.x, last.y) ? before : to), {}};
+    Way way{to,
+            std::size_t(from - nearer.begin()),
+            unsigned(step - kSteps.begin()),
+            in_tile(is(*step, last.x, last.y) ? before : to),
+            {}};
     for (std::size_t b = 0; b < kBells; ++b)
         if (ring <= kReach[b])
-            way.bell[b] = std::exp(-0.5f * float(to.x * to.x + to.y * to.y) / (kSpread[b] * kSpread[b]));
+            way.bell[b] =
+                std::exp(-0.5f * float(to.x * to.x + to.y * to.y) / (kSpread[b] * kSpread[b]));
     return way;
 }
 

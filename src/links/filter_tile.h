@@ -35,8 +35,9 @@ struct FilterTile {
     Wide<std::uint8_t> steps;   ///< bit s: light may mix over kSteps[s]
     Wide<float> size;           ///< [m]
     std::array<Wide<float>, 3> centre, normal;
-    std::array<Light, kSolutions> light;           ///< 0 where there is none
-    std::array<Wide<float>, kSolutions> variance;  ///< of each of its followers, all channels together
+    std::array<Light, kSolutions> light;  ///< 0 where there is none
+    std::array<Wide<float>, kSolutions>
+        variance;  ///< of each of its followers, all channels together
 };
 
 /// A value of each texel within a tile, in rows.

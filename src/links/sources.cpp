@@ -131,7 +131,7 @@ void LightSources::add_surfaces(const Surfaces& surfaces)
 void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
 {
     const PlacedSurface& surface = surfaces.all()[index];
-    if (surface.uniform && !(power_per_area(surface.look) > 0.0f))
+    if (!surface.may_emit)
         return;
     const std::size_t begin = triangles_.size();
     const Primitive& primitive = *surface.source;

@@ -23,8 +23,8 @@ constexpr float kFar = std::numeric_limits<float>::max();
 /// enough.
 constexpr float kTooNear = 0.25f;
 /// A first hit nearer than the first is reflected too: next to a corner indirect light changes
-/// within a lumel, and is known for parts only. Beyond the second it has the direct light of its
-/// cell, which has less noise than what it would find by itself.
+/// within a lumel, and is known for parts only. Beyond the second it looks for direct light only
+/// where that varies within the lumel: else the lumel's has less noise.
 constexpr float kNear = 2.0f, kNearForCells = 1.0f;
 /// Within so many sides what is met may be a sliver of a lumel that its cells know nothing of, as
 /// in a gap between two walls: light is looked up in a cell that sees it, or not at all.
@@ -272,13 +272,14 @@ void LinkTracer::meet(Wave& wave) const
         const glm::vec3 position = ray.origin + hit.distance * ray.direction;
         const float sides = hit.distance / std::max(path.size, place_.lumels.lumels[j].size);
         const bool may_go_on = wave.reflections < kMostReflections, first = wave.reflections == 0;
+        const float near_for_light = direct_.varies(j) ? kNear : kNearForCells;
         wave.arrivals.push_back(
             {.ray = r,
              .lumel = j,
              .cell = cells_.cell(j, position),
              .position = position,
              .may_be_hidden = parts_.is_cut(j) || sides < kMayBeHidden,
-             .looks_around = may_go_on && sides < (first ? kNearForCells : kTooNear),
+             .looks_around = may_go_on && sides < (first ? near_for_light : kTooNear),
              .goes_on = may_go_on && sides < (first ? kNear : kTooNear)});
     }
 }

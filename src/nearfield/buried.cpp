@@ -83,22 +83,29 @@ private:
     std::uint32_t last_ = 0;
 };
 
-/// True if all of some first points of the lumel are open: points near the corners of its pieces,
-/// where a neighbour would begin to cover it, and points all over.
-bool looks_open(const Look& look, std::size_t i)
+enum class Openness { open, partly, hidden };
+
+/// By some first points of the lumel: near the corners of its pieces, where a neighbour would begin
+/// to cover it, and all over.
+Openness first_look(const Look& look, std::size_t i)
 {
     HiddenPoints is_hidden(look, i);
+    bool any_open = false, any_hidden = false;
+    const auto add = [&](bool hidden) {
+        (hidden ? any_hidden : any_open) = true;
+        return any_open && any_hidden;
+    };
+    for (std::uint32_t k = 0; k < kFirstPoints; ++k)
+        if (add(is_hidden(look.world.point_on(i, sobol_pair(k, 0)))))
+            return Openness::partly;
     const std::span<const Piece> pieces = look.world.pieces(look.world[i]);
     for (const Piece& piece : pieces.first(std::min(pieces.size(), kCornerPieces)))
         for (const glm::vec2& uv : {glm::vec2(kInset), glm::vec2(1.0f - 2.0f * kInset, kInset),
                                     glm::vec2(kInset, 1.0f - 2.0f * kInset),
                                     glm::vec2(piece.parallelogram ? 1.0f - kInset : 0.5f - kInset)})
-            if (is_hidden(piece, uv))
-                return false;
-    for (std::uint32_t k = 0; k < kFirstPoints; ++k)
-        if (is_hidden(look.world.point_on(i, sobol_pair(k, 0))))
-            return false;
-    return true;
+            if (add(is_hidden(piece, uv)))
+                return Openness::partly;
+    return any_open ? Openness::open : Openness::hidden;
 }
 
 /// A piece that is cut to its open part in strips. `swapped`: strips lie along v instead of u.
@@ -111,17 +118,15 @@ public:
           count_(count)
     {
         // Strips should run where the piece changes most. In a parallelogram both grids have the
-        // same places.
-        const Grid straight = grid(false);
-        Grid turned = straight;
-        if (piece_.parallelogram)
-            for (int line = 0; line < count_; ++line)
-                for (int k = 0; k < count_; ++k)
-                    turned[at(line, k)] = straight[at(k, line)];
-        else
-            turned = grid(true);
-        swapped_ = changes(turned) > changes(straight);
-        open_ = swapped_ ? turned : straight;
+        // same places, in a triangle about the same.
+        open_ = grid(false);
+        Grid turned{};
+        for (int line = 0; line < count_; ++line)
+            for (int k = 0; k < count_; ++k)
+                turned[at(line, k)] = open_[at(k, line)];
+        swapped_ = changes(turned) > changes(open_);
+        if (swapped_)
+            open_ = piece_.parallelogram ? turned : grid(true);
     }
 
     /// Appends the open part of each strip, in the lumel's frame.
@@ -292,8 +297,14 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
         const Look look{scene, rays, world, lumels};
         const auto look_at = [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const bool open = (!chosen.empty() && !chosen[i]) || looks_open(look, i);
-                parts[i] = open ? OpenPart{i, {}, 1.0f} : find_open_part(look, i);
+                parts[i] = {i, {}, 1.0f};
+                if (!chosen.empty() && !chosen[i])
+                    continue;
+                const Openness openness = first_look(look, i);
+                if (openness == Openness::partly)
+                    parts[i] = find_open_part(look, i);
+                else if (openness == Openness::hidden)
+                    parts[i].share = 0.0f;
             }
         };
         parallel_steps(world.size(), kLumelsPerStep, kGrain, look_at, [&](std::size_t done) {

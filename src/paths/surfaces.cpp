@@ -27,6 +27,7 @@ Surfaces::Surfaces(const Scene& scene) : scene_(&scene)
             surface.normal_transform = glm::transpose(glm::inverse(glm::mat3(instance.transform)));
             surface.mirrored = glm::determinant(glm::mat3(instance.transform)) < 0.0f;
             surface.double_sided = material.double_sided;
+            surface.may_emit = material.emitted != glm::vec3(0.0f);
             surface.uniform = is_uniform(material) && primitive.colors.empty();
             const glm::vec2 nowhere[2]{};
             if (surface.uniform)

@@ -19,6 +19,7 @@ struct PlacedSurface {
     glm::mat3 normal_transform{1.0f};      ///< inverse transpose of the transform
     bool mirrored = false;
     bool double_sided = false;
+    bool may_emit = false;
     bool uniform = false;  ///< looks the same everywhere: as `look`
     MaterialSample look{};
 };
