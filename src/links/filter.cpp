@@ -49,11 +49,12 @@ ChartFilter::ChartFilter(const LinkScene& place, const WorldLumels& world, const
       world_(world),
       parts_(parts),
       by_side_(lumels_by_side(place.lumels)),
+      nearest_(nearest),
       steps_(world.size())
 {
     parallel_for(world.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            steps_[i] = find_steps(i, nearest);
+            steps_[i] = find_steps(i);
     });
 }
 
@@ -69,7 +70,7 @@ std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
 }
 
 /// To which of its neighbours on the same chart and side light may mix.
-std::uint8_t ChartFilter::find_steps(std::size_t i, const std::vector<float>& nearest) const
+std::uint8_t ChartFilter::find_steps(std::size_t i) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];
     if ((lumel.flags & kLumelBuried) || parts_.is_cut(i))
@@ -80,7 +81,7 @@ std::uint8_t ChartFilter::find_steps(std::size_t i, const std::vector<float>& ne
     for (unsigned s = 0; s < kSteps.size(); ++s) {
         const std::uint32_t j = lumel_at(x + kSteps[s].x, y + kSteps[s].y, side);
         if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && !parts_.is_cut(j) &&
-            may_step(i, j, std::min(nearest[i], nearest[j])))
+            may_step(i, j, std::min(nearest_[i], nearest_[j])))
             steps |= 1u << s;
     }
     return std::uint8_t(steps);
@@ -110,6 +111,7 @@ bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solu
             tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
             tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
             tile.size[t] = is ? world_[i].size : 0.0f;
+            tile.nearest[t] = is ? nearest_[i] : 0.0f;
             for (int c = 0; c < 3; ++c) {
                 const auto axis = std::size_t(c);
                 tile.centre[axis][t] = is ? world_[i].centre[c] : 0.0f;

@@ -22,7 +22,7 @@ struct FilterTile;
 /// where their normals or sizes differ, geometry cuts them, or something stands between.
 class ChartFilter {
 public:
-    /// What is given must outlive it, but for nearest [N] [m]: how near a lumel's rays met
+    /// What is given must outlive it. nearest [N] [m]: how near a lumel's rays met
     /// anything.
     ChartFilter(const LinkScene& place, const WorldLumels& world, const LumelParts& parts,
                 const std::vector<float>& nearest);
@@ -34,7 +34,7 @@ public:
 
 private:
     std::uint32_t lumel_at(int x, int y, int side) const;
-    std::uint8_t find_steps(std::size_t lumel, const std::vector<float>& nearest) const;
+    std::uint8_t find_steps(std::size_t lumel) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
     bool fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const;
     template <class Visit>
@@ -44,7 +44,8 @@ private:
     const WorldLumels& world_;
     const LumelParts& parts_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
-    std::vector<std::uint8_t> steps_;     ///< [N] bit s: light may mix over kSteps[s]
+    const std::vector<float>& nearest_;
+    std::vector<std::uint8_t> steps_;  ///< [N] bit s: light may mix over kSteps[s]
 };
 
 }  // namespace lumel

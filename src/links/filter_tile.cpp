@@ -23,6 +23,8 @@ constexpr float kLeastVariance = 1e-30f;
 const float kCosAlike = std::cos(glm::radians(25.0f));
 /// One may lie this far out of the plane of the other, and be so many times as large.
 constexpr float kOutOfPlane = 0.5f, kSizes = 2.0f;
+/// A wide bell reaches as far as this many times the distance to what is nearest.
+constexpr float kWidth = 1.0f;
 /// Texels a side around which two patches may lie.
 constexpr int kPairs = kTile + 2 * kPatch;
 
@@ -120,8 +122,13 @@ float most(float a, float b)
     return a < b ? b : a;
 }
 
-/// Which lumels mix with those at an offset: 1 or 0. False if none does.
-bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Inner& alike)
+/// Which lumels mix with those at an offset, and which of them have nothing near: 1 or 0.
+struct Alike {
+    Inner all, widely;
+};
+
+/// False if none does.
+bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike& alike)
 {
     float any = 0.0f;
     for (int y = 0; y < kTile; ++y) {
@@ -130,15 +137,17 @@ bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Inner
         for (std::size_t x = 0; x < kTile; ++x) {
             const glm::vec3 normal = vector(tile.normal, a + x);
             const float cosine = glm::dot(normal, vector(tile.normal, b + x));
-            const float off =
-                glm::dot(normal, vector(tile.centre, b + x) - vector(tile.centre, a + x));
+            const glm::vec3 apart = vector(tile.centre, b + x) - vector(tile.centre, a + x);
+            const float off = glm::dot(normal, apart);
             const float own = tile.size[a + x], theirs = tile.size[b + x];
             const bool is = (cosine >= kCosAlike) & (std::abs(off) <= kOutOfPlane * own) &
                             (own <= kSizes * theirs) & (theirs <= kSizes * own);
-            alike[row + x] = (is ? 1.0f : 0.0f) * float(reached[row + x] & 1);
+            const float width = kWidth * least(tile.nearest[a + x], tile.nearest[b + x]);
+            alike.all[row + x] = (is ? 1.0f : 0.0f) * float(reached[row + x] & 1);
+            alike.widely[row + x] = glm::dot(apart, apart) <= width * width ? 1.0f : 0.0f;
         }
         for (std::size_t x = 0; x < kTile; ++x)
-            any += alike[row + x];
+            any += alike.all[row + x];
     }
     return any > 0.0f;
 }
@@ -213,7 +222,7 @@ void add_row(const FilterTile& tile, std::uint32_t k, std::size_t there, const R
 }
 
 /// Adds the followers of solution k at an offset to those of the tile's lumels.
-void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Inner& alike,
+void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Alike& alike,
          FilteredTiles& filtered)
 {
     Differences found;
@@ -224,10 +233,12 @@ void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Inner& a
         const std::size_t row = std::size_t(y) * kTile,
                           there = wide_at(0, y) + std::size_t(in_tile(way.to));
         for (std::size_t b = 0; b < kBells; ++b) {
+            const float narrow = way.bell[0], wider = way.bell[b] - narrow;
             if (way.bell[b] == 0.0f)
                 continue;
             for (std::size_t x = 0; x < kTile; ++x)
-                weight[x] = way.bell[b] * alike[row + x] * look_alike[x];
+                weight[x] =
+                    (narrow + wider * alike.widely[row + x]) * alike.all[row + x] * look_alike[x];
             add_row(tile, k, there, weight, row, filtered[b][k]);
         }
     }
@@ -284,7 +295,7 @@ void filter_tile(const FilterTile& tile, FilteredTiles& filtered)
     std::vector<Reached> reached(kWays.size());
     std::vector<char> any(kWays.size(), 1);
     reached[0].fill(1);
-    Inner alike;
+    Alike alike;
     for (std::size_t w = 1; w < kWays.size(); ++w) {
         const Way& way = kWays[w];
         any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);

@@ -1,5 +1,8 @@
 #pragma once
 // What the filter of charts does within a tile of the atlas. See filter.h.
+//
+// [WRC88] G. J. Ward, F. M. Rubinstein, R. D. Clear. A Ray Tracing Solution for Diffuse
+//         Interreflection. SIGGRAPH 1988.
 
 #include <array>
 #include <cstddef>
@@ -34,6 +37,7 @@ struct FilterTile {
     Wide<std::int32_t> chart;   ///< -1 where there is none
     Wide<std::uint8_t> steps;   ///< bit s: light may mix over kSteps[s]
     Wide<float> size;           ///< [m]
+    Wide<float> nearest;        ///< [m] to what rays met
     std::array<Wide<float>, 3> centre, normal;
     std::array<Light, kSolutions> light;  ///< 0 where there is none
     std::array<Wide<float>, kSolutions>
@@ -46,7 +50,8 @@ using Inner = std::array<float, std::size_t(kTile) * kTile>;
 /// Variance of the followers of solution k, from what lies around.
 void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance);
 
-/// A filter is as good as its bell is wide: light that varies asks for a narrow one.
+/// Light that varies asks for a narrow bell. The widest is wide only where nothing is near:
+/// indirect light varies over distances like those to what it comes from [WRC88].
 inline constexpr std::size_t kBells = 2;
 
 /// Sums of the followers of a solution and of their weights, for each bell.

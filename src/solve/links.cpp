@@ -563,9 +563,10 @@ void LinkRadiosity::combine()
         for (std::size_t i = 0; i < found[k].size(); ++i)
             found[k][i] = brought(i, k);
     }
+    const std::vector<float> near = nearest();
     std::optional<ChartFilter> filter;
     if (options_.filter)
-        filter.emplace(place_, world_, *parts_, nearest());
+        filter.emplace(place_, world_, *parts_, near);
     mean_ = mean_of(found, filter ? &*filter : nullptr);
 }
 

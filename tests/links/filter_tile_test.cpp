@@ -28,6 +28,7 @@ std::unique_ptr<FilterTile> flat(const std::function<float(int x, int y)>& light
             tile->chart[t] = 0;
             tile->steps[t] = 0xF;
             tile->size[t] = 1.0f;
+            tile->nearest[t] = 100.0f;
             for (std::size_t c = 0; c < 3; ++c) {
                 tile->centre[c][t] = c == 0 ? float(x) : c == 1 ? float(y) : 0.0f;
                 tile->normal[c][t] = c == 2 ? 1.0f : 0.0f;
@@ -86,6 +87,15 @@ TEST(FilterTile, TheMeanOfAlikeLumelsHasLessNoiseTheMoreTheyAre)
     // All weights 1: a bell of deviation s is worth 4πs² lumels.
     EXPECT_LT(left_of_noise(result, 0, even), 0.4 * double(kNoise));
     EXPECT_LT(left_of_noise(result, 1, even), 0.2 * double(kNoise));
+}
+
+TEST(FilterTile, TheWideBellIsNarrowNextToOtherThings)
+{
+    auto tile = flat(even);
+    tile->nearest.fill(0.5f);
+    const Result result = filter(*tile);
+    for (int x = 0; x < kTile; ++x)
+        EXPECT_EQ(result.one(1, x, 7), result.one(0, x, 7));
 }
 
 TEST(FilterTile, EdgesOfLightStay)
