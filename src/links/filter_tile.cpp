@@ -174,10 +174,10 @@ void find_differences(const FilterTile& tile, std::uint32_t k, Offset to, Differ
     }
 }
 
-/// Falls like exp(-x), and is nothing from 4 on.
+/// Falls like exp(-x) from x = 0 to 4, where it ends.
 float falling(float x)
 {
-    const float left = most(0.0f, 1.0f - 0.25f * x), square = left * left;
+    const float left = 1.0f - 0.25f * least(most(x, 0.0f), 4.0f), square = left * left;
     return square * square;
 }
 
@@ -197,13 +197,15 @@ void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Diff
                 noises[x] += same * found.noise[pair + x];
             }
         }
+    Row beyond;
     for (std::size_t x = 0; x < kTile; ++x) {
         const float own = tile.variance[k][own_at + x], theirs = tile.variance[k][their_at + x];
         const float expected =
             noises[x] * (own + least(own, theirs)) / (own + theirs + kLeastVariance);
-        const float beyond = most(0.0f, squares[x] - expected);
-        weight[x] = falling(beyond / (noises[x] + kLeastVariance));
+        beyond[x] = (squares[x] - expected) / (noises[x] + kLeastVariance);
     }
+    for (std::size_t x = 0; x < kTile; ++x)
+        weight[x] = falling(beyond[x]);
 }
 
 /// Adds a row of lumels' followers of solution k, as far away as `there`.
