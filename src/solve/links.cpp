@@ -22,15 +22,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <tuple>
 
-#include "atlas/morton.h"
 #include "core/error.h"
-#include "core/frame.h"
 #include "core/log.h"
-#include "core/luminance.h"
 #include "core/state_bytes.h"
 #include "links/deviation.h"
+#include "links/order.h"
 #include "links/shared_directions.h"
 #include "paths/samples.h"
 #include "query/query_caster.h"
@@ -69,44 +66,9 @@ constexpr double kBrightRoom = 0.95;
 constexpr double kDark = 1.0 / 3.0;
 /// None counts as darker than this share of the mean where rays are shared out.
 constexpr double kDarkest = 1e-2;
-/// Key of the lumels' order: cells of the scene along each axis, within which lumels are sorted by
-/// the side that they face.
-constexpr double kOrderCells = 32.0;
 /// Random streams: of directions that are shared, of parts, of direct light, and of links of the
 /// solutions.
 constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
-
-/// Lumels such that neighbours in space that face alike come together: their rays meet the same
-/// things.
-std::vector<std::uint32_t> order_in_space(const WorldLumels& world)
-{
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (std::size_t i = 0; i < world.size(); ++i) {
-        low = glm::min(low, world[i].centre);
-        high = glm::max(high, world[i].centre);
-    }
-    const double side = std::max(double(glm::distance(low, high)), 1e-30);
-    struct Key {
-        std::uint64_t cell, side, fine;
-        std::uint32_t lumel;
-        bool operator<(const Key& other) const
-        {
-            return std::tie(cell, side, fine, lumel) <
-                   std::tie(other.cell, other.side, other.fine, other.lumel);
-        }
-    };
-    std::vector<Key> keys(world.size());
-    for (std::size_t i = 0; i < world.size(); ++i) {
-        const glm::dvec3 at = glm::dvec3(world[i].centre - low) / side;
-        keys[i] = {morton_code(glm::floor(at * kOrderCells) / kOrderCells),
-                   std::uint64_t(cube_side(world[i].normal)), morton_code(at), std::uint32_t(i)};
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<std::uint32_t> order(world.size());
-    std::transform(keys.begin(), keys.end(), order.begin(),
-                   [](const Key& key) { return key.lumel; });
-    return order;
-}
 
 std::vector<char> buried(const Lumels& lumels)
 {
