@@ -20,7 +20,7 @@ std::unique_ptr<FilterTile> flat(const std::function<float(int x, int y)>& light
 {
     auto tile = std::make_unique<FilterTile>();
     std::mt19937 random(1);
-    std::normal_distribution<float> normal(0.0f, noise);
+    std::normal_distribution<float> normal;
     for (int y = -kHalo; y < kTile + kHalo; ++y)
         for (int x = -kHalo; x < kTile + kHalo; ++x) {
             const std::size_t t = wide_at(x, y);
@@ -33,7 +33,7 @@ std::unique_ptr<FilterTile> flat(const std::function<float(int x, int y)>& light
                 tile->centre[c][t] = c == 0 ? float(x) : c == 1 ? float(y) : 0.0f;
                 tile->normal[c][t] = c == 2 ? 1.0f : 0.0f;
                 for (auto& of : tile->light)
-                    of[c][t] = light(x, y) + (noise > 0.0f ? normal(random) : 0.0f);
+                    of[c][t] = light(x, y) + noise * normal(random);
             }
             for (auto& variance : tile->variance)
                 variance[t] = 3.0f * noise * noise;
