@@ -17,7 +17,7 @@ constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to test whethe
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
 constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
 constexpr int kStrips = 8;       ///< that a partly hidden lumel is cut into
-constexpr int kBisections = 6;   ///< to find where a strip is cut
+constexpr int kBisections = 4;   ///< to find where a strip is cut, to 1/32 of a place
 constexpr std::uint32_t kDirections = 16;  ///< per point
 /// Rays do not leave nearer to the surface than this cosine: what opens only below it is a crack.
 constexpr float kLeastCosine = 0.17f;
@@ -183,7 +183,7 @@ private:
             const float middle = 0.5f * (open + hidden);
             (is_open(middle, across, swapped_) ? open : hidden) = middle;
         }
-        return open;
+        return 0.5f * (open + hidden);
     }
 
     /// Open stretches of the line through a strip's middle.
