@@ -16,7 +16,7 @@ constexpr std::size_t kLumelsPerStep = 8192, kGrain = 64;
 constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to test whether it is open
 constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
 constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
-constexpr int kStrips = 8;       ///< that a partly hidden lumel is cut into
+constexpr int kStrips = 6;       ///< that a partly hidden lumel is cut into
 constexpr int kBisections = 4;   ///< to find where a strip is cut, to 1/32 of a place
 constexpr std::uint32_t kDirections = 16;  ///< per point
 /// Rays do not leave nearer to the surface than this cosine: what opens only below it is a crack.
