@@ -62,6 +62,9 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
         memory.solver = kLinkedLumelBytes * lumels;
         memory.links = LinkRadiosity::first_bytes(lumels);
     }
+    if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
+        memory.solver = kLinkedLumelBytes * lumels +
+                        LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
     return memory;
 }
 

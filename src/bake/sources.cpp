@@ -46,7 +46,7 @@ FormFactorRow row_of(const Transport& transport)
 
 bool keeps_sources_apart(const BakeOptions& options)
 {
-    return method_of(options.solver.method).can_keep_sources && options.parts == Parts::all;
+    return method_of(options.solver.method).can_keep_sources;
 }
 
 AtlasOptions atlas_that_fits(const BakeOptions& options)
@@ -74,18 +74,20 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
         throw_stopped();
     stages.begin("solving");
     auto solver = std::make_unique<RelightSolver>(
-        device, *setting.world, prepared.lumels, setting.near,
-        for_what_is_left(options.solver, stages), std::move(sources));
+        device, *setting.world, HostScene{prepared.scene, prepared.rays, prepared.atlas},
+        prepared.lumels, setting.near, for_what_is_left(options.solver, stages),
+        std::move(sources), options.parts);
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
-    if (!solver->done() && (solver->state().shots == 0 || !solver->transport()))
+    const bool needs_matrix = options.parts != Parts::direct;
+    if (!solver->done() && (solver->state().shots == 0 || (needs_matrix && !solver->transport())))
         throw_stopped();
     if (solver->done())
         tell_missed(options.solver, solver->state(), stages);
     stages.note_times(solver->times());
     solution->run.finished = solver->done();
     solution->irradiance = solver->irradiance();
-    if (solver->done() && solution->lamps.finished)
+    if (solver->done() && solution->lamps.finished && options.parts == Parts::all)
         solution->relightable = solver->relightable(prepared.scene.hash);
     if (const Transport* transport = solver->transport())
         solution->form_factors = row_of(*transport);

@@ -32,7 +32,8 @@ std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
 /// A scene of the source's sky and lamps alone, without geometry; what direct_light() takes.
 Scene lamps_of(const Scene& scene, const LightSource& source);
 
-/// Lumels of which only the source's instances shine.
-Lumels only_shining(Lumels lumels, const LightSource& source);
+/// The scene with no other light than what the source's instances send. Instances, primitives and
+/// triangles keep their numbers.
+Scene only_shining(Scene scene, const LightSource& source);
 
 }  // namespace lumel

@@ -29,7 +29,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'm', 'a', 't'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 
 struct Head {
     std::array<char, 8> magic = kMagic;
@@ -180,10 +180,12 @@ void fields(Archive& archive, Light& light, Matrix& matrix)
     archive.value(light.side);
     archive.list(light.place);
     archive.list(light.area);
+    archive.halves(light.albedo);
     archive.each(light.sources, [&](auto& source) {
         archive.text(source.name);
         archive.each(source.materials, [&](auto& name) { archive.text(name); });
         archive.halves(source.direct);
+        archive.halves(source.reflected);
     });
     archive.value(light.patches.side);
     archive.list(light.patches.patch_of);
@@ -193,8 +195,8 @@ void fields(Archive& archive, Light& light, Matrix& matrix)
             for (int c = 0; c < 3; ++c)
                 archive.value((*vector)[c]);
     });
-    archive.list(light.transfer.patch);
-    archive.list(light.transfer.weight);
+    archive.list(light.rows.first);
+    archive.list(light.rows.entry);
     archive.list(matrix);
 }
 
@@ -210,7 +212,20 @@ bool all_below(const std::vector<std::uint32_t>& indices, std::uint64_t size)
 
 bool is_sound(const SourceLight& source, std::size_t lumels)
 {
-    return source.direct.size() == lumels && all_finite(numbers_of(source.direct));
+    return source.direct.size() == lumels && all_finite(numbers_of(source.direct)) &&
+           (source.reflected.empty() || source.reflected.size() == lumels) &&
+           all_finite(numbers_of(source.reflected));
+}
+
+bool is_sound(const LumelRows& rows, std::size_t lumels, std::size_t patches)
+{
+    return rows.first.size() == lumels + 1 && rows.first.front() == 0 &&
+           rows.first.back() == rows.entry.size() &&
+           std::is_sorted(rows.first.begin(), rows.first.end()) &&
+           std::all_of(rows.entry.begin(), rows.entry.end(), [&](const RowEntry& entry) {
+               return entry.code >> 16 < patches &&
+                      std::isfinite(from_half(std::uint16_t(entry.code)));
+           });
 }
 
 /// Everything fits together, and every index has something behind it; the matrix is sound in
@@ -220,6 +235,7 @@ bool is_sound(const Relightable& light)
     const std::size_t lumels = light.size(), patches = light.patches.size();
     const std::uint64_t texels = std::uint64_t(light.side) * light.side;
     if (light.area.size() != lumels || !all_finite(light.area) ||
+        light.albedo.size() != lumels || !all_finite(numbers_of(light.albedo)) ||
         !all_below(light.place, 2 * texels))
         return false;
     for (const SourceLight& source : light.sources)
@@ -232,10 +248,7 @@ bool is_sound(const Relightable& light)
     return patch_of.size() == lumels && std::all_of(patch_of.begin(), patch_of.end(), has_patch) &&
            std::all_of(light.patches.patches.begin(), light.patches.patches.end(),
                        [](const VoxelPatch& patch) { return patch.area > 0.0f; }) &&
-           light.transfer.patch.size() == lumels * kTransferPatches &&
-           all_below(light.transfer.patch, patches) &&
-           light.transfer.weight.size() == lumels * kTransferPatches &&
-           all_finite(light.transfer.weight) && size_of(light.matrix) == patches;
+           is_sound(light.rows, lumels, patches) && size_of(light.matrix) == patches;
 }
 
 /// Throws unless the head shows that the contents are ours and complete.

@@ -1,6 +1,9 @@
-// With D_s the direct light of source s, f_s its factor, P the mean over patches:
+// With D_s the direct light of source s, f_s its factor, P the mean of what patches reflect:
 //
-//     H = Σ_s f_s D_s + W M Σ_s f_s (P D_s),     W: from patches to lumels.
+//     H = Σ_s f_s (D_s + S_s) + R color (x + M x),     x = Σ_s f_s (P D_s),
+//
+// R the rows of the lumels. Sources whose reflected light S_s was stored have no part in x. All but
+// the first sum is done on the device.
 
 #include "relight/relight_session.h"
 
@@ -11,12 +14,14 @@
 #include "core/parallel.h"
 #include "relight/matrix_file.h"
 #include "json/json_view.h"
+#include "relight/last_bounce.shared.h"
+#include "shooting/lumel_arrays.h"
 
 namespace lumel {
 namespace {
 
 /// That share what is read of the matrix.
-constexpr std::uint32_t kStatesAtOnce = 16;
+constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
 /// Lumels worth a task of their own.
 constexpr std::size_t kLumelsPerTask = 4096;
 
@@ -41,6 +46,17 @@ std::string list_of(const std::vector<std::string>& names)
     return list;
 }
 
+/// Adds a source's light, but for what the matrix has, to lumels [first, last).
+void add_scaled(std::vector<glm::vec3>& light, const SourceLight& source, const glm::vec3& factor,
+                std::size_t first, std::size_t last)
+{
+    for (std::size_t i = first; i < last; ++i)
+        light[i] += factor * source.direct[i];
+    if (!source.reflected.empty())
+        for (std::size_t i = first; i < last; ++i)
+            light[i] += factor * source.reflected[i];
+}
+
 }  // namespace
 
 RelightSession::RelightSession(const gpu::Device& device, Relightable light)
@@ -52,10 +68,20 @@ RelightSession::RelightSession(const gpu::Device& device, Relightable light)
     if (patches == 0)
         return;
     for (const SourceLight& source : light_.sources)
-        means_.push_back(light_.patches.means(light_.area, source.direct));
+        means_.push_back(source.reflected.empty() ? light_.patches.reflected_means(
+                                                        light_.area, light_.albedo, source.direct)
+                                                  : std::vector<glm::vec3>(patches));
+    std::vector<glm::vec3> color;
+    for (const VoxelPatch& patch : light_.patches.patches)
+        color.push_back(patch.color);
     multiply_.emplace(device, light_.matrix, kStatesAtOnce);
+    last_bounce_.emplace(device);
+    first_.emplace(device, view(light_.rows.first), "relight.first");
+    entries_.emplace(device, view(light_.rows.entry), "relight.entries");
+    color_.emplace(device, view(color), "relight.color");
     direct_.emplace(device, kStatesAtOnce * patches, "relight.direct");
     reflected_.emplace(device, kStatesAtOnce * patches, "relight.reflected");
+    result_.emplace(device, kStatesAtOnce * size(), "relight.result");
 }
 
 RelightSession::RelightSession(const gpu::Device& device, const std::string& path)
@@ -133,18 +159,17 @@ std::vector<std::vector<glm::vec3>> RelightSession::irradiance_of(std::span<cons
         const std::size_t count = std::min<std::size_t>(kStatesAtOnce, states.size() - first);
         const std::span<const Factors> some = states.subspan(first, count);
         const std::vector<glm::vec3> onward = reflected(some);
-        const std::size_t patches = light_.patches.size();
         for (std::size_t i = 0; i < count; ++i)
-            maps.push_back(sum_at_lumels(some[i], std::span(onward).subspan(i * patches, patches)));
+            maps.push_back(with_direct(some[i], std::span(onward).subspan(i * size(), size())));
     }
     return maps;
 }
 
-/// M Σ_s f_s (P D_s): [states][n]
+/// R color (x + M x): [states][N]
 std::vector<glm::vec3> RelightSession::reflected(std::span<const Factors> states)
 {
     if (!multiply_)
-        return {};
+        return std::vector<glm::vec3>(states.size() * size(), glm::vec3(0.0f));
     const std::size_t patches = light_.patches.size();
     std::vector<glm::vec3> direct(kStatesAtOnce * patches, glm::vec3(0.0f));
     for (std::size_t i = 0; i < states.size(); ++i)
@@ -154,20 +179,29 @@ std::vector<glm::vec3> RelightSession::reflected(std::span<const Factors> states
     direct_->upload(direct);
     gpu::Commands commands(*device_);
     multiply_->record(commands, *direct_, *reflected_, std::uint32_t(states.size()));
+    commands.dispatch(*last_bounce_,
+                      {.first = *first_,
+                       .entries = *entries_,
+                       .color = *color_,
+                       .direct = *direct_,
+                       .reflected = *reflected_,
+                       .result = *result_},
+                      LastBounceParams{.lumels = std::uint32_t(size()),
+                                       .patches = std::uint32_t(patches),
+                                       .states = std::uint32_t(states.size())},
+                      std::uint32_t(size()));
     commands.run();
-    return reflected_->download();
+    return result_->download();
 }
 
-std::vector<glm::vec3> RelightSession::sum_at_lumels(const Factors& factors,
-                                                     std::span<const glm::vec3> reflected) const
+std::vector<glm::vec3> RelightSession::with_direct(const Factors& factors,
+                                                   std::span<const glm::vec3> reflected) const
 {
-    std::vector<glm::vec3> light =
-        multiply_ ? light_.transfer.apply(reflected) : std::vector<glm::vec3>(size());
+    std::vector<glm::vec3> light(reflected.begin(), reflected.end());
     parallel_for(size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
         for (std::size_t s = 0; s < factors.size(); ++s)
             if (factors[s] != glm::vec3(0.0f))
-                for (std::size_t i = first; i < last; ++i)
-                    light[i] += factors[s] * light_.sources[s].direct[i];
+                add_scaled(light, light_.sources[s], factors[s], first, last);
     });
     return light;
 }

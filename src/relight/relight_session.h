@@ -11,6 +11,7 @@
 
 #include "gpu/array.h"
 #include "matrix/multiply.h"
+#include "relight/last_bounce.comp.h"
 #include "relight/relightable.h"
 
 namespace lumel {
@@ -55,15 +56,20 @@ private:
     Factors factors_of(const LightState& state) const;
     std::vector<std::vector<glm::vec3>> irradiance_of(std::span<const Factors> states);
     std::vector<glm::vec3> reflected(std::span<const Factors> states);
-    std::vector<glm::vec3> sum_at_lumels(const Factors& factors,
-                                         std::span<const glm::vec3> reflected) const;
+    std::vector<glm::vec3> with_direct(const Factors& factors,
+                                       std::span<const glm::vec3> reflected) const;
 
     const gpu::Device* device_;
     Relightable light_;
-    std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] of direct light [lx]
+    std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] reflected_means() [lx]
     Factors factors_;
     std::optional<Multiply> multiply_;                         ///< none where nothing reflects
+    std::optional<gpu::Kernel<shaders::LastBounce>> last_bounce_;
+    std::optional<gpu::Array<std::uint32_t>> first_;  ///< of the rows
+    std::optional<gpu::Array<RowEntry>> entries_;
+    std::optional<gpu::Array<glm::vec3>> color_;               ///< [n]
     std::optional<gpu::Array<glm::vec3>> direct_, reflected_;  ///< [kStatesAtOnce][n]
+    std::optional<gpu::Array<glm::vec3>> result_;              ///< [kStatesAtOnce][N]
 };
 
 }  // namespace lumel

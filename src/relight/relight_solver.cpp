@@ -3,7 +3,7 @@
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
 //
 // As solve/matrix.cpp, but with the direct light of each source by itself: surfaces that shine by
-// stochastic radiosity in a black scene where no others do, sky and lamps as given.
+// rays in a scene where no others do, sky and lamps as given.
 
 #include "relight/relight_solver.h"
 
@@ -28,21 +28,31 @@ double mean_of(std::span<const glm::vec3> irradiance)
 
 }  // namespace
 
-RelightSolver::RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
-                             const NearField& near, const SolverOptions& options,
-                             std::vector<KnownSource> sources)
-    : device_(&device),
-      world_(&world),
+RelightSolver::Emitter::Emitter(Scene only_shining, const RelightSolver& of)
+    : scene(std::move(only_shining)),
+      host{scene, of.host_.rays, of.host_.atlas},
+      solver(host, *of.lumels_, of.matrix_.seed, of.options_.target_error),
+      start(wall_seconds())
+{
+}
+
+RelightSolver::RelightSolver(const gpu::Device& device, const World& world, const HostScene& host,
+                             const Lumels& lumels, const NearField& near,
+                             const SolverOptions& options, std::vector<KnownSource> sources,
+                             Parts parts)
+    : host_(host),
       lumels_(&lumels),
-      near_(&near),
+      parts_(parts),
       options_(options),
       matrix_(std::get<MatrixOptions>(options.method)),
       start_(wall_seconds()),
-      sources_(std::move(sources))
+      sources_(std::move(sources)),
+      surfaces_(sources_.size()),
+      reflected_(sources_.size())
 {
     for (KnownSource& source : sources_)
         source.direct.resize(lumels.lumels.size(), glm::vec3(0.0f));
-    if (reflecting_area(lumels) > 0.0f)
+    if (parts != Parts::direct && reflecting_area(lumels) > 0.0f)
         builder_.emplace(device, world, lumels, near, matrix_.transport);
     else
         begin_source();
@@ -50,9 +60,7 @@ RelightSolver::RelightSolver(const gpu::Device& device, const World& world, cons
 
 std::uint64_t RelightSolver::device_bytes(const SolveSize& size, const MatrixOptions& options)
 {
-    // One after the other.
-    return std::max(FormFactors::device_bytes(size, options.transport.views),
-                    StochasticRadiosity::device_bytes(size, direct_options(options)));
+    return FormFactors::device_bytes(size, options.transport.views);
 }
 
 void RelightSolver::step()
@@ -65,9 +73,15 @@ void RelightSolver::step()
     }
     if (!emitter_)
         return;
-    emitter_->solver->step();
+    if (emitter_->last) {
+        emitter_->last->step();
+        if (emitter_->last->done())
+            end_source();
+        return;
+    }
+    emitter_->solver.step();
     if (is_enough())
-        end_source();
+        end_direct();
 }
 
 void RelightSolver::finish_builder()
@@ -87,10 +101,7 @@ void RelightSolver::begin_source()
         ++next_;
     if (next_ == sources_.size())
         return;
-    emitter_.emplace();
-    emitter_->lumels = only_shining(black(*lumels_), sources_[next_].source);
-    emitter_->solver.emplace(*device_, *world_, emitter_->lumels, *near_, direct_options(matrix_));
-    emitter_->start = wall_seconds();
+    emitter_.emplace(only_shining(host_.scene, sources_[next_].source), *this);
     const double left = options_.max_seconds - (emitter_->start - start_);
     emitter_->seconds = std::max(left, 0.0) / double(emitters_from(next_));
 }
@@ -105,26 +116,37 @@ std::size_t RelightSolver::emitters_from(std::size_t first) const
 
 bool RelightSolver::is_enough() const
 {
-    const SolverState state = emitter_->solver->state();
+    const SolverState state = emitter_->solver.state();
     const std::uint64_t emitters = emitters_from(0);
     const std::uint64_t shots = (options_.max_shots + emitters - 1) / emitters;
     return (options_.max_shots > 0 && state.shots >= shots) ||
-           (options_.max_seconds > 0.0 && wall_seconds() - emitter_->start >= emitter_->seconds) ||
+           (options_.max_seconds > 0.0 && state.shots > 0 && wall_seconds() - emitter_->start >= emitter_->seconds) ||
            (options_.target_error > 0.0 && state.error >= 0.0 &&
-            state.error <= options_.target_error);
+            state.error <= options_.target_error) ||
+           state.full;
+}
+
+/// Goes on to what the surfaces' light does where it was reflected.
+void RelightSolver::end_direct()
+{
+    const SolverState state = emitter_->solver.state();
+    surfaces_[next_] = emitter_->solver.irradiance();
+    shots_ += state.shots;
+    iterations_ += state.iterations;
+    const double error = std::max(state.error, 0.0) * mean_of(surfaces_[next_]);
+    square_error_ += error * error;
+    if (!transport_) {
+        end_source();
+        return;
+    }
+    emitter_->last.emplace(emitter_->solver, transport_->indirect(*lumels_, surfaces_[next_]),
+                           gather_rays(options_.target_error), matrix_.seed);
 }
 
 void RelightSolver::end_source()
 {
-    const SolverState state = emitter_->solver->state();
-    const std::vector<glm::vec3> light = emitter_->solver->irradiance();
-    shots_ += state.shots;
-    iterations_ += state.iterations;
-    const double error = std::max(state.error, 0.0) * mean_of(light);
-    square_error_ += error * error;
-    add_light(sources_[next_].direct, light);
-    add_times(emitter_->solver->times());
-    longest_ = std::max(longest_, emitter_->solver->longest_submission());
+    if (emitter_->last)
+        reflected_[next_] = emitter_->last->irradiance();
     ++next_;
     begin_source();
 }
@@ -144,13 +166,13 @@ double RelightSolver::fraction() const
 SolverState RelightSolver::state() const
 {
     SolverState state{.shots = shots_, .iterations = iterations_};
-    if (emitter_) {
-        state.shots += emitter_->solver->state().shots;
-        state.iterations += emitter_->solver->state().iterations;
+    if (emitter_ && !emitter_->last) {
+        state.shots += emitter_->solver.state().shots;
+        state.iterations += emitter_->solver.state().iterations;
     } else if (done() && iterations_ > 0) {
         double mean = 0.0;
-        for (const KnownSource& source : sources_)
-            mean += mean_of(source.direct);
+        for (std::size_t s = 0; s < sources_.size(); ++s)
+            mean += mean_of(sources_[s].direct) + mean_of(surfaces_[s]);
         state.error = mean > 0.0 ? std::sqrt(square_error_) / mean : 0.0;
     }
     return state;
@@ -158,14 +180,26 @@ SolverState RelightSolver::state() const
 
 std::vector<glm::vec3> RelightSolver::irradiance()
 {
-    std::vector<glm::vec3> light(lumels_->lumels.size(), glm::vec3(0.0f));
-    for (const KnownSource& source : sources_)
-        add_light(light, source.direct);
-    if (emitter_)
-        add_light(light, emitter_->solver->irradiance());
+    const std::size_t count = lumels_->lumels.size();
+    // Light whose reflections are found by patches up to the last bounce, and what more rays found.
+    std::vector<glm::vec3> direct(count, glm::vec3(0.0f)), by_patches = direct, reflected = direct;
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+        add_light(direct, sources_[s].direct);
+        add_light(direct, surfaces_[s]);
+        add_light(by_patches, sources_[s].direct);
+        add_light(reflected_[s].empty() ? by_patches : reflected,
+                  reflected_[s].empty() ? surfaces_[s] : reflected_[s]);
+    }
+    if (emitter_ && !emitter_->last) {
+        add_light(direct, emitter_->solver.irradiance());
+        add_light(by_patches, emitter_->solver.irradiance());
+    }
     if (transport_)
-        add_light(light, transport_->indirect(*lumels_, light));
-    return light;
+        add_light(reflected, transport_->indirect(*lumels_, by_patches));
+    if (parts_ == Parts::indirect)
+        return reflected;
+    add_light(direct, reflected);
+    return direct;
 }
 
 Relightable RelightSolver::relightable(const std::string& hash) const
@@ -174,12 +208,20 @@ Relightable RelightSolver::relightable(const std::string& hash) const
     for (const Lumel& lumel : lumels_->lumels) {
         light.place.push_back(place_of(lumel.texel, (lumel.flags & kLumelBack) != 0));
         light.area.push_back((lumel.flags & kLumelBuried) ? 0.0f : lumel.area);
+        light.albedo.push_back(lumel.albedo);
     }
-    for (const KnownSource& known : sources_)
-        light.sources.push_back({known.source.name, known.source.materials, known.direct});
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+        const KnownSource& known = sources_[s];
+        SourceLight& source =
+            light.sources.emplace_back(SourceLight{known.source.name, known.source.materials,
+                                                   known.direct, reflected_[s]});
+        if (transport_ && !source.reflected.empty())
+            add_light(source.reflected, transport_->indirect(*lumels_, known.direct));
+        add_light(source.direct, surfaces_[s]);
+    }
     if (transport_) {
         light.patches = transport_->patches;
-        light.transfer = transport_->transfer;
+        light.rows = transport_->rows;
         light.matrix =
             compress_tiles(transport_->bounces, elements_of(light.patches), {.error = kTileError});
     }

@@ -20,10 +20,11 @@ struct KnownSource {
 /// itself: the options' error holds for each of these sources, their shots and time are shared.
 class RelightSolver final : public Solver {
 public:
-    /// All but the sources must outlive this. options.method: MatrixOptions.
-    RelightSolver(const gpu::Device& device, const World& world, const Lumels& lumels,
-                  const NearField& near, const SolverOptions& options,
-                  std::vector<KnownSource> sources);
+    /// All but the sources must outlive this. options.method: MatrixOptions. parts: of the light
+    /// that irradiance() has.
+    RelightSolver(const gpu::Device& device, const World& world, const HostScene& host,
+                  const Lumels& lumels, const NearField& near, const SolverOptions& options,
+                  std::vector<KnownSource> sources, Parts parts);
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
     static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
@@ -38,6 +39,7 @@ public:
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return longest_; }
+    std::string rays() const override { return "host"; }
 
     /// Null until the form factors are found, or if nothing reflects.
     const Transport* transport() const { return transport_ ? &*transport_ : nullptr; }
@@ -48,28 +50,33 @@ public:
 private:
     /// The source at work.
     struct Emitter {
-        Lumels lumels;  ///< black, only the source's shine
-        std::optional<StochasticRadiosity> solver;
+        Emitter(Scene only_shining, const RelightSolver& of);
+
+        Scene scene;  ///< in which only the source's surfaces shine
+        HostScene host;
+        DirectRays solver;
+        std::optional<LastGather> last;  ///< once direct light is found
         double start, seconds;  ///< when it began and what it may take, if there is a limit [s]
     };
 
     void begin_source();
     std::size_t emitters_from(std::size_t first) const;
     bool is_enough() const;
+    void end_direct();
     void end_source();
     void finish_builder();
     void add_times(const gpu::StageTimes& times);
 
-    const gpu::Device* device_;
-    const World* world_;
+    HostScene host_;
     const Lumels* lumels_;
-    const NearField* near_;
+    Parts parts_;
     SolverOptions options_;
     MatrixOptions matrix_;
     double start_;
     std::optional<TransportBuilder> builder_;
     std::optional<Transport> transport_;
     std::vector<KnownSource> sources_;
+    std::vector<std::vector<glm::vec3>> surfaces_, reflected_;  ///< [sources][N], or empty
     std::size_t next_ = 0;  ///< source whose surfaces are at work
     std::optional<Emitter> emitter_;
     std::uint64_t shots_ = 0, iterations_ = 0;  ///< of sources that are done

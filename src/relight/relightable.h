@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "matrix/compressed.h"
-#include "transport/lumel_transfer.h"
+#include "transport/lumel_rows.h"
+#include "transport/voxel_patches.h"
 
 namespace lumel {
 
@@ -17,17 +18,23 @@ struct SourceLight {
     std::string name;
     std::vector<std::string> materials;  ///< further names: those that make it shine
     std::vector<glm::vec3> direct;       ///< [N] lx
+    /// [N] lx, all that is reflected of it, of surfaces, which cannot move; empty: of lamps and
+    /// sky, the matrix has it
+    std::vector<glm::vec3> reflected;
 };
 
-/// H = Σ_s f_s D_s + transfer(M mean(Σ_s f_s D_s)) for any factors f of the sources.
+/// H = Σ_s f_s (D_s + S_s) + R color (x + M x) for any factors f of the sources, D direct and S
+/// reflected light of each, and x the patches' reflected_means() of Σ_s f_s D_s over those without
+/// an S.
 struct Relightable {
     std::string scene_hash;            ///< Scene::hash of what was baked
     std::uint32_t side = 0;            ///< of the atlas [texels]
     std::vector<std::uint32_t> place;  ///< [N] of lumels, see place_of()
     std::vector<float> area;           ///< [N] m², 0: buried
+    std::vector<glm::vec3> albedo;     ///< [N]
     std::vector<SourceLight> sources;
     VoxelPatches patches;     ///< n of them; none where nothing reflects
-    LumelTransfer transfer;   ///< from patches to lumels
+    LumelRows rows;           ///< [N][n] R
     CompressedMatrix matrix;  ///< [n][n] M
 
     std::size_t size() const { return place.size(); }  ///< N

@@ -9,32 +9,28 @@
 //     and then for any light:
 //         what arrives straight from it, at every lumel
 //         M × its mean over patches                              Eq. (8)
-//         from patches back to lumels                            lumel_transfer, section 3.6
+//         the last bounce, at the row of each lumel              lumel_rows, section 3.6
 //
 // Differs from the paper:
 // - h = 0, light that was not reflected yet, never goes through patches: lumels have it as it is.
 // - All reflections at once, (I - F^c)^-1 - I, instead of the first k.
 // - Reciprocity and row sums are enforced.
-// - Emissive surfaces are direct light like all other, found by stochastic radiosity.
+// - Emissive surfaces are direct light like all other. Rays to points on the sources find it.
 
 #include "solve/matrix.h"
-
-#include <algorithm>
 
 #include "shooting/lumel_arrays.h"
 
 namespace lumel {
-StochasticOptions direct_options(const MatrixOptions& options)
-{
-    return {.seed = options.seed, .views = options.transport.views};
-}
-
 MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
-                                 const Lumels& lumels, const NearField& near,
-                                 const MatrixOptions& options, std::span<const glm::vec3> known)
+                                 const HostScene& host, const Lumels& lumels,
+                                 const NearField& near, const MatrixOptions& options,
+                                 double target_error, std::span<const glm::vec3> known)
     : lumels_(&lumels),
-      black_(black(lumels)),
-      direct_(device, world, black_, near, direct_options(options), known)
+      known_(known.begin(), known.end()),
+      direct_(host, lumels, options.seed, target_error, known),
+      seed_(options.seed),
+      gather_rays_(gather_rays(target_error))
 {
     if (reflecting_area(lumels) > 0.0f)
         builder_.emplace(device, world, lumels, near, options.transport);
@@ -42,23 +38,19 @@ MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
 
 std::uint64_t MatrixRadiosity::device_bytes(const SolveSize& size, const MatrixOptions& options)
 {
-    return FormFactors::device_bytes(size, options.transport.views) +
-           StochasticRadiosity::device_bytes(size, direct_options(options));
+    return FormFactors::device_bytes(size, options.transport.views);
 }
 
 void MatrixRadiosity::step()
 {
     if (!builder_) {
         direct_.step();
-        times_ = factor_times_;
-        for (const auto& [stage, ms] : direct_.times())
-            times_[stage] += ms;
         return;
     }
     builder_->step();
     if (builder_->done()) {
         transport_ = builder_->finish();
-        times_ = factor_times_ = builder_->factors().times();
+        times_ = builder_->factors().times();
         longest_ = builder_->factors().longest_submission();
         builder_.reset();
     }
@@ -72,15 +64,15 @@ SolverState MatrixRadiosity::state() const
 std::vector<glm::vec3> MatrixRadiosity::irradiance()
 {
     std::vector<glm::vec3> light = direct_.irradiance();
-    // `known` light is reflected by the lumels' emission already.
-    if (transport_)
-        add_light(light, transport_->indirect(*lumels_, light));
+    if (!transport_)
+        return light;
+    LastGather last(direct_, transport_->indirect(*lumels_, light), gather_rays_, seed_);
+    while (!last.done())
+        last.step();
+    add_light(light, last.irradiance());
+    if (!known_.empty())
+        add_light(light, transport_->indirect(*lumels_, known_));
     return light;
-}
-
-double MatrixRadiosity::longest_submission() const
-{
-    return std::max(longest_, direct_.longest_submission());
 }
 
 }  // namespace lumel

@@ -4,20 +4,22 @@
 #include <optional>
 
 #include "nearfield/solve_size.h"
-#include "solve/stochastic.h"
+#include "solve/last_gather.h"
+#include "solve/methods.h"
+#include "solve/options.h"
+#include "solve/solver.h"
 #include "transport/transport.h"
 
 namespace lumel {
 
-/// How stochastic radiosity finds direct light beside the matrix.
-StochasticOptions direct_options(const MatrixOptions& options);
-
-/// Direct light by stochastic radiosity at full resolution, reflections by the matrix.
+/// Direct light by rays to its sources, at full resolution; reflections by the matrix.
 class MatrixRadiosity final : public Solver {
 public:
-    MatrixRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
-                    const NearField& near, const MatrixOptions& options,
-                    std::span<const glm::vec3> known);
+    /// What is given must outlive it. target_error: of direct light. known: as make_solver takes
+    /// it.
+    MatrixRadiosity(const gpu::Device& device, const World& world, const HostScene& host,
+                    const Lumels& lumels, const NearField& near, const MatrixOptions& options,
+                    double target_error, std::span<const glm::vec3> known);
 
     /// Bytes on the device at most, on one whose images may be as large as is wanted.
     static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
@@ -27,18 +29,20 @@ public:
     SolverState state() const override;
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
-    double longest_submission() const override;
+    double longest_submission() const override { return longest_; }
+    std::string rays() const override { return "host"; }
 
     /// Null until the form factors are found, or if nothing reflects.
     const Transport* transport() const { return transport_ ? &*transport_ : nullptr; }
 
 private:
     const Lumels* lumels_;
-    Lumels black_;  ///< shine, but reflect nothing
+    std::vector<glm::vec3> known_;  ///< [N] [lx]
     std::optional<TransportBuilder> builder_;
     std::optional<Transport> transport_;
-    StochasticRadiosity direct_;
-    gpu::StageTimes factor_times_, times_;
+    DirectRays direct_;
+    std::uint32_t seed_, gather_rays_;
+    gpu::StageTimes times_;
     double longest_ = 0.0;
 };
 

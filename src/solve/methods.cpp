@@ -343,6 +343,9 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
         return std::make_unique<Method>(in.device, *in.world, in.lumels, own, options.target_error);
     else if constexpr (std::is_same_v<Method, ProgressiveRadiosity>)
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own);
+    else if constexpr (std::is_same_v<Method, MatrixRadiosity>)
+        return std::make_unique<Method>(in.device, *in.world, *in.host, in.lumels, in.near, own,
+                                        options.target_error, in.known);
     else
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known);
 }
@@ -469,7 +472,7 @@ constexpr MethodInfo kMethods[] = {
     {.id = "matrix",
      .title = "Form-factor matrices of all reflections",
      .paper = "[SF17]",
-     .shots = "shooters",
+     .shots = "rays per lumel",
      .advice = "one scene under many lights: lumel relight takes milliseconds; small indirect "
                "detail is lost",
      .materials = MaterialModel::diffuse,

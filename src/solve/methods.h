@@ -55,7 +55,7 @@ struct SolverInputs {
     /// is a part of both, but the noise of what is known is not in it.
     std::span<const glm::vec3> known = {};
     const LobeParticles* particles = nullptr;  ///< see GlossyIllumination
-    const HostScene* host = nullptr;           ///< only for links, and only while it is made
+    const HostScene* host = nullptr;           ///< for links and matrix, only while they are made
     Parts parts = Parts::all;                  ///< what methods that find lights return
 };
 

@@ -35,24 +35,13 @@ auto each_patch(const VoxelPatches& patches, Field field)
     return values;
 }
 
-std::vector<float> sums_of_rows(const SquareMatrix& matrix)
-{
-    std::vector<float> sums;
-    for (std::size_t row = 0; row < matrix.size; ++row) {
-        double sum = 0.0;
-        for (std::size_t column = 0; column < matrix.size; ++column)
-            sum += double(matrix.values[row * matrix.size + column]);
-        sums.push_back(float(sum));
-    }
-    return sums;
-}
-
 }  // namespace
 
 std::vector<glm::vec3> Transport::indirect(const Lumels& lumels,
                                            std::span<const glm::vec3> direct) const
 {
-    return transfer.apply(multiply(bounces, patches.means(lumels, direct)));
+    const std::vector<glm::vec3> arrived = patches.reflected_means(lumels, direct);
+    return rows.apply(sent_by(patches, arrived, multiply(bounces, arrived)));
 }
 
 TransportBuilder::TransportBuilder(const gpu::Device& device, const World& world,
@@ -60,33 +49,25 @@ TransportBuilder::TransportBuilder(const gpu::Device& device, const World& world
                                    const TransportOptions& options)
     : lumels_(&lumels),
       around_(near.around),
-      bounces_(options.bounces > 0 ? options.bounces : kAllBounces),
+      bounces_(options.bounces > 0 ? options.bounces - 1 : kAllBounces),
       patches_(make_voxel_patches(world, lumels, around_, options.patches)),
       factors_(device, world, lumels, near, patches_, options.views),
-      fit_(world, lumels, patches_)
+      rows_(lumels.lumels.size(), patches_.size())
 {
 }
 
 void TransportBuilder::step()
 {
-    factors_.step([&](std::uint32_t patch, std::span<const float> received) {
-        const SquareMatrix& matrix = factors_.matrix();
-        std::vector<float> column;
-        for (std::uint32_t row = 0; row < matrix.size; ++row)
-            column.push_back(matrix.at(row, patch));
-        fit_.add(received, column);
-    });
+    factors_.step([&](std::uint32_t, std::span<const float> received) { rows_.add(received); });
 }
 
 Transport TransportBuilder::finish()
 {
     Transport result;
-    const SquareMatrix found = factors_.matrix();
     result.form_factors = factors_.take_matrix();
     result.check = balance(result.form_factors, each_patch(patches_, &VoxelPatch::area),
                            closed_patches(patches_, around_.open));
-    result.transfer = fit_.fit(found, sums_of_rows(result.form_factors),
-                               closed_lumels(lumels_->lumels.size(), around_.open));
+    result.rows = rows_.finish(closed_lumels(lumels_->lumels.size(), around_.open));
     result.bounces = lumel::bounces(
         color_matrix(result.form_factors, each_patch(patches_, &VoxelPatch::color)), bounces_);
     result.patches = std::move(patches_);

@@ -3,7 +3,7 @@
 
 #include "matrix/color_matrix.h"
 #include "transport/form_factors.h"
-#include "transport/lumel_transfer.h"
+#include "transport/lumel_rows.h"
 #include "transport/voxel_patches.h"
 
 namespace lumel {
@@ -19,8 +19,9 @@ struct Transport {
     VoxelPatches patches;
     SquareMatrix form_factors;  ///< [n][n], balanced
     FormFactorCheck check;
-    ColorMatrix bounces;  ///< [n][n] Σ_{h ≥ 1} (F^c)^h, Eq. (8)
-    LumelTransfer transfer;
+    /// [n][n] M = Σ_{h ≥ 1} (F^c)^h, Eq. (8), without the last bounce where they are limited
+    ColorMatrix bounces;
+    LumelRows rows;  ///< [N][n] of the last bounce
 
     /// H [N] [lx] of all reflections of direct light [N] [lx].
     std::vector<glm::vec3> indirect(const Lumels& lumels, std::span<const glm::vec3> direct) const;
@@ -48,7 +49,7 @@ private:
     std::uint32_t bounces_;
     VoxelPatches patches_;
     FormFactors factors_;
-    LumelTransferFit fit_;
+    LumelRowsBuilder rows_;
 };
 
 }  // namespace lumel

@@ -215,23 +215,50 @@ VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
 std::vector<glm::vec3> VoxelPatches::means(const Lumels& lumels,
                                            std::span<const glm::vec3> values) const
 {
-    std::vector<float> area;
-    area.reserve(lumels.lumels.size());
-    for (const Lumel& lumel : lumels.lumels)
-        area.push_back(lumel.area);
-    return means(area, values);
-}
-
-std::vector<glm::vec3> VoxelPatches::means(std::span<const float> area,
-                                           std::span<const glm::vec3> values) const
-{
     std::vector<glm::vec3> sums(size(), glm::vec3(0.0f));
     for (std::size_t i = 0; i < values.size(); ++i)
         if (patch_of[i] != kPatchless)
-            sums[patch_of[i]] += area[i] * values[i];
+            sums[patch_of[i]] += lumels.lumels[i].area * values[i];
     for (std::size_t patch = 0; patch < size(); ++patch)
         sums[patch] /= patches[patch].area;
     return sums;
+}
+
+std::vector<glm::vec3> VoxelPatches::reflected_means(const Lumels& lumels,
+                                                     std::span<const glm::vec3> irradiance) const
+{
+    std::vector<float> area;
+    std::vector<glm::vec3> albedo;
+    for (const Lumel& lumel : lumels.lumels) {
+        area.push_back(lumel.area);
+        albedo.push_back(lumel.albedo);
+    }
+    return reflected_means(area, albedo, irradiance);
+}
+
+std::vector<glm::vec3> VoxelPatches::reflected_means(std::span<const float> area,
+                                                     std::span<const glm::vec3> albedo,
+                                                     std::span<const glm::vec3> irradiance) const
+{
+    std::vector<glm::vec3> sums(size(), glm::vec3(0.0f));
+    for (std::size_t i = 0; i < irradiance.size(); ++i)
+        if (patch_of[i] != kPatchless)
+            sums[patch_of[i]] += area[i] * albedo[i] * irradiance[i];
+    for (std::size_t patch = 0; patch < size(); ++patch)
+        for (int c = 0; c < 3; ++c)
+            if (const float reflected = patches[patch].area * patches[patch].color[c];
+                reflected > 0.0f)
+                sums[patch][c] /= reflected;
+    return sums;
+}
+
+std::vector<glm::vec3> sent_by(const VoxelPatches& patches, std::span<const glm::vec3> direct,
+                               std::span<const glm::vec3> reflected)
+{
+    std::vector<glm::vec3> sent;
+    for (std::size_t patch = 0; patch < patches.size(); ++patch)
+        sent.push_back(patches.patches[patch].color * (direct[patch] + reflected[patch]));
+    return sent;
 }
 
 Elements elements_of(const VoxelPatches& patches)

@@ -31,9 +31,14 @@ struct VoxelPatches {
     std::size_t size() const { return patches.size(); }
     /// Means over patches, by area, of what lumels have: [N] to [n].
     std::vector<glm::vec3> means(const Lumels& lumels, std::span<const glm::vec3> values) const;
-    /// The same of lumels of which no more is known: area [N] [m²].
-    std::vector<glm::vec3> means(std::span<const float> area,
-                                 std::span<const glm::vec3> values) const;
+    /// The light that would be reflected as much if it were the same all over each patch: means of
+    /// irradiance by area and albedo, [N] to [n] [lx].
+    std::vector<glm::vec3> reflected_means(const Lumels& lumels,
+                                           std::span<const glm::vec3> irradiance) const;
+    /// The same of lumels of which no more is known: area [N] [m²], albedo [N].
+    std::vector<glm::vec3> reflected_means(std::span<const float> area,
+                                           std::span<const glm::vec3> albedo,
+                                           std::span<const glm::vec3> irradiance) const;
 };
 
 /// A lumel's place and unit normal in the world.
@@ -49,6 +54,11 @@ PlacedLumel placed(const World& world, const Lumel& lumel);
 /// if fewer than two result, or no grid gives so few.
 VoxelPatches make_voxel_patches(const World& world, const Lumels& lumels,
                                 const Surroundings& around, std::uint32_t most);
+
+/// What patches reflect [n] [lm/m²] of light that arrives straight from its sources and of light
+/// that was reflected before, [n] [lx] each.
+std::vector<glm::vec3> sent_by(const VoxelPatches& patches, std::span<const glm::vec3> direct,
+                               std::span<const glm::vec3> reflected);
 
 /// The patches as compressed forms of a matrix use them.
 Elements elements_of(const VoxelPatches& patches);

@@ -259,7 +259,7 @@ TEST(MatrixFile, CutOrAlteredIsRefused)
     file.set(whole + "more");
     EXPECT_NE(file.complaint().find("damaged"), std::string::npos);
     std::string newer = whole;
-    newer[8] = 2;
+    newer[8] = 3;
     file.set(newer);
     EXPECT_NE(file.complaint().find("another version"), std::string::npos);
 }
