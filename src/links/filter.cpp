@@ -21,7 +21,7 @@ void for_each_lumel(const FilterTile& tile, const Visit& visit)
     for (int y = 0; y < kTile; ++y)
         for (int x = 0; x < kTile; ++x)
             if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
-                visit(i, std::size_t(y * kTile + x));
+                visit(i, std::size_t(y) * kTile + std::size_t(x));
 }
 
 glm::vec3 weighted(const std::array<Inner, 3>& sum, const Inner& weight, std::size_t t)

@@ -190,7 +190,8 @@ void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Diff
     for (int dy = -kPatch; dy <= kPatch; ++dy)
         for (int dx = -kPatch; dx <= kPatch; ++dx) {
             const std::size_t at = wide_at(dx, y + dy),
-                              pair = std::size_t((y + dy + kPatch) * kPairs + dx + kPatch);
+                              pair =
+                                  std::size_t(y + dy + kPatch) * kPairs + std::size_t(dx + kPatch);
             for (std::size_t x = 0; x < kTile; ++x) {
                 const float same = tile.chart[at + x] == tile.chart[own_at + x] ? 1.0f : 0.0f;
                 squares[x] += same * found.square[pair + x];

@@ -25,7 +25,7 @@ inline constexpr int kTile = 32, kHalo = 6, kWide = kTile + 2 * kHalo;
 /// Index of a texel of a tile, -kHalo ≤ x, y < kTile + kHalo.
 constexpr std::size_t wide_at(int x, int y)
 {
-    return std::size_t((y + kHalo) * kWide + x + kHalo);
+    return std::size_t(y + kHalo) * kWide + std::size_t(x + kHalo);
 }
 
 struct FilterTile {

@@ -234,9 +234,8 @@ bool is_sound(const Relightable& light)
 {
     const std::size_t lumels = light.size(), patches = light.patches.size();
     const std::uint64_t texels = std::uint64_t(light.side) * light.side;
-    if (light.area.size() != lumels || !all_finite(light.area) ||
-        light.albedo.size() != lumels || !all_finite(numbers_of(light.albedo)) ||
-        !all_below(light.place, 2 * texels))
+    if (light.area.size() != lumels || !all_finite(light.area) || light.albedo.size() != lumels ||
+        !all_finite(numbers_of(light.albedo)) || !all_below(light.place, 2 * texels))
         return false;
     for (const SourceLight& source : light.sources)
         if (!is_sound(source, lumels))

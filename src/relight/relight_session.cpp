@@ -12,10 +12,10 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "relight/matrix_file.h"
-#include "json/json_view.h"
 #include "relight/last_bounce.shared.h"
+#include "relight/matrix_file.h"
 #include "shooting/lumel_arrays.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {

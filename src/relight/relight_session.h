@@ -63,7 +63,7 @@ private:
     Relightable light_;
     std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] reflected_means() [lx]
     Factors factors_;
-    std::optional<Multiply> multiply_;                         ///< none where nothing reflects
+    std::optional<Multiply> multiply_;  ///< none where nothing reflects
     std::optional<gpu::Kernel<shaders::LastBounce>> last_bounce_;
     std::optional<gpu::Array<std::uint32_t>> first_;  ///< of the rows
     std::optional<gpu::Array<RowEntry>> entries_;

@@ -121,9 +121,9 @@ TEST(MatrixRadiosity, AgreesWithALumelSolverOnItsPatches)
     const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 64});
     const SolverOptions options{.method = MatrixOptions{}, .target_error = 0.003};
     const support::Resident resident(world.scene, world.rays, world.lumels, options);
-    MatrixRadiosity matrix(resident.device, resident.world,
-                           {world.scene, world.rays, world.atlas}, world.lumels, resident.near,
-                           std::get<MatrixOptions>(options.method), options.target_error, {});
+    MatrixRadiosity matrix(resident.device, resident.world, {world.scene, world.rays, world.atlas},
+                           world.lumels, resident.near, std::get<MatrixOptions>(options.method),
+                           options.target_error, {});
     ASSERT_TRUE(solve(matrix, options));
     ASSERT_NE(matrix.transport(), nullptr);
     const support::Solved lumels = support::solve_scene(
