@@ -20,7 +20,8 @@ void check(const Primitive& primitive, const Scene& scene)
     const std::size_t count = primitive.positions.size();
     require(std::size_t(primitive.material) < scene.materials.size(), "a material is there");
     for (const std::size_t length : {primitive.normals.size(), primitive.colors.size(),
-                                     primitive.texcoords[0].size(), primitive.texcoords[1].size()})
+                                     primitive.texcoords[0].size(), primitive.texcoords[1].size(),
+                                     primitive.texcoords[2].size(), primitive.texcoords[3].size()})
         require(length == 0 || length == count, "attributes have an element for each vertex");
     for (const glm::vec3& position : primitive.positions)
         require(is_finite(position), "positions are finite");

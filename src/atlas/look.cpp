@@ -22,8 +22,8 @@ MaterialSample sample_at(const Scene& scene, const Part& part, const glm::dvec2&
     const Primitive& primitive = *part.primitive;
     const glm::vec3 w(part.weights(point));
     const auto& source = part.triangle.source;
-    glm::vec2 texcoord[2] = {};
-    for (int set = 0; set < 2; ++set)
+    glm::vec2 texcoord[kTexcoordSets] = {};
+    for (int set = 0; set < kTexcoordSets; ++set)
         if (const std::vector<glm::vec2>& from = primitive.texcoords[set]; !from.empty())
             texcoord[set] = w.x * from[source[0]] + w.y * from[source[1]] + w.z * from[source[2]];
     glm::vec4 color(1.0f);

@@ -69,11 +69,11 @@ MaterialSample look_at(const Scene& scene, const Fill& fill, const glm::dvec2& p
 {
     const Primitive& primitive = *fill.primitive;
     const glm::vec3 weights(fill.triangle.weights(place));
-    glm::vec2 texcoord[2] = {};
+    glm::vec2 texcoord[kTexcoordSets] = {};
     glm::vec4 color(primitive.colors.empty() ? 1.0f : 0.0f);
     for (int corner = 0; corner < 3; ++corner) {
         const std::uint32_t vertex = fill.triangle.source[std::size_t(corner)];
-        for (int set = 0; set < 2; ++set)
+        for (int set = 0; set < kTexcoordSets; ++set)
             if (!primitive.texcoords[set].empty())
                 texcoord[set] += weights[corner] * primitive.texcoords[set][vertex];
         if (!primitive.colors.empty())

@@ -29,7 +29,7 @@ Surfaces::Surfaces(const Scene& scene) : scene_(&scene)
             surface.double_sided = material.double_sided;
             surface.may_emit = material.emitted != glm::vec3(0.0f);
             surface.uniform = is_uniform(material) && primitive.colors.empty();
-            const glm::vec2 nowhere[2]{};
+            const glm::vec2 nowhere[kTexcoordSets]{};
             if (surface.uniform)
                 surface.look = sample_material(scene, primitive.material, nowhere, glm::vec4(1.0f));
             surfaces_.push_back(surface);
@@ -42,8 +42,8 @@ MaterialSample Surfaces::textured_look(const PlacedSurface& surface, std::uint32
 {
     const Primitive& source = *surface.source;
     const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
-    glm::vec2 texcoord[2]{};
-    for (int set = 0; set < 2; ++set)
+    glm::vec2 texcoord[kTexcoordSets]{};
+    for (int set = 0; set < kTexcoordSets; ++set)
         if (!source.texcoords[set].empty())
             texcoord[set] = interpolate(source.texcoords[set], corner, barycentric);
     const glm::vec4 color =

@@ -30,7 +30,7 @@ struct Vertices {
 
 glm::vec2 texture_place(const Primitive& primitive, const TextureUse& use, std::uint32_t vertex)
 {
-    const auto& uv = primitive.texcoords[use.texcoord == 1 ? 1 : 0];
+    const auto& uv = primitive.texcoords[use.texcoord];
     return uv.empty() ? glm::vec2(0.0f) : glm::vec2(use.transform * glm::vec3(uv[vertex], 1.0f));
 }
 

@@ -81,8 +81,8 @@ MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float 
     const auto blend = [&](const auto& values) {
         return values[corner[0]] * (1.0f - u - v) + values[corner[1]] * u + values[corner[2]] * v;
     };
-    glm::vec2 texcoord[2]{};
-    for (int set = 0; set < 2; ++set)
+    glm::vec2 texcoord[kTexcoordSets]{};
+    for (int set = 0; set < kTexcoordSets; ++set)
         if (!source.texcoords[set].empty())
             texcoord[set] = blend(source.texcoords[set]);
     const glm::vec4 color = source.colors.empty() ? glm::vec4(1.0f) : blend(source.colors);

@@ -182,8 +182,9 @@ void read_attributes(const GltfDocument& document, const JsonView& view,
         view.fail("has no POSITION attribute");
     primitive.normals = set.read<3>("NORMAL", normal_rule());
     set.check_length("NORMAL", primitive.normals.size(), count);
-    primitive.texcoords[0] = set.read_finite<2>("TEXCOORD_0", texcoord_rule(), count);
-    primitive.texcoords[1] = set.read_finite<2>("TEXCOORD_1", texcoord_rule(), count);
+    for (int i = 0; i < kTexcoordSets; ++i)
+        primitive.texcoords[i] =
+            set.read_finite<2>(("TEXCOORD_" + std::to_string(i)).c_str(), texcoord_rule(), count);
     primitive.colors = set.read_finite<4>("COLOR_0", color_rule(), count);
     apply_morph_targets(document, view, weights, primitive);
 

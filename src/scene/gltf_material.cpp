@@ -13,8 +13,6 @@ namespace lumel {
 
 namespace {
 
-constexpr int kLargestTexcoord = 1;
-
 class MaterialReader {
 public:
     MaterialReader(const GltfDocument& document, MaterialModel model)
@@ -148,10 +146,12 @@ private:
     int texcoord_of(const JsonView& view) const
     {
         const std::int64_t set = view.integer(0, INT32_MAX);
-        if (set > kLargestTexcoord && in_use_)
+        constexpr std::int64_t kLargest = kTexcoordSets - 1;
+        if (set > kLargest && in_use_)
             view.fail("refers to TEXCOORD_" + std::to_string(set) +
-                      ", but only TEXCOORD_0 and TEXCOORD_1 are read");
-        return int(std::min<std::int64_t>(set, kLargestTexcoord));
+                      ", but only TEXCOORD_0 to TEXCOORD_" + std::to_string(kLargest) +
+                      " are read");
+        return int(std::min(set, kLargest));
     }
 
     /// Place of a texture's image in Scene::textures; images are shared.

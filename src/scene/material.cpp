@@ -50,8 +50,8 @@ Span span_of(float coordinate, int size, Wrap wrap)
 }
 
 /// Bilinear, decoded: white where there is no texture.
-glm::vec4 sample_texture(const Scene& scene, const TextureUse& use, const glm::vec2 texcoord[2],
-                         Coding coding = Coding::srgb)
+glm::vec4 sample_texture(const Scene& scene, const TextureUse& use,
+                         const glm::vec2 texcoord[kTexcoordSets], Coding coding = Coding::srgb)
 {
     if (use.texture < 0)
         return glm::vec4(1.0f);
@@ -83,7 +83,8 @@ float share_there(const Material& look, float alpha)
 
 }  // namespace
 
-MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
+MaterialSample sample_material(const Scene& scene, int material,
+                               const glm::vec2 texcoord[kTexcoordSets],
                                const glm::vec4& vertex_color)
 {
     const Material& look = scene.materials[std::size_t(material)];

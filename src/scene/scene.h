@@ -23,10 +23,14 @@ struct Texture {
 
 enum class Wrap { repeat, mirrored, clamp };
 
+/// TEXCOORD_0 and so on that textures may read. A viewer must support two; what was baked once has
+/// the lightmap's place besides.
+inline constexpr int kTexcoordSets = 4;
+
 /// Where and how a material reads a texture.
 struct TextureUse {
     int texture = -1;            ///< index into Scene::textures, -1: none
-    int texcoord = 0;            ///< 0 or 1: TEXCOORD_n
+    int texcoord = 0;            ///< below kTexcoordSets: TEXCOORD_n
     glm::mat3 transform{1.0f};   ///< KHR_texture_transform: uv' = transform * (u, v, 1)
     Wrap wrap_s = Wrap::repeat;  ///< u
     Wrap wrap_t = Wrap::repeat;  ///< v
@@ -58,13 +62,13 @@ struct Material {
 
 /// A triangle list. Vertex arrays keep the order of the file's accessors; empty: absent.
 struct Primitive {
-    std::vector<glm::vec3> positions;     ///< [V] mesh space [m]
-    std::vector<glm::vec3> normals;       ///< [V] unit length, or empty (flat shading)
-    std::vector<glm::vec2> texcoords[2];  ///< [V] TEXCOORD_0 and TEXCOORD_1, or empty
-    std::vector<glm::vec4> colors;        ///< [V] COLOR_0, multiplies base colour, or empty
-    std::vector<std::uint32_t> indices;   ///< [3T] strips and fans unrolled, zero-area dropped
-    int material = 0;                     ///< index into Scene::materials, always valid
-    int source_primitive = 0;             ///< index in the file's mesh.primitives
+    std::vector<glm::vec3> positions;                 ///< [V] mesh space [m]
+    std::vector<glm::vec3> normals;                   ///< [V] unit length, or empty (flat shading)
+    std::vector<glm::vec2> texcoords[kTexcoordSets];  ///< [V] TEXCOORD_n, or empty
+    std::vector<glm::vec4> colors;       ///< [V] COLOR_0, multiplies base colour, or empty
+    std::vector<std::uint32_t> indices;  ///< [3T] strips and fans unrolled, zero-area dropped
+    int material = 0;                    ///< index into Scene::materials, always valid
+    int source_primitive = 0;            ///< index in the file's mesh.primitives
 };
 
 struct Mesh {
@@ -158,7 +162,7 @@ glm::vec3 intensity_towards(const Scene& scene, const PunctualLight& light,
 /// max(min(1 - (r / range)⁴, 1), 0); 1 without one.
 float range_window(const PunctualLight& light, float distance);
 
-/// What a material looks like at one point. `texcoord` [2]: TEXCOORD_0 and TEXCOORD_1.
+/// What a material looks like at one point. `texcoord`: TEXCOORD_n.
 struct MaterialSample {
     glm::vec3 albedo;    ///< ρ, linear, clamped to 0…1: all that is reflected, taken as diffuse
     glm::vec3 diffuse;   ///< ρ_d, where gloss counts
@@ -168,7 +172,8 @@ struct MaterialSample {
     glm::vec3 tint;      ///< 0…1, of what passes: 1 - opacity of the light does, times this
     glm::vec3 emitted;   ///< luminance [cd/m²], linear
 };
-MaterialSample sample_material(const Scene& scene, int material, const glm::vec2 texcoord[2],
+MaterialSample sample_material(const Scene& scene, int material,
+                               const glm::vec2 texcoord[kTexcoordSets],
                                const glm::vec4& vertex_color);
 
 /// Exponent n of a Phong lobe about the mirror direction that is as wide as glTF's roughness,

@@ -35,8 +35,9 @@ void add_primitive(Fingerprint& hash, const Primitive& primitive)
 {
     hash.add(primitive.positions);
     hash.add(primitive.normals);
-    hash.add(primitive.texcoords[0]);
-    hash.add(primitive.texcoords[1]);
+    for (int set = 0; set < kTexcoordSets; ++set)
+        if (set < 2 || !primitive.texcoords[set].empty())  // as of old, where others are absent
+            hash.add(primitive.texcoords[set]);
     hash.add(primitive.colors);
     hash.add(primitive.indices);
     hash.add(primitive.material);

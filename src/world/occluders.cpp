@@ -131,7 +131,7 @@ std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::u
 {
     const auto base = std::uint32_t(out.positions.size());
     const TextureUse& use = material.base_color_texture;
-    const auto& uv = primitive.texcoords[use.texcoord == 1 ? 1 : 0];
+    const auto& uv = primitive.texcoords[use.texcoord];
     const std::size_t count = surface ? surface->source_vertex.size() : primitive.positions.size();
     if (surface) {
         const std::vector<glm::vec4> corners = chart_corners(*surface);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -52,8 +53,8 @@ const Primitive& primitive_of(const Scene& scene, const Surface& surface)
 // Colour, emission and opacity at a corner, read as a renderer would.
 MaterialSample look(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
 {
-    glm::vec2 texcoords[2];
-    for (int set = 0; set < 2; ++set)
+    glm::vec2 texcoords[kTexcoordSets];
+    for (int set = 0; set < kTexcoordSets; ++set)
         if (!primitive.texcoords[set].empty())
             texcoords[set] = primitive.texcoords[set][vertex];
     const glm::vec4 color = primitive.colors.empty() ? glm::vec4(1.0f) : primitive.colors[vertex];
@@ -448,6 +449,61 @@ TEST_F(TwoQuads, WhereBothTexcoordsAreReadTheOlderLightmapPlaceGetsTheNextNumber
     EXPECT_TRUE(primitive["attributes"].contains("TEXCOORD_2"));
 }
 
+TEST_F(TwoQuads, WhereBothTexcoordsAreReadWhatIsWrittenReadsTheSameAndIsWrittenAgainTheSame)
+{
+    Json both = file();
+    both["materials"][0]["emissiveFactor"] = {1, 1, 1};
+    both["materials"][0]["emissiveTexture"] = {{"index", 0}};
+    both["accessors"].push_back(both["accessors"][1]);
+    both["accessors"][2]["bufferView"] = 0;
+    both["accessors"][2]["type"] = "VEC2";
+    both["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
+    const Scene before = scene(both);
+    const Atlas atlas = test::corner_atlas(before);
+    write_scene_glb(folder_ / "scene.glb", before, atlas, test::any_map(atlas));
+    const Scene after = read_gltf(folder_ / "scene.glb");
+    for (const Surface& surface : atlas.surfaces) {
+        const Primitive &old = primitive_of(before, surface), &now = primitive_of(after, surface);
+        for (std::size_t i = 0; i < surface.indices.size(); ++i) {
+            const std::uint32_t source = surface.source_vertex[surface.indices[i]];
+            EXPECT_EQ(now.texcoords[0][now.indices[i]], old.texcoords[0][source]);
+            EXPECT_EQ(now.texcoords[2][now.indices[i]], old.texcoords[1][source]);
+        }
+        const Material& material = after.materials.at(std::size_t(now.material));
+        EXPECT_EQ(material.base_color_texture.texcoord, 2);
+        EXPECT_EQ(material.emissive_texture.texcoord, 0);
+    }
+
+    const Atlas again = test::corner_atlas(after);
+    write_scene_glb(folder_ / "again.glb", after, again, test::any_map(again));
+    const Json json = load_gltf_document(folder_ / "again.glb").json;
+    const Json& mesh = json["meshes"][json["nodes"][0]["mesh"].get<std::size_t>()];
+    const Json& attributes = mesh["primitives"][0]["attributes"];
+    EXPECT_TRUE(attributes.contains("TEXCOORD_2"));
+    EXPECT_FALSE(attributes.contains("TEXCOORD_3"));
+}
+
+TEST_F(TwoQuads, EveryVariantShowsTheLightmap)
+{
+    const char* variants = "KHR_materials_variants";
+    Json json = file();
+    json["extensionsUsed"].push_back(variants);
+    json["extensions"][variants]["variants"] = {{{"name", "at night"}}};
+    json["materials"].push_back({{"name", "blue"}});
+    json["meshes"][0]["primitives"][0]["extensions"][variants]["mappings"] = {
+        {{"material", 1}, {"variants", {0}}}};
+    const Json written = lit(json);
+    for (const std::size_t node : {0, 1}) {
+        const auto mesh = written["nodes"][node]["mesh"].get<std::size_t>();
+        const Json& primitive = written["meshes"][mesh]["primitives"][0];
+        const Json& mapping = primitive["extensions"][variants]["mappings"][0];
+        const Json& material = written["materials"][mapping["material"].get<std::size_t>()];
+        EXPECT_EQ(material["name"], "blue");
+        EXPECT_TRUE(material.contains(Json::json_pointer("/extensions/MOZ_lightmap")));
+    }
+    EXPECT_EQ(written["materials"][1], json["materials"][1]);  // of the mesh outside the scene
+}
+
 TEST_F(TwoQuads, AMaterialThatOnlyBakedMeshesUseIsNotCopied)
 {
     Json alone = file();
@@ -528,6 +584,24 @@ TEST_F(TwoQuads, AnOlderLightmapWithAnImageThatIsNotThereIsReplacedToo)
     EXPECT_EQ(written["images"].size(), 3u);  // red, and the map in two forms
     for (const Json& image : written["images"])
         EXPECT_TRUE(image.is_object()) << image;
+}
+
+TEST_F(TwoQuads, AnOlderLightmapThatSomethingElseShowsStays)
+{
+    Json json = file();
+    json["extensionsUsed"] = {"MOZ_lightmap"};
+    json["images"].push_back({{"uri", "red.png"}, {"name", "older map"}});
+    json["textures"].push_back({{"source", 1}});
+    json["materials"][0]["extensions"]["MOZ_lightmap"] = {{"index", 1}};
+    const Json mesh_shows_it = lit(json);  // that outside the scene
+    EXPECT_EQ(mesh_shows_it["textures"][1], json["textures"][1]);
+    EXPECT_EQ(mesh_shows_it["images"][1]["name"], "older map");
+
+    json["nodes"][2].erase("mesh");
+    json["textures"].push_back({{"source", 1}, {"name", "colour"}});
+    json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 2;
+    const Json texture_shows_it = lit(json);
+    EXPECT_EQ(texture_shows_it["images"][1]["name"], "older map");
 }
 
 TEST_F(TwoQuads, AFileThatChangedMeanwhileIsAnError)
@@ -619,6 +693,51 @@ TEST_F(TwoQuads, BacksBendTheirNormalsAsBacksOfDoubleSidedSurfacesDo)
         EXPECT_LT(glm::distance(bent(glm::vec3(normals[i]), tangents[i], kTexel),
                                 -bent(kNormal, kTangent, kTexel)),
                   1e-6f);
+}
+
+// The least whole number has no opposite, and stands for the same direction as the one after it.
+template <class T>
+void write_least_normals(const std::string& path)
+{
+    constexpr T kNormalAndFiller[4] = {0, 0, std::numeric_limits<T>::min(), 0};
+    std::ofstream file(path, std::ios::binary);
+    for (int vertex = 0; vertex < 4; ++vertex)
+        file.write(reinterpret_cast<const char*>(kNormalAndFiller), sizeof kNormalAndFiller);
+}
+
+TEST_F(TwoQuads, NormalsOfBacksPointTheOtherWayInWholeNumbersToo)
+{
+    constexpr int kByte = 5120, kShort = 5122;
+    write_least_normals<std::int8_t>(folder_ / "normals-5120.bin");
+    write_least_normals<std::int16_t>(folder_ / "normals-5122.bin");
+    for (const int type : {kByte, kShort}) {
+        const int stride = type == kByte ? 4 : 8;
+        Json json = file();
+        json["extensionsUsed"].push_back("KHR_mesh_quantization");
+        json["extensionsRequired"] = {"KHR_mesh_quantization"};
+        json["buffers"].push_back(
+            {{"uri", "normals-" + std::to_string(type) + ".bin"}, {"byteLength", 4 * stride}});
+        json["bufferViews"].push_back(
+            {{"buffer", 1}, {"byteLength", 4 * stride}, {"byteStride", stride}});
+        json["accessors"].push_back({{"bufferView", 2},
+                                     {"componentType", type},
+                                     {"normalized", true},
+                                     {"count", 4},
+                                     {"type", "VEC3"}});
+        json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 2;
+        json["materials"][0]["doubleSided"] = true;
+
+        const Scene read = scene(json);
+        const Atlas atlas = with_own_backs(test::corner_atlas(read));
+        write_scene_glb(folder_ / "out.glb", read, atlas, test::any_map(atlas));
+        const Scene viewed = read_gltf(without_marks(folder_ / "out.glb", folder_ / "viewed.glb"));
+        const Mesh& mesh = viewed.meshes[std::size_t(viewed.instances[0].mesh)];
+        ASSERT_EQ(mesh.primitives.size(), 2u);
+        for (const glm::vec3& normal : mesh.primitives[0].normals)
+            EXPECT_EQ(normal, glm::vec3(0.0f, 0.0f, -1.0f)) << type;
+        for (const glm::vec3& normal : mesh.primitives[1].normals)
+            EXPECT_EQ(normal, glm::vec3(0.0f, 0.0f, 1.0f)) << type;
+    }
 }
 
 TEST(GltfWrite, HasAFaceForEachSideAndIsReadAsDoubleSidedAgain)
