@@ -75,8 +75,8 @@ std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting
     stages.begin("solving");
     auto solver = std::make_unique<RelightSolver>(
         device, *setting.world, HostScene{prepared.scene, prepared.rays, prepared.atlas},
-        prepared.lumels, setting.near, for_what_is_left(options.solver, stages),
-        std::move(sources), options.parts);
+        prepared.lumels, setting.near, for_what_is_left(options.solver, stages), std::move(sources),
+        options.parts);
     while (!solver->done() && stages.progress(solver->fraction(), solver->state().shots))
         solver->step();
     const bool needs_matrix = options.parts != Parts::direct;

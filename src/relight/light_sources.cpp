@@ -133,7 +133,8 @@ Scene only_shining(Scene scene, const LightSource& source)
 {
     scene.sky = {};
     scene.lights.clear();
-    std::vector<int> dark_mesh(scene.meshes.size(), kNone), dark_material(scene.materials.size(), kNone);
+    std::vector<int> dark_mesh(scene.meshes.size(), kNone),
+        dark_material(scene.materials.size(), kNone);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         int& mesh = scene.instances[i].mesh;
         if (!contains(source.instances, i))

@@ -120,7 +120,8 @@ bool RelightSolver::is_enough() const
     const std::uint64_t emitters = emitters_from(0);
     const std::uint64_t shots = (options_.max_shots + emitters - 1) / emitters;
     return (options_.max_shots > 0 && state.shots >= shots) ||
-           (options_.max_seconds > 0.0 && state.shots > 0 && wall_seconds() - emitter_->start >= emitter_->seconds) ||
+           (options_.max_seconds > 0.0 && state.shots > 0 &&
+            wall_seconds() - emitter_->start >= emitter_->seconds) ||
            (options_.target_error > 0.0 && state.error >= 0.0 &&
             state.error <= options_.target_error) ||
            state.full;
@@ -212,13 +213,15 @@ Relightable RelightSolver::relightable(const std::string& hash) const
     }
     for (std::size_t s = 0; s < sources_.size(); ++s) {
         const KnownSource& known = sources_[s];
-        SourceLight& source =
-            light.sources.emplace_back(SourceLight{known.source.name, known.source.materials,
-                                                   known.direct, reflected_[s]});
+        SourceLight& source = light.sources.emplace_back(
+            SourceLight{known.source.name, known.source.materials, known.direct, reflected_[s]});
         if (transport_ && !source.reflected.empty())
             add_light(source.reflected, transport_->indirect(*lumels_, known.direct));
         add_light(source.direct, surfaces_[s]);
+        source.lights = lamps_of(host_.scene, known.source).lights;
     }
+    light.profiles = host_.scene.profiles;
+    light.origin = host_.scene.origin;
     if (transport_) {
         light.patches = transport_->patches;
         light.rows = transport_->rows;

@@ -78,8 +78,8 @@ void DirectRays::estimate()
     }
     // √(Σ d² / 3n) / (Σ H / 3n)
     state_.error = light > 0.0 ? std::sqrt(3.0 * count * squares) / light : 0.0;
-    state_.shots = std::max<std::uint64_t>(
-        1, finder_.rays() / std::max<std::uint64_t>(1, std::uint64_t(count)));
+    state_.shots = std::max<std::uint64_t>(1, finder_.rays() /
+                                                  std::max<std::uint64_t>(1, std::uint64_t(count)));
     state_.begun = 1.0;
 }
 

@@ -23,9 +23,9 @@
 
 namespace lumel {
 MatrixRadiosity::MatrixRadiosity(const gpu::Device& device, const World& world,
-                                 const HostScene& host, const Lumels& lumels,
-                                 const NearField& near, const MatrixOptions& options,
-                                 double target_error, std::span<const glm::vec3> known)
+                                 const HostScene& host, const Lumels& lumels, const NearField& near,
+                                 const MatrixOptions& options, double target_error,
+                                 std::span<const glm::vec3> known)
     : lumels_(&lumels),
       known_(known.begin(), known.end()),
       direct_(host, lumels, options.seed, target_error, known),
