@@ -15,14 +15,16 @@ Command relight_command(CLI::App& program)
     RelightArguments& relight = *given;
     CLI::App& command = *program.add_subcommand(
         "relight",
-        "Light a bake of --solver matrix anew, with its lights dimmed, coloured or switched off");
+        "Light a bake of --solver matrix anew, with its lights dimmed, coloured, switched off "
+        "or moved");
     command.add_option("folder", relight.folder, "What lumel bake --solver matrix wrote")
         ->required()
         ->type_name("FOLDER");
     command
-        .add_option("states", relight.states,
-                    "JSON: {\"states\": [{\"name\": \"evening\", \"others\": 0, \"lights\": "
-                    "{\"lamp\": 0.5, \"sky\": [0.2, 0.3, 0.6]}}]}")
+        .add_option(
+            "states", relight.states,
+            "JSON: {\"states\": [{\"name\": \"evening\", \"others\": 0, \"lights\": "
+            "{\"lamp\": 0.5, \"sky\": [0.2, 0.3, 0.6], \"spot\": {\"position\": [0, 2, 1]}}}]}")
         ->required()
         ->type_name("FILE");
     add_device_option(command, relight.options.device);

@@ -411,6 +411,12 @@ private:
 
 // --------------------------------------------------------------------------------------- relight
 
+/// Where a lamp is.
+struct LampPlace {
+    std::optional<Vec3> position;   ///< [m] not of directional lights
+    std::optional<Vec3> direction;  ///< in which it shines, of any length
+};
+
 /// A baked scene under any light, by one multiply: H = Σ f_s H_s over its sources s. All factors
 /// are 1 at first.
 class LUMEL_API Relight {
@@ -431,7 +437,11 @@ public:
     /// was baked. Throws Error{input}, with the names there are, for another name and for factors
     /// that are negative or no numbers.
     void set_light(const std::string& name, const Vec3& factor);
-    /// The lightmap with the factors set, in the layout of the bake.
+    /// Moves or turns a lamp; map() then draws its shadow maps anew. What of `place` is not set is
+    /// as it was baked. Throws Error{input} for surfaces, the sky and names of several lamps, for
+    /// positions of directional lights, and if this was read from a file, which has no scene.
+    void move_light(const std::string& name, const LampPlace& place);
+    /// The lightmap with factors and places set, in the layout of the bake.
     Map map();
     /// Writes scene.lumelmat. Throws Error{output}.
     void save(const std::string& path) const;

@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "api/bake.h"
 #include "api/device.h"
 #include "api/translate.h"
@@ -41,13 +43,25 @@ struct RelightImpl {
     const gpu::Device* device;
     RelightSession session;
     std::shared_ptr<const Relightable> baked;  ///< null: read from a file
+    std::unique_ptr<World> world;              ///< once a light has moved
+
+    /// Puts the scene that was baked onto the device.
+    void load_world()
+    {
+        if (world || !baked)
+            return;
+        world = std::make_unique<World>(*device, baked->scene, baked->lumels, &baked->atlas);
+        std::vector<std::uint32_t> number(baked->lumels.lumels.size());
+        std::iota(number.begin(), number.end(), 0u);
+        session.set_world({*world, baked->lumels, std::move(number), {}});
+    }
 };
 
 Relight::Relight(const Device& device, const Baked& baked)
     : impl_(translated([&] {
           const gpu::Device& on = device.impl().device;
-          return std::unique_ptr<RelightImpl>(
-              new RelightImpl{&on, RelightSession(on, light_of(baked)), baked.relightable});
+          return std::unique_ptr<RelightImpl>(new RelightImpl{
+              &on, RelightSession(on, light_of(baked)), baked.relightable, nullptr});
       }))
 {
 }
@@ -56,7 +70,7 @@ Relight::Relight(const Device& device, const std::string& path)
     : impl_(translated([&] {
           const gpu::Device& on = device.impl().device;
           return std::unique_ptr<RelightImpl>(
-              new RelightImpl{&on, RelightSession(on, path), nullptr});
+              new RelightImpl{&on, RelightSession(on, path), nullptr, nullptr});
       }))
 {
 }
@@ -73,6 +87,19 @@ std::vector<std::string> Relight::lights() const
 void Relight::set_light(const std::string& name, const Vec3& factor)
 {
     translated([&] { impl_->session.set_light(name, to_glm(factor)); });
+}
+
+void Relight::move_light(const std::string& name, const LampPlace& place)
+{
+    translated([&] {
+        lumel::LampPlace to;
+        if (place.position)
+            to.position = glm::dvec3(to_glm(*place.position));
+        if (place.direction)
+            to.direction = to_glm(*place.direction);
+        impl_->load_world();
+        impl_->session.move_light(name, to);
+    });
 }
 
 Map Relight::map()

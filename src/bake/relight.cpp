@@ -134,6 +134,12 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
     const gpu::Device device(options.device);
     stages.watch(device);
     RelightSession session(device, std::move(light));
+    std::optional<World> lit;
+    if (std::any_of(states.begin(), states.end(),
+                    [](const NamedState& state) { return !state.light.places.empty(); })) {
+        lit.emplace(device, world.scene, world.lumels, &world.atlas);
+        session.set_world({*lit, world.lumels, numbers, {}});
+    }
     check_states(session, states, states_path);
     OutputFolder output((fs::path(folder) / "states").string());
 

@@ -1,8 +1,10 @@
 #include "bake/states_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
+#include "scene/sun.h"
 #include "json/json_file.h"
 
 namespace lumel {
@@ -10,6 +12,7 @@ namespace {
 
 /// So long that an ending and a temporary name still fit into what file systems allow [bytes].
 constexpr std::size_t kLongestName = 200;
+constexpr double kStraightUp = 90.0;  // [degrees]
 
 /// True for names that every file system takes, and that stay in their folder.
 bool names_a_file(const std::string& name)
@@ -45,6 +48,50 @@ glm::vec3 factor_of(const JsonView& view)
     return factor;
 }
 
+glm::dvec3 point_of(const JsonView& view)
+{
+    if (!view.json().is_array() || view.json().size() != 3)
+        view.fail("must be [x, y, z]");
+    return {view.at(0).number(), view.at(1).number(), view.at(2).number()};
+}
+
+/// "azimuth" and "elevation" of what shines from there, or "direction".
+void add_direction_to(LampPlace& place, const JsonView& view)
+{
+    const auto direction = view.find("direction"), azimuth = view.find("azimuth"),
+               elevation = view.find("elevation");
+    if (!azimuth && !elevation) {
+        if (direction)
+            place.direction.emplace(point_of(*direction));
+        return;
+    }
+    if (direction)
+        view.fail("has a direction twice: leave out \"direction\", or the angles");
+    const double up = view.get("elevation").number();
+    if (std::abs(up) > kStraightUp)
+        view.get("elevation").fail("must lie between -90 and 90 degrees");
+    place.direction.emplace(
+        -direction_of({glm::radians(view.get("azimuth").number()), glm::radians(up)}));
+}
+
+/// A factor, or an object with what changes of a light.
+void add_light_to(LightState& state, const std::string& name, const JsonView& view)
+{
+    if (!view.json().is_object()) {
+        state.lights[name] = factor_of(view);
+        return;
+    }
+    allow_only(view, {"factor", "position", "direction", "azimuth", "elevation"});
+    const auto factor = view.find("factor");
+    state.lights[name] = factor ? factor_of(*factor) : glm::vec3(1.0f);
+    LampPlace place;
+    add_direction_to(place, view);
+    if (const auto position = view.find("position"))
+        place.position.emplace(point_of(*position));
+    if (place.position || place.direction)
+        state.places[name] = place;
+}
+
 NamedState state_of(const JsonView& view)
 {
     allow_only(view, {"name", "others", "lights"});
@@ -55,7 +102,7 @@ NamedState state_of(const JsonView& view)
         state.light.others = factor_of(*others);
     if (const auto lights = view.find("lights"))
         for (const auto& [name, value] : lights->as_object().json().items())
-            state.light.lights[name] = factor_of(lights->get(name.c_str()));
+            add_light_to(state.light, name, lights->get(name.c_str()));
     return state;
 }
 

@@ -13,9 +13,11 @@ struct NamedState {
     LightState light;
 };
 
-/// {"states": [{"name": …, "others": factor, "lights": {NAME: factor, …}}, …]}, a factor being a
-/// number or [r, g, b], from 0. Names of lights are not looked up. Throws Error{input} with the
-/// place of what is wrong.
+/// {"states": [{"name": …, "others": factor, "lights": {NAME: light, …}}, …]}, a factor being a
+/// number or [r, g, b], from 0, and a light a factor or {"factor": …, "position": [x, y, z],
+/// "direction": [x, y, z]} [m], with "azimuth" and "elevation" [degrees] of where its light comes
+/// from in place of the direction, as --sun has them. Names of lights are not looked up. Throws
+/// Error{input} with the place of what is wrong.
 std::vector<NamedState> read_states(const std::string& path);
 
 }  // namespace lumel

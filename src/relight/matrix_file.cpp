@@ -171,6 +171,22 @@ private:
     std::span<const std::uint8_t> bytes_;
 };
 
+template <class Archive, class Lamp>
+void lamp_fields(Archive& archive, Lamp& lamp)
+{
+    archive.value(lamp.kind);
+    archive.text(lamp.name);
+    for (int c = 0; c < 3; ++c)
+        archive.value(lamp.color[c]);
+    for (auto* number : {&lamp.intensity, &lamp.range, &lamp.inner_cone, &lamp.outer_cone,
+                         &lamp.radius, &lamp.angle})
+        archive.value(*number);
+    archive.value(lamp.profile);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            archive.value(lamp.transform[column][row]);
+}
+
 /// All of the contents, in order, read from or written to `archive`. matrix: its bytes, none if
 /// there are no patches.
 template <class Archive, class Light, class Matrix>
@@ -186,7 +202,14 @@ void fields(Archive& archive, Light& light, Matrix& matrix)
         archive.each(source.materials, [&](auto& name) { archive.text(name); });
         archive.halves(source.direct);
         archive.halves(source.reflected);
+        archive.each(source.lights, [&](auto& lamp) { lamp_fields(archive, lamp); });
     });
+    archive.each(light.profiles, [&](auto& profile) {
+        archive.text(profile.name);
+        archive.list(profile.candela);
+    });
+    for (int c = 0; c < 3; ++c)
+        archive.value(light.origin[c]);
     archive.value(light.patches.side);
     archive.list(light.patches.patch_of);
     archive.each(light.patches.patches, [&](auto& patch) {
@@ -210,11 +233,33 @@ bool all_below(const std::vector<std::uint32_t>& indices, std::uint64_t size)
     return std::all_of(indices.begin(), indices.end(), [&](std::uint32_t i) { return i < size; });
 }
 
-bool is_sound(const SourceLight& source, std::size_t lumels)
+bool is_sound(const PunctualLight& lamp, std::size_t profiles)
+{
+    const float numbers[] = {lamp.color.r,   lamp.color.g, lamp.color.b,
+                             lamp.intensity, lamp.range,   lamp.inner_cone,
+                             lamp.radius,    lamp.angle,   lamp.outer_cone};
+    const auto is_magnitude = [](float v) { return std::isfinite(v) && v >= 0.0f; };
+    return lamp.kind <= PunctualLight::Kind::spot && lamp.profile >= -1 &&
+           lamp.profile < int(profiles) &&
+           std::all_of(std::begin(numbers), std::end(numbers), is_magnitude) &&
+           all_finite({&lamp.transform[0][0], 16}) &&
+           glm::determinant(glm::mat3(lamp.transform)) != 0.0f;
+}
+
+bool is_sound(const SourceLight& source, std::size_t lumels, std::size_t profiles)
 {
     return source.direct.size() == lumels && all_finite(numbers_of(source.direct)) &&
            (source.reflected.empty() || source.reflected.size() == lumels) &&
-           all_finite(numbers_of(source.reflected));
+           all_finite(numbers_of(source.reflected)) &&
+           std::all_of(source.lights.begin(), source.lights.end(),
+                       [&](const PunctualLight& lamp) { return is_sound(lamp, profiles); });
+}
+
+bool is_sound(const Photometry& profile)
+{
+    constexpr std::size_t kValues =
+        std::size_t(Photometry::kAzimuthSteps) * (Photometry::kPolarSteps + 1);
+    return profile.candela.size() == kValues && all_finite(profile.candela);
 }
 
 bool is_sound(const LumelRows& rows, std::size_t lumels, std::size_t patches)
@@ -238,7 +283,10 @@ bool is_sound(const Relightable& light)
         !all_finite(numbers_of(light.albedo)) || !all_below(light.place, 2 * texels))
         return false;
     for (const SourceLight& source : light.sources)
-        if (!is_sound(source, lumels))
+        if (!is_sound(source, lumels, light.profiles.size()))
+            return false;
+    for (const Photometry& profile : light.profiles)
+        if (!is_sound(profile))
             return false;
     if (patches == 0)
         return true;

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/frame.h"
 #include "core/parallel.h"
 #include "relight/last_bounce.shared.h"
 #include "relight/matrix_file.h"
@@ -22,6 +23,10 @@ namespace {
 
 /// That share what is read of the matrix.
 constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
+/// Lamps stay this near to the scene [m], as its meshes do.
+constexpr double kFarthest = 1e9;
+/// Directions are longer.
+constexpr float kLeastLength = 1e-20f;
 /// Lumels worth a task of their own.
 constexpr std::size_t kLumelsPerTask = 4096;
 
@@ -62,7 +67,7 @@ void add_scaled(std::vector<glm::vec3>& light, const SourceLight& source, const 
 RelightSession::RelightSession(const gpu::Device& device, Relightable light)
     : device_(&device),
       light_(std::move(light)),
-      factors_(light_.sources.size(), glm::vec3(1.0f))
+      now_{.factors = Factors(light_.sources.size(), glm::vec3(1.0f))}
 {
     const std::size_t patches = light_.patches.size();
     if (patches == 0)
@@ -117,7 +122,86 @@ void RelightSession::set_light(const std::string& name, const glm::vec3& factor)
 {
     check_factor(name, factor);
     for (const std::size_t s : sources_of(name))
-        factors_[s] = factor;
+        now_.factors[s] = factor;
+}
+
+/// The lamp of a source, elsewhere. Throws if it cannot be there.
+PunctualLight RelightSession::placed(std::size_t source, const LampPlace& place) const
+{
+    const SourceLight& of = light_.sources[source];
+    const auto refuse = [&](const std::string& what) {
+        throw Error(ErrorKind::input, "", lumel::quoted(of.name) + " " + what);
+    };
+    if (!world_)
+        refuse("cannot be moved without the scene that was baked");
+    if (of.lights.size() != 1)
+        refuse(of.lights.empty()
+                   ? "is no lamp: only point, spot and directional lights can be moved"
+                   : "is the name of several lamps: give each a name of its own to move it");
+    if (!of.reflected.empty())
+        refuse("is the name of a lamp and of surfaces: give the lamp a name of its own to move it");
+    PunctualLight lamp = of.lights.front();
+    if (place.position) {
+        if (lamp.kind == PunctualLight::Kind::directional)
+            refuse("is a directional light: it has a direction and no position");
+        const glm::dvec3 position = *place.position - light_.origin;
+        if (!(glm::length(position) < kFarthest))
+            refuse("would be too far away");
+        lamp.transform[3] = glm::vec4(glm::vec3(position), 1.0f);
+    }
+    if (place.direction) {
+        const float length = glm::length(*place.direction);
+        if (!std::isfinite(length) || length < kLeastLength)
+            refuse("has a direction that points nowhere");
+        const glm::vec4 position = lamp.transform[3];
+        lamp.transform = glm::mat4(frame_about(*place.direction / -length));
+        lamp.transform[3] = position;
+    }
+    return lamp;
+}
+
+/// The source that a lamp of this name is, if it can be there.
+std::size_t RelightSession::lamp_of(const std::string& name, const LampPlace& place) const
+{
+    const std::size_t source = sources_of(name).front();
+    placed(source, place);
+    return source;
+}
+
+RelightSession::Moved RelightSession::moved(std::size_t source, const LampPlace& place) const
+{
+    Scene lamps;
+    lamps.profiles = light_.profiles;
+    lamps.lights = {placed(source, place)};
+    const DirectLight found =
+        direct_light(*device_, world_->world, lamps, world_->lumels, world_->options);
+    Moved result{.source = source, .direct = std::vector<glm::vec3>(size()), .mean = {}};
+    for (std::size_t i = 0; i < found.irradiance.size(); ++i)
+        if (world_->number[i] != kNoLumel)
+            result.direct[world_->number[i]] = found.irradiance[i];
+    if (multiply_)
+        result.mean = light_.patches.reflected_means(light_.area, light_.albedo, result.direct);
+    return result;
+}
+
+void RelightSession::move_light(const std::string& name, const LampPlace& place)
+{
+    to_move_[lamp_of(name, place)] = place;
+}
+
+void RelightSession::check(const LightState& state) const
+{
+    factors_of(state);
+    for (const auto& [name, place] : state.places)
+        lamp_of(name, place);
+}
+
+RelightSession::State RelightSession::state_of(const LightState& state) const
+{
+    State result{.factors = factors_of(state), .moved = {}};
+    for (const auto& [name, place] : state.places)
+        result.moved.push_back(moved(lamp_of(name, place), place));
+    return result;
 }
 
 RelightSession::Factors RelightSession::factors_of(const LightState& state) const
@@ -141,23 +225,28 @@ RelightSession::Factors RelightSession::factors_of(const LightState& state) cons
 
 std::vector<glm::vec3> RelightSession::irradiance()
 {
-    return std::move(irradiance_of(std::span(&factors_, 1)).front());
+    for (const auto& [source, place] : to_move_) {
+        std::erase_if(now_.moved, [&](const Moved& before) { return before.source == source; });
+        now_.moved.push_back(moved(source, place));
+    }
+    to_move_.clear();
+    return std::move(irradiance_of(std::span(&now_, 1)).front());
 }
 
 std::vector<std::vector<glm::vec3>> RelightSession::irradiance(std::span<const LightState> states)
 {
-    std::vector<Factors> factors;
+    std::vector<State> found;
     for (const LightState& state : states)
-        factors.push_back(factors_of(state));
-    return irradiance_of(factors);
+        found.push_back(state_of(state));
+    return irradiance_of(found);
 }
 
-std::vector<std::vector<glm::vec3>> RelightSession::irradiance_of(std::span<const Factors> states)
+std::vector<std::vector<glm::vec3>> RelightSession::irradiance_of(std::span<const State> states)
 {
     std::vector<std::vector<glm::vec3>> maps;
     for (std::size_t first = 0; first < states.size(); first += kStatesAtOnce) {
         const std::size_t count = std::min<std::size_t>(kStatesAtOnce, states.size() - first);
-        const std::span<const Factors> some = states.subspan(first, count);
+        const std::span<const State> some = states.subspan(first, count);
         const std::vector<glm::vec3> onward = reflected(some);
         for (std::size_t i = 0; i < count; ++i)
             maps.push_back(with_direct(some[i], std::span(onward).subspan(i * size(), size())));
@@ -165,17 +254,29 @@ std::vector<std::vector<glm::vec3>> RelightSession::irradiance_of(std::span<cons
     return maps;
 }
 
+/// Null if the source's lamp is where it was baked.
+const RelightSession::Moved* RelightSession::moved_of(const State& state, std::size_t source)
+{
+    for (const Moved& moved : state.moved)
+        if (moved.source == source)
+            return &moved;
+    return nullptr;
+}
+
 /// R color (x + M x): [states][N]
-std::vector<glm::vec3> RelightSession::reflected(std::span<const Factors> states)
+std::vector<glm::vec3> RelightSession::reflected(std::span<const State> states)
 {
     if (!multiply_)
         return std::vector<glm::vec3>(states.size() * size(), glm::vec3(0.0f));
     const std::size_t patches = light_.patches.size();
     std::vector<glm::vec3> direct(kStatesAtOnce * patches, glm::vec3(0.0f));
     for (std::size_t i = 0; i < states.size(); ++i)
-        for (std::size_t s = 0; s < means_.size(); ++s)
+        for (std::size_t s = 0; s < means_.size(); ++s) {
+            const Moved* moved = moved_of(states[i], s);
+            const std::vector<glm::vec3>& mean = moved ? moved->mean : means_[s];
             for (std::size_t p = 0; p < patches; ++p)
-                direct[i * patches + p] += states[i][s] * means_[s][p];
+                direct[i * patches + p] += states[i].factors[s] * mean[p];
+        }
     direct_->upload(direct);
     gpu::Commands commands(*device_);
     multiply_->record(commands, *direct_, *reflected_, std::uint32_t(states.size()));
@@ -194,14 +295,20 @@ std::vector<glm::vec3> RelightSession::reflected(std::span<const Factors> states
     return result_->download();
 }
 
-std::vector<glm::vec3> RelightSession::with_direct(const Factors& factors,
+std::vector<glm::vec3> RelightSession::with_direct(const State& state,
                                                    std::span<const glm::vec3> reflected) const
 {
     std::vector<glm::vec3> light(reflected.begin(), reflected.end());
     parallel_for(size(), kLumelsPerTask, [&](std::size_t first, std::size_t last) {
-        for (std::size_t s = 0; s < factors.size(); ++s)
-            if (factors[s] != glm::vec3(0.0f))
-                add_scaled(light, light_.sources[s], factors[s], first, last);
+        for (std::size_t s = 0; s < state.factors.size(); ++s) {
+            if (state.factors[s] == glm::vec3(0.0f))
+                continue;
+            if (const Moved* moved = moved_of(state, s))
+                for (std::size_t i = first; i < last; ++i)
+                    light[i] += state.factors[s] * moved->direct[i];
+            else
+                add_scaled(light, light_.sources[s], state.factors[s], first, last);
+        }
     });
     return light;
 }

@@ -10,16 +10,33 @@
 #include <vector>
 
 #include "gpu/array.h"
+#include "lights/direct_light.h"
 #include "matrix/multiply.h"
 #include "relight/last_bounce.comp.h"
 #include "relight/relightable.h"
 
 namespace lumel {
 
-/// Factors to the light of sources, by the sources' names or by those of materials that shine.
+/// Where a lamp is, in the world of the scene's file.
+struct LampPlace {
+    std::optional<glm::dvec3> position;  ///< [m] of point and spot lights; none: as baked
+    std::optional<glm::vec3> direction;  ///< in which it shines, of any length; none: as baked
+};
+
+/// Factors to the light of sources, by the sources' names or by those of materials that shine; and
+/// places of lamps.
 struct LightState {
     glm::vec3 others{1.0f};  ///< of sources that are not named
     std::map<std::string, glm::vec3> lights;
+    std::map<std::string, LampPlace> places;
+};
+
+/// A scene on the device, in which lamps may move.
+struct LitWorld {
+    const World& world;
+    const Lumels& lumels;               ///< of the world
+    std::vector<std::uint32_t> number;  ///< of each among those of the matrix, or kNoLumel
+    DirectLightOptions options;
 };
 
 /// Holds the matrix on the device. All factors are 1 at first. For one thread at a time.
@@ -31,6 +48,9 @@ public:
     /// read_relightable().
     RelightSession(const gpu::Device& device, const std::string& path);
 
+    /// Lamps may move from now on: what is given must outlive this.
+    void set_world(LitWorld world) { world_.emplace(std::move(world)); }
+
     const Relightable& light() const { return light_; }
     std::size_t size() const { return light_.size(); }  ///< N
     std::vector<std::string> names() const;             ///< of the sources
@@ -40,10 +60,16 @@ public:
     /// for factors that are negative or no numbers.
     void set_light(const std::string& name, const glm::vec3& factor);
 
-    /// Throws Error{input} as irradiance(states) would for this state.
-    void check(const LightState& state) const { factors_of(state); }
+    /// Moves or turns a lamp. Its shadow maps are drawn at the next irradiance(). Throws
+    /// Error{input} for what is no single lamp, for positions of directional lights, directions
+    /// that are none, and without a world.
+    void move_light(const std::string& name, const LampPlace& place);
 
-    /// H [N] [lx] of the factors set: by one multiply on the device.
+    /// Throws Error{input} as irradiance(states) would for this state.
+    void check(const LightState& state) const;
+
+    /// H [N] [lx] of the factors and places set: by shadow maps of lamps that moved and one
+    /// multiply on the device.
     std::vector<glm::vec3> irradiance();
     /// H [states][N] [lx], whatever is set. Throws as set_light does, and where two names of one
     /// state mean the same source.
@@ -52,18 +78,36 @@ public:
 private:
     using Factors = std::vector<glm::vec3>;  // [sources]
 
+    /// Of a source whose lamp is not where it was baked.
+    struct Moved {
+        std::size_t source;
+        std::vector<glm::vec3> direct;  ///< [N] lx
+        std::vector<glm::vec3> mean;    ///< [n] reflected_means() [lx]
+    };
+    struct State {
+        Factors factors;
+        std::vector<Moved> moved;
+    };
+
     std::vector<std::size_t> sources_of(const std::string& name) const;
+    PunctualLight placed(std::size_t source, const LampPlace& place) const;
+    std::size_t lamp_of(const std::string& name, const LampPlace& place) const;
+    Moved moved(std::size_t source, const LampPlace& place) const;
+    State state_of(const LightState& state) const;
+    static const Moved* moved_of(const State& state, std::size_t source);
     Factors factors_of(const LightState& state) const;
-    std::vector<std::vector<glm::vec3>> irradiance_of(std::span<const Factors> states);
-    std::vector<glm::vec3> reflected(std::span<const Factors> states);
-    std::vector<glm::vec3> with_direct(const Factors& factors,
+    std::vector<std::vector<glm::vec3>> irradiance_of(std::span<const State> states);
+    std::vector<glm::vec3> reflected(std::span<const State> states);
+    std::vector<glm::vec3> with_direct(const State& state,
                                        std::span<const glm::vec3> reflected) const;
 
     const gpu::Device* device_;
     Relightable light_;
     std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] reflected_means() [lx]
-    Factors factors_;
-    std::optional<Multiply> multiply_;  ///< none where nothing reflects
+    std::optional<LitWorld> world_;
+    State now_;
+    std::map<std::size_t, LampPlace> to_move_;  ///< lamps whose light is to be found, by source
+    std::optional<Multiply> multiply_;          ///< none where nothing reflects
     std::optional<gpu::Kernel<shaders::LastBounce>> last_bounce_;
     std::optional<gpu::Array<std::uint32_t>> first_;  ///< of the rows
     std::optional<gpu::Array<RowEntry>> entries_;

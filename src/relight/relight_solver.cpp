@@ -218,7 +218,10 @@ Relightable RelightSolver::relightable(const std::string& hash) const
         if (transport_ && !source.reflected.empty())
             add_light(source.reflected, transport_->indirect(*lumels_, known.direct));
         add_light(source.direct, surfaces_[s]);
+        source.lights = lamps_of(host_.scene, known.source).lights;
     }
+    light.profiles = host_.scene.profiles;
+    light.origin = host_.scene.origin;
     if (transport_) {
         light.patches = transport_->patches;
         light.rows = transport_->rows;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "matrix/compressed.h"
+#include "scene/scene.h"
 #include "transport/lumel_rows.h"
 #include "transport/voxel_patches.h"
 
@@ -21,6 +22,7 @@ struct SourceLight {
     /// [N] lx, all that is reflected of it, of surfaces, which cannot move; empty: of lamps and
     /// sky, the matrix has it
     std::vector<glm::vec3> reflected;
+    std::vector<PunctualLight> lights;  ///< its lamps, which may move
 };
 
 /// H = Σ_s f_s (D_s + S_s) + R color (x + M x) for any factors f of the sources, D direct and S
@@ -33,9 +35,11 @@ struct Relightable {
     std::vector<float> area;           ///< [N] m², 0: buried
     std::vector<glm::vec3> albedo;     ///< [N]
     std::vector<SourceLight> sources;
-    VoxelPatches patches;     ///< n of them; none where nothing reflects
-    LumelRows rows;           ///< [N][n] R
-    CompressedMatrix matrix;  ///< [n][n] M
+    std::vector<Photometry> profiles;  ///< of lamps
+    glm::dvec3 origin{0.0};            ///< as Scene::origin
+    VoxelPatches patches;              ///< n of them; none where nothing reflects
+    LumelRows rows;                    ///< [N][n] R
+    CompressedMatrix matrix;           ///< [n][n] M
 
     std::size_t size() const { return place.size(); }  ///< N
 };

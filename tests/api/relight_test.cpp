@@ -21,7 +21,8 @@ struct Relightables : testing::Test {
     static Baked made()
     {
         Scene scene = Scene::load(scene_path("cornell-box"));
-        scene.add_daylight({.sky_luminance = Vec3{1.0f, 2.0f, 4.0f}});
+        scene.add_daylight({.sky_luminance = Vec3{1.0f, 2.0f, 4.0f},
+                            .sun = Daylight::Sun{.azimuth = 0.1, .elevation = 0.4}});
         return bake(Device(), scene, {.atlas = {.size = 16}, .method = "matrix"});
     }
     static const Baked& baked()
@@ -55,6 +56,26 @@ TEST_F(Relightables, AreWhatWasBakedUntilTheirLightChanges)
     for (const std::string& name : relight.lights())
         relight.set_light(name, {0.5f, 0.5f, 0.5f});
     expect_alike(relight.map(), map, 0.5f, kRounding);
+}
+
+TEST_F(Relightables, MoveTheirSunAndItsLightComesBack)
+{
+    const Device device;
+    Relight relight(device, baked());
+    const Map map = relight.map();
+    relight.move_light("sun", {.direction = Vec3{0.3f, -0.1f, 1.0f}});
+    const Map moved = relight.map();
+    double apart = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < map.rgba.size(); ++i) {
+        apart += std::abs(double(moved.rgba[i] - map.rgba[i]));
+        sum += double(map.rgba[i]);
+    }
+    EXPECT_GT(apart, 0.05 * sum);
+    relight.move_light("sun", {});
+    expect_alike(relight.map(), map, 1.0f, kRounding);
+    expect_error(ErrorKind::input, {"sky", "lamp"}, [&] {
+        relight.move_light("sky", {.position = Vec3{0, 0, 0}});
+    });
 }
 
 TEST_F(Relightables, ComeBackFromTheirFile)

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <fstream>
+#include <numeric>
 
 #include "bake/sources.h"
 #include "core/error.h"
 #include "core/fingerprint.h"
+#include "core/frame.h"
 #include "core/luminance.h"
 #include "matrix/stored.h"
 #include "relight/light_sources.h"
@@ -21,8 +23,8 @@ constexpr int kSize = 32;  // of the atlas [texels]
 
 /// The Cornell box under a sky, with a lamp in it beside its own.
 struct Lit {
-    Lit()
-        : setting(scene(), device, options(), stages),
+    explicit Lit(const std::vector<PunctualLight>& lamps = {lamp()})
+        : setting(scene(lamps), device, options(), stages),
           solution(solve_sources(device, setting, options(), stages))
     {
     }
@@ -36,13 +38,17 @@ struct Lit {
         options.sky_directions = 64;
         return options;
     }
-    static Scene scene()
+    static PunctualLight lamp()
+    {
+        PunctualLight lamp{.name = "lamp", .intensity = 0.1f};
+        lamp.transform[3] = glm::vec4(0.45f, 0.3f, 0.1f, 1.0f);
+        return lamp;
+    }
+    static Scene scene(const std::vector<PunctualLight>& lamps)
     {
         Scene scene = read_scene(support::scene_path("cornell-box"), MaterialModel::diffuse,
                                  {.sky_color = glm::vec3(1.0f, 2.0f, 4.0f)});
-        PunctualLight lamp{.name = "lamp", .intensity = 0.1f};
-        lamp.transform[3] = glm::vec4(0.45f, 0.3f, 0.1f, 1.0f);
-        scene.lights.push_back(lamp);
+        scene.lights = lamps;
         return scene;
     }
 
@@ -64,6 +70,17 @@ void expect_alike(const std::vector<glm::vec3>& found, const std::vector<glm::ve
     }
     const double n = double(found.size());
     EXPECT_LT(std::sqrt(square / n) / (sum / n), double(tolerance));
+}
+
+/// The mean difference is at least this share of the mean.
+void expect_apart(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, double least)
+{
+    double apart = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        apart += double(glm::length(a[i] - b[i]));
+        sum += double(glm::length(b[i]));
+    }
+    EXPECT_GT(apart, least * sum);
 }
 
 std::vector<glm::vec3> sum_of(std::vector<glm::vec3> a, const std::vector<glm::vec3>& b)
@@ -140,6 +157,76 @@ TEST(Relighting, KnowsSurfacesByTheirMaterialAndRefusesOtherNames)
     EXPECT_THROW(session.set_light("moon", glm::vec3(1.0f)), Error);
     EXPECT_THROW(session.set_light("sky", glm::vec3(-1.0f)), Error);
     EXPECT_THROW(session.set_light("sky", glm::vec3(NAN)), Error);
+}
+
+/// The session of a solution, in which lamps may move.
+struct Moving {
+    explicit Moving(const Lit& lit) : session(lit.device, *lit.solution->relightable)
+    {
+        const Lumels& lumels = lit.setting.prepared.lumels;
+        std::vector<std::uint32_t> number(lumels.lumels.size());
+        std::iota(number.begin(), number.end(), 0u);
+        session.set_world({*lit.setting.world, lumels, number, {}});
+    }
+    RelightSession session;
+};
+
+// One matrix serves all places of a lamp.
+TEST(Relighting, WithALampThatMovedIsASolutionWithTheLampThere)
+{
+    const glm::vec3 place(0.12f, 0.5f, 0.3f);
+    PunctualLight there = Lit::lamp();
+    there.transform[3] = glm::vec4(place, 1.0f);
+    Lit lit, fresh({there});
+    Moving moving(lit);
+    const std::vector<glm::vec3> before = moving.session.irradiance();
+    const LightState state{.places = {{"lamp", {.position = glm::dvec3(place)}}}};
+    const std::vector<glm::vec3> found = moving.session.irradiance(std::span(&state, 1)).front();
+    expect_alike(found, fresh.solution->irradiance, kMatrixError);
+    expect_apart(found, before, 0.1);
+
+    moving.session.move_light("lamp", {.position = glm::dvec3(place)});
+    EXPECT_EQ(moving.session.irradiance(), found);
+    moving.session.move_light("lamp", {});
+    expect_alike(moving.session.irradiance(), before, kHalfRounding);
+    EXPECT_EQ(lit.device.validation_messages(), "");
+}
+
+TEST(Relighting, WithLampsThatTurnedIsASolutionWithThemTurned)
+{
+    PunctualLight spot{.kind = PunctualLight::Kind::spot, .name = "spot", .intensity = 3.0f};
+    spot.transform[3] = Lit::lamp().transform[3];
+    PunctualLight sun{.kind = PunctualLight::Kind::directional, .name = "sun", .intensity = 10.0f};
+    const auto turned = [](PunctualLight lamp, const glm::vec3& direction) {
+        const glm::vec4 position = lamp.transform[3];
+        lamp.transform = glm::mat4(frame_about(-glm::normalize(direction)));
+        lamp.transform[3] = position;
+        return lamp;
+    };
+    const glm::vec3 down(0.1f, -1.0f, 0.2f), aside(-0.8f, 0.1f, 0.3f);
+    const glm::vec3 high(0.1f, -0.6f, 1.0f), low(-0.4f, -0.2f, 1.0f);
+    Lit lit({turned(spot, down), turned(sun, high)});
+    Lit fresh({turned(spot, aside), turned(sun, low)});
+    Moving moving(lit);
+    const LightState state{
+        .places = {{"spot", {.direction = aside}}, {"sun", {.direction = 10.0f * low}}}};
+    const std::vector<glm::vec3> found = moving.session.irradiance(std::span(&state, 1)).front();
+    expect_alike(found, fresh.solution->irradiance, kMatrixError);
+    expect_apart(found, moving.session.irradiance(), 0.1);
+}
+
+TEST(Relighting, MovesNothingButSingleLamps)
+{
+    Lit lit;
+    Moving moving(lit);
+    RelightSession without(lit.device, *lit.solution->relightable);
+    const LampPlace place{.position = glm::dvec3(0.1)};
+    EXPECT_THROW(without.move_light("lamp", place), Error);
+    EXPECT_THROW(moving.session.move_light("sky", place), Error);
+    EXPECT_THROW(moving.session.move_light("light", place), Error);
+    EXPECT_THROW(moving.session.move_light("moon", place), Error);
+    EXPECT_THROW(moving.session.move_light("lamp", {.position = glm::dvec3(NAN)}), Error);
+    EXPECT_THROW(moving.session.move_light("lamp", {.direction = glm::vec3(0.0f)}), Error);
 }
 
 // Each source costs a solve, so that a hall of many lamps has few.

@@ -26,6 +26,9 @@ public:
         bake(own_scene("cornell-box.gltf"), folder(), more);
     }
 
+    /// Of the Cornell box as `edit` leaves it.
+    explicit Bake(const std::function<void(Json&)>& edit) { fresh("out", edit); }
+
     std::string folder() const { return place.path("out"); }
 
     /// What relight prints.
@@ -121,6 +124,30 @@ TEST(Relight, WithALampSwitchedOffIsABakeWithoutIt)
     EXPECT_LT(Bake::apart(bake.place.path("out/states/dusk.exr"), dusk), kAlike);
 }
 
+/// Adds a lamp at a place [m].
+void add_lamp(Json& scene, const std::vector<double>& place)
+{
+    scene["extensionsUsed"].push_back("KHR_lights_punctual");
+    scene["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"name", "bulb"}, {"intensity", 0.1}}};
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+    scene["nodes"].push_back({{"name", "bulb"},
+                              {"translation", place},
+                              {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+}
+
+// The lamp's shadow maps are drawn anew; scene.glb itself has no lamp any more.
+TEST(Relight, WithALampThatMovedIsABakeWithTheLampThere)
+{
+    const std::vector<double> here = {0.45, 0.3, 0.1}, there = {0.12, 0.5, 0.3};
+    const Bake bake([&](Json& scene) { add_lamp(scene, here); });
+    bake.relight(
+        {{"states", {{{"name", "moved"}, {"lights", {{"bulb", {{"position", there}}}}}}}}});
+    const std::string fresh = bake.fresh("there", [&](Json& scene) { add_lamp(scene, there); });
+    EXPECT_LT(Bake::apart(bake.place.path("out/states/moved.exr"), fresh), 0.01);
+    EXPECT_GT(Bake::apart(bake.place.path("out/lightmap.exr"), fresh), 0.1);
+}
+
 TEST(Relight, RefusesWhatItCannotLight)
 {
     const Bake bake;
@@ -135,6 +162,15 @@ TEST(Relight, RefusesWhatItCannotLight)
     expect_one_sentence(bake.fails(R"({"states": [{"name": "a", "lights": {"light": [1, 2]}}]})"),
                         2, {"/lights/light", "[r, g, b]"});
     expect_one_sentence(bake.fails(R"({"states": [{"name": "a", "light": 1}]})"), 2, {"\"light\""});
+    expect_one_sentence(
+        bake.fails(R"({"states": [{"name": "a", "lights": {"light": {"position": [1, 2, 3]}}}]})"),
+        2, {"\"light\"", "no lamp"});
+    expect_one_sentence(
+        bake.fails(R"({"states": [{"name": "a", "lights": {"light": {"azimuth": 10}}}]})"), 2,
+        {"/lights/light", "elevation"});
+    expect_one_sentence(
+        bake.fails(R"({"states": [{"name": "a", "lights": {"light": {"place": [1, 2, 3]}}}]})"), 2,
+        {"\"place\""});
     expect_one_sentence(bake.fails(R"({"states": []})"), 2, {"no state"});
     expect_one_sentence(bake.fails(R"({"states": [)"), 2, {"line 1"});
     EXPECT_FALSE(std::filesystem::exists(bake.place.path("out/states")));
