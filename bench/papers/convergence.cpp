@@ -113,11 +113,13 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const std::optional<LobeParticles> particles = particles_for(world, options);
+    const HostScene host{world.scene, world.rays, world.atlas};
     const SolverInputs inputs{.device = device,
                               .world = &resident,
                               .lumels = world.lumels,
                               .near = near,
-                              .particles = particles ? &*particles : nullptr};
+                              .particles = particles ? &*particles : nullptr,
+                              .host = &host};
     {  // the driver compiles shaders when they first run
         const auto warm = make_solver(inputs, options);
         warm->step();

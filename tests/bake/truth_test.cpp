@@ -12,7 +12,7 @@ using support::Solved;
 
 /// Solvers that are held to the same truths; "raster" is links whose rays are drawn.
 const auto kEverySolver =
-    testing::Values("links", "raster", "stochastic", "progressive", "gather", "matrix");
+    testing::Values("links", "raster", "stochastic", "directions", "progressive", "gather", "matrix");
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 
@@ -264,6 +264,7 @@ INSTANTIATE_TEST_SUITE_P(By, SealedBox,
 INSTANTIATE_TEST_SUITE_P(ByHemicubes, SealedBox,
                          testing::Values(Seen{"gather", Projection::hemicube},
                                          Seen{"matrix", Projection::hemicube},
+                                         Seen{"directions", Projection::hemicube},
                                          Seen{"links", Projection::hemicube},
                                          Seen{"raster", Projection::hemicube}),
                          seen_name);
