@@ -48,11 +48,13 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
     const Lumels& lumels = setting.prepared.lumels;
     if (method_of(options.solver.method).finds_lights)
         return run(device, setting, options.solver, {}, {}, stages, options.parts, checkpoint);
-    if (options.parts == Parts::all) {
-        std::unique_ptr<Solution> all =
-            run(device, setting, options.solver, shining(lumels, direct), direct, stages);
-        add_light(all->irradiance, direct);
-        return all;
+    if (options.parts == Parts::all || finds_emitted(options.solver.method, lumels, {})) {
+        std::unique_ptr<Solution> found =
+            run(device, setting, options.solver, shining(lumels, direct), direct, stages,
+                options.parts);
+        if (options.parts != Parts::indirect)
+            add_light(found->irradiance, direct);
+        return found;
     }
     std::unique_ptr<Solution> first =
         run(device, setting, options.solver, black(lumels), direct, stages);

@@ -39,6 +39,22 @@ float reflecting_area(const Lumels& lumels)
     return sum;
 }
 
+float emissive_share(const Lumels& lumels, std::span<const glm::vec3> known)
+{
+    constexpr float kRounding = 1e-4f;  // of an emission that is nothing but reflection
+    float shines = 0.0f, all = 0.0f;
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        const glm::vec3 reflected = known.empty() ? glm::vec3(0.0f) : lumel.albedo * known[i];
+        if (luminance(lumel.emission - reflected) > kRounding * luminance(lumel.emission))
+            shines += lumel.area;
+        all += lumel.area;
+    }
+    return all > 0.0f ? shines / all : 0.0f;
+}
+
 double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission)
 {
     double sum = 0.0;

@@ -22,6 +22,7 @@
 //   in every batch, to read back one word: whether the last layer showed any lumel something new.
 // - Regions are slabs along d, whose surfaces compete only among themselves (illumination_maps.h).
 //   As many as the measured overdraw requires (slabs.cpp).
+// - With Scheme::phased rays find the light of small emissive surfaces (directions_radiosity.cpp).
 // - The sky is gathered with Scheme::paper only; else it is among the emission already, through
 //   exact views of its own (lights/direct_light.h).
 

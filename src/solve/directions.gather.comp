@@ -6,8 +6,7 @@
 #include "world/receiving_point.glsl"
 #include "visibility/channel.glsl"
 #include "visibility/parallel.glsl"
-#include "visibility/first_met.glsl"
-#include "visibility/piece_along.glsl"
+#include "visibility/rays_along.glsl"
 
 // Every lumel i looks along K global directions d and takes the light of what it sees first,
 // [TN11] Eq. (2) and Figure 5:
@@ -47,6 +46,9 @@ layout(scalar) buffer SeenLightOf { SeenLight seen_light_of[]; };
 const float kPi = 3.14159265;
 // What lies higher than this above the plane is not the receiver itself [pixels' widths].
 const float kAbovePlane = 0.02;
+
+// From this width on a piece has a ray wherever the grid of pixels lies [pixels].
+const float kWide = 2.0;
 
 // Σ cosθ of 32 directions over the sphere, before which P is taken to be right.
 const float kUsual = 8.0;
@@ -142,14 +144,32 @@ uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
     return fragment.x;
 }
 
-Seen see_exactly(ParallelView view, uint tile, LumelPoint point, uint i)
+// A ray that meets the point's piece. Of a thin one any ray stands for as many as meet it, which
+// are `mean` in the mean over all places of the grid.
+bool choose_ray(ParallelView view, PieceInView piece, LumelPoint point, uint random, out RayMet ray)
+{
+    const RaysAlong rays = rays_along(view, p.tiling, pieces[point.piece], piece);
+    if (rays.width > kWide) {
+        const vec2 place = place_in(view, point.position), size = vec2(p.tiling.side);
+        const bool found = find_ray(piece, place, size, ray);
+        ray.chance = 1.0;
+        return found;
+    }
+    const float count = count_rays(rays, p.tiling);
+    if (count == 0.0)
+        return false;
+    ray = RayMet(nth_ray(rays, p.tiling, floor(unit_float(random) * count)), rays.mean / count);
+    return true;
+}
+
+Seen see_exactly(ParallelView view, uint k, LumelPoint point, uint i)
 {
     const PieceInView piece = piece_along(view, pieces[point.piece]);
     RayMet ray;
-    if (!find_ray(piece, place_in(view, point.position), vec2(p.tiling.side), ray))
+    if (!choose_ray(view, piece, point, hash(i ^ hash(p.first_point + k)), ray))
         return Seen(0u, 0.0);
-    return Seen(kLayers == kListedLayers ? nearest_listed(piece, ray, tile)
-                                         : nearest_peeled(piece, ray, tile, i),
+    return Seen(kLayers == kListedLayers ? nearest_listed(piece, ray, k)
+                                         : nearest_peeled(piece, ray, k, i),
                 1.0 / ray.chance);
 }
 

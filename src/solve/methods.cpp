@@ -5,7 +5,9 @@
 
 #include "core/error.h"
 #include "core/number.h"
+#include "shooting/lumel_arrays.h"
 #include "solve/directions.h"
+#include "solve/directions_radiosity.h"
 #include "solve/gather.h"
 #include "solve/glossy.h"
 #include "solve/links.h"
@@ -328,6 +330,18 @@ MethodOptions defaults()
     return Options{};
 }
 
+/// Emissive surfaces that are at least this share of all are met by enough directions.
+constexpr float kMuchShines = 1.0f / 16.0f;
+
+std::unique_ptr<Solver> make_directions(const SolverInputs& in, const DirectionsOptions& own,
+                                        double target_error)
+{
+    if (finds_emitted(own, in.lumels, in.known))
+        return std::make_unique<DirectionsRadiosity>(in.device, *in.world, *in.host, in.lumels, own,
+                                                     target_error, in.known, in.parts);
+    return std::make_unique<GlobalDirections>(in.device, *in.world, in.lumels, own, in.known);
+}
+
 template <class Method, class Options>
 std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& options)
 {
@@ -338,7 +352,7 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
                                         in.particles);
     else if constexpr (std::is_same_v<Method, GlobalDirections>)
-        return std::make_unique<Method>(in.device, *in.world, in.lumels, own, in.known);
+        return make_directions(in, own, options.target_error);
     else if constexpr (std::is_same_v<Method, GatherRadiosity>)
         return std::make_unique<Method>(in.device, *in.world, in.lumels, own, options.target_error);
     else if constexpr (std::is_same_v<Method, ProgressiveRadiosity>)
@@ -421,7 +435,7 @@ constexpr MethodInfo kMethods[] = {
      .title = "Global directions with stochastic depth buffering",
      .paper = "[TN11]",
      .shots = "directions",
-     .advice = "open scenes of diffuse surfaces with few small emissive lights",
+     .advice = "open scenes of diffuse surfaces under a sky",
      .materials = MaterialModel::diffuse,
      .near_radius = kNoNearField,
      .near_surroundings = false,
@@ -599,6 +613,14 @@ bool set_option(MethodOptions& method, std::string_view name, const std::string&
 bool has_near_field(const MethodOptions& method)
 {
     return method_of(method).near_radius > kNoNearField && !is_papers(method);
+}
+
+bool finds_emitted(const MethodOptions& method, const Lumels& lumels,
+                   std::span<const glm::vec3> known)
+{
+    const auto* directions = std::get_if<DirectionsOptions>(&method);
+    return directions && directions->iteration.scheme == Scheme::phased &&
+           emissive_share(lumels, known) < kMuchShines;
 }
 
 bool gathers_sky(const MethodOptions& method)

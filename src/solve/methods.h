@@ -55,8 +55,9 @@ struct SolverInputs {
     /// is a part of both, but the noise of what is known is not in it.
     std::span<const glm::vec3> known = {};
     const LobeParticles* particles = nullptr;  ///< see GlossyIllumination
-    const HostScene* host = nullptr;           ///< for links and matrix, only while they are made
-    Parts parts = Parts::all;                  ///< what methods that find lights return
+    /// For links, matrix and directions of Scheme::phased; only while they are made.
+    const HostScene* host = nullptr;
+    Parts parts = Parts::all;  ///< what is returned by methods that find lights or finds_emitted()
 };
 
 /// A method of the table: what --solver takes.
@@ -117,6 +118,11 @@ void check_limits(const SolverOptions& options);
 
 /// Sets an option if the method reads it; returns whether it does.
 bool set_option(MethodOptions& method, std::string_view name, const std::string& value);
+
+/// Does the solver find the light of emissive surfaces apart, and so returns SolverInputs::parts?
+/// lumels, known: as make_solver takes them.
+bool finds_emitted(const MethodOptions& method, const Lumels& lumels,
+                   std::span<const glm::vec3> known);
 
 /// Does the solver find the sky's light itself, so that it is not to be among the emission?
 bool gathers_sky(const MethodOptions& method);

@@ -11,7 +11,9 @@
 struct RaysAlong {
     vec3 sides[4];  // a ray through p meets the piece where each dot(side, p) > 0
     vec2 rows;      // of pixels, first and last
-    float area;     // of the piece [pixels]: the mean number of rays that meet it
+    float area;     // of the piece [pixels]
+    float mean;     // number of rays that meet it, over all places of the grid of pixels
+    float width;    // of the part that rays may meet, across its longest side [pixels]
 };
 
 // Pieces that are smaller, as seen along the view, are left out [pixels].
@@ -27,15 +29,20 @@ RaysAlong rays_along(ParallelView view, ParallelLayout tiling, Piece piece, Piec
     rays.sides = vec3[4](s.u_form - margin.x * one, s.v_form - margin.y * one, end,
                          s.parallelogram ? (1.0 - margin.y) * one - s.v_form : end);
 
-    const float u = dot(view.up, piece.edge_u), v = dot(view.up, piece.edge_v);
+    const vec2 u = vec2(dot(view.right, piece.edge_u), dot(view.up, piece.edge_u));
+    const vec2 v = vec2(dot(view.right, piece.edge_v), dot(view.up, piece.edge_v));
     const vec4 corners = place_in(view, piece.origin).y +
-                         vec4(0.0, u, v, s.parallelogram ? u + v : 0.0);
+                         vec4(0.0, u.y, v.y, s.parallelogram ? u.y + v.y : 0.0);
     const float low = min(min(corners.x, corners.y), min(corners.z, corners.w));
     const float high = max(max(corners.x, corners.y), max(corners.z, corners.w));
     rays.area = (s.parallelogram ? 1.0 : 0.5) /
                 abs(s.u_form.x * s.v_form.y - s.u_form.y * s.v_form.x);
     const vec2 rows = clamp(vec2(ceil(low - 0.5), floor(high - 0.5)), vec2(0.0),
                             vec2(tiling.side) - 1.0);
+    const vec2 inner = max(1.0 - 2.0 * margin, 0.0);
+    const float leg = max(1.0 - 2.0 * (margin.x + margin.y), 0.0);
+    rays.mean = rays.area * (s.parallelogram ? inner.x * inner.y : leg * leg);
+    rays.width = rays.mean / max(length(u), length(v));
     rays.rows = rays.area > kLeastArea ? rows : vec2(0.0, -1.0);
     return rays;
 }
@@ -56,6 +63,29 @@ vec2 columns_of(RaysAlong rays, ParallelLayout tiling, float row)
             high = -1.0;
     }
     return vec2(ceil(low - 0.5), floor(high - 0.5));
+}
+
+float count_rays(RaysAlong rays, ParallelLayout tiling)
+{
+    float count = 0.0;
+    for (float y = rays.rows.x; y <= rays.rows.y; y += 1.0) {
+        const vec2 columns = columns_of(rays, tiling, y);
+        count += max(columns.y - columns.x + 1.0, 0.0);
+    }
+    return count;
+}
+
+// The pixel of ray `index` of count_rays().
+vec2 nth_ray(RaysAlong rays, ParallelLayout tiling, float index)
+{
+    for (float y = rays.rows.x; y <= rays.rows.y; y += 1.0) {
+        const vec2 columns = columns_of(rays, tiling, y);
+        const float here = max(columns.y - columns.x + 1.0, 0.0);
+        if (index < here)
+            return vec2(columns.x + index, y);
+        index -= here;
+    }
+    return vec2(-1.0);
 }
 
 #endif

@@ -72,8 +72,8 @@ bool everywhere(const Lumel&)
 class EverySolver : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(By, EverySolver,
-                         testing::Values("links", "stochastic", "directions", "progressive", "gather",
-                                         "matrix"),
+                         testing::Values("links", "stochastic", "directions", "progressive",
+                                         "gather", "matrix"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
@@ -89,7 +89,8 @@ TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
 class SolversToAnyError : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
-                         testing::Values("links", "stochastic", "directions", "progressive", "gather"),
+                         testing::Values("links", "stochastic", "directions", "progressive",
+                                         "gather"),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(SolversToAnyError, LightTheCornellBoxWithinOnePerCentAtErrorOneHalf)

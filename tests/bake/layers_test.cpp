@@ -98,6 +98,14 @@ TEST(Layers, MoreLookupsLeakLess)
     EXPECT_LT(three, 0.5 * one);
 }
 
+// [TN11] Figure 8: the red that leaks, as a part of the grey.
+TEST(Layers, LeakNoMoreThanThePapers)
+{
+    EXPECT_LT(red_on_top(1), 0.41);
+    EXPECT_LT(red_on_top(3), 0.08);
+    EXPECT_LT(red_on_top(5), 0.01);
+}
+
 TEST(Layers, MoreSlabsLeakLess)
 {
     EXPECT_LT(red_on_top(3, 2), 0.5 * red_on_top(3, 1));
