@@ -127,6 +127,33 @@ TEST(City, TheEstimatedErrorIsHonest)
     EXPECT_LT(stated, 1.5 * real);
 }
 
+TEST(GlobalDirections, ReturnDirectAndReflectedLightApart)
+{
+    const Prepared world(support::scene_path("cornell-box"), AtlasOptions{.size = 32});
+    const gpu::Device device;
+    const World resident(device, world.scene, world.lumels, &world.atlas);
+    const HostScene host{world.scene, world.rays, world.atlas};
+    const SolverOptions options{
+        .method = DirectionsOptions{}, .max_shots = 256, .target_error = 0.001};
+    const auto sum_of = [&](Parts parts) {
+        const auto solver = make_solver({.device = device,
+                                         .world = &resident,
+                                         .lumels = world.lumels,
+                                         .near = {},
+                                         .host = &host,
+                                         .parts = parts},
+                                        options);
+        EXPECT_TRUE(lumel::solve(*solver, options));
+        return irradiance_sum(solver->irradiance());
+    };
+    const double all = sum_of(Parts::all), direct = sum_of(Parts::direct),
+                 indirect = sum_of(Parts::indirect);
+    EXPECT_GT(direct, 0.3 * all);
+    EXPECT_GT(indirect, 0.3 * all);
+    EXPECT_NEAR(direct + indirect, all, 1e-3 * all);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 // Most of the error is in the lumels that the patch of sun ends in.
 TEST(TwoRooms, SunThroughTheWindowIsAsPathTraced)
 {
