@@ -71,9 +71,7 @@ bool everywhere(const Lumel&)
 
 class EverySolver : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(By, EverySolver,
-                         testing::Values("links", "stochastic", "directions", "progressive",
-                                         "gather", "matrix"),
+INSTANTIATE_TEST_SUITE_P(By, EverySolver, testing::ValuesIn(support::diffuse_methods()),
                          [](const auto& test) { return std::string(test.param); });
 
 TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
@@ -85,15 +83,7 @@ TEST_P(EverySolver, LightsTheCornellBoxWithinTwoPerCent)
     EXPECT_LE(std::abs(error.bias), 0.005);
 }
 
-/// The matrix states the error of direct light only: reflected light is as fine as its patches.
-class SolversToAnyError : public testing::TestWithParam<const char*> {};
-
-INSTANTIATE_TEST_SUITE_P(By, SolversToAnyError,
-                         testing::Values("links", "stochastic", "directions", "progressive",
-                                         "gather"),
-                         [](const auto& test) { return std::string(test.param); });
-
-TEST_P(SolversToAnyError, LightTheCornellBoxWithinOnePerCentAtErrorOneHalf)
+TEST_P(EverySolver, LightsTheCornellBoxWithinOnePerCentAtErrorOneHalf)
 {
     const Cornell& box = cornell(GetParam());
     const Solved solved = support::solve_scene(

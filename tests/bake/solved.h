@@ -26,6 +26,16 @@ inline MethodOptions method(const std::string& id)
     return method_of(id).defaults();
 }
 
+/// Methods of the table that solve diffuse surfaces.
+inline std::vector<const char*> diffuse_methods()
+{
+    std::vector<const char*> ids;
+    for (const MethodInfo& method : methods())
+        if (method.materials == MaterialModel::diffuse)
+            ids.push_back(method.id);
+    return ids;
+}
+
 /// A scene on the default device with what a solver is made of.
 struct Resident {
     Resident(const Scene& scene, const RayScene& rays, const Lumels& lumels,

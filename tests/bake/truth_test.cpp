@@ -10,9 +10,14 @@ namespace {
 using support::LumelError;
 using support::Solved;
 
-/// Solvers that are held to the same truths; "raster" is links whose rays are drawn.
-const auto kEverySolver = testing::Values("links", "raster", "stochastic", "directions",
-                                          "progressive", "gather", "matrix");
+/// "raster" is links whose rays are drawn.
+std::vector<const char*> with_raster(std::vector<const char*> methods)
+{
+    methods.push_back("raster");
+    return methods;
+}
+
+const auto kEverySolver = testing::ValuesIn(with_raster(support::diffuse_methods()));
 const auto kEveryShooter = testing::Values("stochastic", "progressive");
 const auto kMethodName = [](const auto& test) { return std::string(test.param); };
 
@@ -180,10 +185,14 @@ class GrazingLight : public testing::TestWithParam<const char*> {};
 
 /// Along one in 3,000 of the global directions such a floor sees the lamp: a per cent would take
 /// millions of them.
-INSTANTIATE_TEST_SUITE_P(By, GrazingLight,
-                         testing::Values("links", "raster", "stochastic", "progressive", "gather",
-                                         "matrix"),
-                         kMethodName);
+std::vector<const char*> all_but_directions()
+{
+    std::vector<const char*> methods = with_raster(support::diffuse_methods());
+    std::erase_if(methods, [](const char* name) { return std::string(name) == "directions"; });
+    return methods;
+}
+
+INSTANTIATE_TEST_SUITE_P(By, GrazingLight, testing::ValuesIn(all_but_directions()), kMethodName);
 
 // A small lamp low above a long floor, which is drawn since something lies below it.
 TEST_P(GrazingLight, FromALowLampMatchesThePointFormFactor)

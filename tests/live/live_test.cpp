@@ -1,5 +1,6 @@
 // A moved scene is lit as one that always stood so.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -66,11 +67,36 @@ INSTANTIATE_TEST_SUITE_P(By, LiveScenes,
                              return test.param == Redistribution::cross ? "cross" : "incremental";
                          });
 
-TEST_P(LiveScenes, AfterAMoveIsLitAsIfItAlwaysStoodSo)
+struct Moved {
+    Redistribution redistribution;
+    const char* light;  ///< of the scene
+    double most;        ///< error
+};
+
+class MovedBox : public testing::TestWithParam<Moved> {};
+
+std::string moved_name(const testing::TestParamInfo<Moved>& test)
 {
+    const auto& [redistribution, light, most] = test.param;
+    return (redistribution == Redistribution::cross ? "cross_" : "incremental_") +
+           std::string(light);
+}
+
+// Cross redistribution is as exact under a large lamp alone: see docs/papers.md.
+INSTANTIATE_TEST_SUITE_P(By, MovedBox,
+                         testing::Values(Moved{Redistribution::incremental, "large_lamp", 0.01},
+                                         Moved{Redistribution::incremental, "small_lamp", 0.015},
+                                         Moved{Redistribution::cross, "large_lamp", 0.02}),
+                         moved_name);
+
+TEST_P(MovedBox, IsLitAsIfItAlwaysStoodSo)
+{
+    const auto& [redistribution, light, most] = GetParam();
     const gpu::Device device;
-    const Scene scene = room_with_a_box();
-    const LiveOptions options = options_for(scene, GetParam());
+    std::string name = std::string("moving-") + light;
+    std::replace(name.begin(), name.end(), '_', '-');
+    const Scene scene = read_gltf(support::source_path("scenes/" + name + ".gltf"));
+    const LiveOptions options = options_for(scene, redistribution);
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
 
@@ -87,8 +113,7 @@ TEST_P(LiveScenes, AfterAMoveIsLitAsIfItAlwaysStoodSo)
     fresh.settle();
     const auto truth = fresh.irradiance();
     EXPECT_GT(apart(fresh, first, truth), 0.03);  // it did make a difference
-    EXPECT_LE(apart(fresh, moved.irradiance(), truth),
-              GetParam() == Redistribution::cross ? 0.02 : 0.01);
+    EXPECT_LE(apart(fresh, moved.irradiance(), truth), most);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
@@ -241,6 +266,7 @@ TEST_P(LiveScenes, ABulbLightsAMovedSceneAsOneThatAlwaysStoodSo)
     const auto first = moved.irradiance();
     moved.move(options.movers[0], shifted(scene, 0.2f, 0.5f));
     moved.settle();
+    options.redistribution = Redistribution::incremental;
     LiveScene fresh(device, scene, options);
     fresh.move(options.movers[0], shifted(scene, 0.2f, 0.5f));
     fresh.settle();
