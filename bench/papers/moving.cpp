@@ -27,6 +27,7 @@ Update update_after_move(LiveScene& live, std::uint32_t instance, const glm::mat
         update.alone_ms += live.update(0.0).milliseconds;
     } while (live.state().under_way);
     update.alone_hemicubes = live.state().hemicubes - hemicubes;
+    update.alone = live.irradiance();
     update.alone_stages = since(before, live.times());
     update.whole_ms = update.alone_ms + live.settle().milliseconds;
     update.whole_hemicubes = live.state().hemicubes - hemicubes;

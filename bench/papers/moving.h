@@ -38,6 +38,7 @@ struct Update {
     std::uint64_t whole_hemicubes = 0;
     gpu::StageTimes alone_stages;  ///< device time of redistribution alone
     gpu::StageTimes stages;        ///< until at rest
+    std::vector<glm::vec3> alone;  ///< H [N] after redistribution alone
 };
 
 /// Moves an instance and goes on until at rest.
