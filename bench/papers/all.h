@@ -14,9 +14,9 @@ struct AllSettings {
     std::vector<std::string> figures;  ///< keys of runs; empty: all
 };
 
-/// Makes the figures one after the other, and the page anew after each. A figure that fails is named
-/// on the page, and the others go on. Progress goes to stderr. Returns false if one failed. Throws
-/// Error for a folder that cannot be written and for a figure that there is not.
+/// Makes the figures one after the other, and the page anew after each. A figure that fails is
+/// named on the page, and the others go on. Progress goes to stderr. Returns false if one failed.
+/// Throws Error for a folder that cannot be written and for a figure that there is not.
 bool make_all(const AllSettings& settings);
 
 }  // namespace lumel::bench

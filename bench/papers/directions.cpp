@@ -129,8 +129,8 @@ void add_row(Report& report, const Example& example, const Prepared& world,
 
 bool is_wanted(const DirectionsSettings& settings, const Example& example)
 {
-    return settings.scenes.empty() || std::count(settings.scenes.begin(), settings.scenes.end(),
-                                                 std::string(example.key)) > 0;
+    return settings.scenes.empty() ||
+           std::count(settings.scenes.begin(), settings.scenes.end(), std::string(example.key)) > 0;
 }
 
 /// Returns the picture, if one is to be made.
@@ -154,8 +154,8 @@ void show_directions(const DirectionsSettings& settings, Report& report)
     const gpu::Device device(settings.shared.device);
     const auto options = options_of<DirectionsOptions>(settings.shared);
     report.say(fmt::format("lightmaps of {}², illumination maps of {}², {} × {} lookups, {}",
-                           settings.shared.size, options.map_side, options.lookups,
-                           options.lookups, words_of(device)));
+                           settings.shared.size, options.map_side, options.lookups, options.lookups,
+                           words_of(device)));
     report.table("directions",
                  "Scenes lit by global directions ([TN11] figure 9); draw and gather: device, ms a "
                  "direction",

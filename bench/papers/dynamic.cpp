@@ -109,6 +109,7 @@ Outcome from_scratch(const gpu::Device& device, const Stage& stage, Results& res
     outcome.alone = outcome.irradiance = fresh.irradiance();
     // There is nothing to redistribute.
     outcome.update.alone_ms = outcome.update.whole_ms;
+    outcome.update.alone_cpu_ms = outcome.update.whole_cpu_ms;
     outcome.update.alone_hemicubes = outcome.update.whole_hemicubes;
     outcome.update.alone_stages = outcome.update.stages;
     count(stage, fresh.lumels(), results);
@@ -130,6 +131,7 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
     outcome.alone = outcome.irradiance = solver->irradiance();
     watch.stop();
     outcome.update.alone_ms = outcome.update.whole_ms = 1e3 * watch.wall;
+    outcome.update.alone_cpu_ms = outcome.update.whole_cpu_ms = 1e3 * watch.cpu;
     outcome.update.alone_hemicubes = outcome.update.whole_hemicubes = solver->state().shots;
     outcome.update.alone_stages = outcome.update.stages = solver->times();
     return outcome;
@@ -240,6 +242,11 @@ void add_times(Report& report, const std::string& suffix, const std::vector<Resu
               [](const Outcome& o) { return fixed(o.update.whole_ms, 0); });
     add_table(report, "alone-ms" + suffix, "Time of redistribution alone, wall, ms", all,
               [](const Outcome& o) { return fixed(o.update.alone_ms, 0); });
+    add_table(report, "rest-cpu-ms" + suffix, "The same until at rest, processor time, ms", all,
+              [](const Outcome& o) { return fixed(o.update.whole_cpu_ms, 0); });
+    add_table(report, "alone-cpu-ms" + suffix,
+              "The same of redistribution alone, processor time, ms", all,
+              [](const Outcome& o) { return fixed(o.update.alone_cpu_ms, 0); });
     add_table(report, "rest-device-ms" + suffix, "Device time until at rest, ms", all,
               [](const Outcome& o) { return fixed(sum_of(o.update.stages), 0); });
     add_table(report, "alone-device-ms" + suffix, "Device time of redistribution alone, ms", all,
@@ -248,6 +255,12 @@ void add_times(Report& report, const std::string& suffix, const std::vector<Resu
               [](const Outcome& o) -> Cell { return o.update.whole_hemicubes; });
     add_table(report, "alone-hemicubes" + suffix, "Hemicubes of redistribution alone", all,
               [](const Outcome& o) -> Cell { return o.update.alone_hemicubes; });
+}
+
+std::string words_of(double Update::*ms)
+{
+    const bool by_processor = ms == &Update::whole_cpu_ms || ms == &Update::alone_cpu_ms;
+    return by_processor ? "processor time" : "wall time";
 }
 
 /// How many times as fast one technique is as another.
@@ -267,7 +280,7 @@ void add_ratios(Report& report, const std::string& key, const std::string& title
     std::vector<std::string> columns{"ratio"};
     for (const Results& results : all)
         columns.push_back(results.title);
-    report.table(key, title, columns);
+    report.table(key, title + ", " + words_of(ms), columns);
     for (const Ratio& ratio : kRatios) {
         std::vector<Cell> cells{ratio.name};
         for (const Results& results : all) {
@@ -281,18 +294,18 @@ void add_ratios(Report& report, const std::string& key, const std::string& title
 
 /// What more vertices cost [Hoef13] table 5.3.
 void add_growth(Report& report, const std::string& suffix, const std::vector<Results>& few,
-                const std::vector<Results>& many)
+                const std::vector<Results>& many, double Update::*ms)
 {
     std::vector<std::string> columns{"technique"};
     for (const Results& results : many)
         columns.push_back(results.title);
-    report.table("growth" + suffix, "Time until at rest with more vertices / with few", columns);
+    report.table("growth" + suffix,
+                 "Time until at rest with more vertices / with few, " + words_of(ms), columns);
     for (int technique = kProgressive; technique < kTechniques; ++technique) {
         std::vector<Cell> cells{kNames[technique]};
         for (std::size_t i = 0; i < many.size(); ++i)
-            cells.push_back(fixed(many[i].by[technique]->update.whole_ms /
-                                      few[i].by[technique]->update.whole_ms,
-                                  2));
+            cells.push_back(
+                fixed(many[i].by[technique]->update.*ms / (few[i].by[technique]->update.*ms), 2));
         report.row(cells);
     }
 }
@@ -328,12 +341,14 @@ void follow_moves(const DynamicSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const ViewOptions views = options_of<ProgressiveOptions>(settings.shared).views;
-    report.say(fmt::format("hemicubes of side {}, {} a batch, {} samples per lumel for the truth, {}",
-                           views.hemicube, views.batch, settings.shared.reference_spp,
-                           words_of(device)));
+    report.say(
+        fmt::format("hemicubes of side {}, {} a batch, {} samples per lumel for the truth, {}",
+                    views.hemicube, views.batch, settings.shared.reference_spp, words_of(device)));
     std::vector<int> all_pieces{1};
     std::copy_if(settings.pieces.begin(), settings.pieces.end(), std::back_inserter(all_pieces),
                  [](int pieces) { return pieces > 1; });
+    const bool by_processor = counts_processor_time(device);
+    const auto rest = by_processor ? &Update::whole_cpu_ms : &Update::whole_ms;
     std::vector<Results> whole;  // with edges in one piece
     for (const int pieces : all_pieces) {
         const std::string suffix = pieces > 1 ? fmt::format("-{}", pieces) : "";
@@ -350,12 +365,12 @@ void follow_moves(const DynamicSettings& settings, Report& report)
             add_errors(report, all);
         add_times(report, suffix, all);
         add_ratios(report, "rest-ratios" + suffix, "Times until at rest, over one another", all,
-                   &Update::whole_ms);
+                   rest);
         add_ratios(report, "alone-ratios" + suffix,
                    "The same of redistribution alone; gather and progressive until at rest", all,
-                   &Update::alone_ms);
+                   by_processor ? &Update::alone_cpu_ms : &Update::alone_ms);
         if (pieces > 1)
-            add_growth(report, suffix, whole, all);
+            add_growth(report, suffix, whole, all, rest);
         for (const Results& results : all) {
             const std::string key = "-" + results.title + suffix;
             add_parts(report, "alone-parts" + key, results, "redistribution alone",

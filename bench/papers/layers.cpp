@@ -187,7 +187,8 @@ void add_chances(Report& report, const LayersSettings& settings, const gpu::Devi
 {
     report.table("chances",
                  fmt::format("Surfaces found among the lookups ([TN11] figure 7), {} maps of {}²",
-                             settings.views, options_of<DirectionsOptions>(settings.shared).map_side),
+                             settings.views,
+                             options_of<DirectionsOptions>(settings.shared).map_side),
                  {"planes", "slabs", "K measured", "9 lookups, found %", "1 − (1 − 1/K)⁹, %",
                   "25 lookups, found %", "1 − (1 − 1/K)²⁵, %"});
     std::array<double, std::size(kReaches)> farthest{};  // from the formula, without slabs

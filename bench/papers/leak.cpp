@@ -95,15 +95,14 @@ void follow_light(const LeakSettings& settings, Report& report)
         leaky.go_to(directions);
         const MapError of_mean = compare_maps(mean.map(), truth.map());
         const MapError of_leaky = compare_maps(leaky.map(), truth.map());
-        report.row({directions, rmse_of(of_mean), bias_of(of_mean), rmse_of(of_leaky),
-                    bias_of(of_leaky)});
+        report.row(
+            {directions, rmse_of(of_mean), bias_of(of_mean), rmse_of(of_leaky), bias_of(of_leaky)});
     }
     for (glm::vec3& radiance : prepared.scene.sky.radiance)
         radiance *= kDimmed;
     leaky.relight();
     report.table("dimmed", fmt::format("After the sky dimmed to {}", kDimmed),
-                 {"directions since", "leaky, RMSE %", "leaky, bias %",
-                  "of the old light's, %"});
+                 {"directions since", "leaky, RMSE %", "leaky, bias %", "of the old light's, %"});
     for (const int directions : settings.directions) {
         leaky.go_to(settings.directions.back() + directions);
         const double left = std::pow(1.0 - settings.leak, directions);

@@ -94,10 +94,9 @@ void add_distribution(Report& report, const MatrixCase& matrix_case)
 
 void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector<double>& shares)
 {
-    report.table("shares",
-                 "Error against the share kept exactly ([SF17] figure 2), the paper's settings",
-                 {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %",
-                  "naive / bytes"});
+    report.table(
+        "shares", "Error against the share kept exactly ([SF17] figure 2), the paper's settings",
+        {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %", "naive / bytes"});
     for (const double share : shares) {
         CodingOptions options = papers_settings();
         options.exact_share = float(share / kPercent);

@@ -26,22 +26,36 @@ img { max-width: 100%; }
 <body>
 )";
 
+constexpr const char* kTimes =
+    "Ratios of times are of wall time on a GPU, and of processor time where the device is the "
+    "processor, whose wall time other work lengthens.";
+
 std::string escaped(const std::string& text)
 {
     std::string result;
     for (const char c : text)
         switch (c) {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
-        default: result += c;
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c;
         }
     return result;
 }
 
 /// One element. Its attributes must be escaped, its content is.
-std::string element(const char* name, const std::string& content, const std::string& attributes = {})
+std::string element(const char* name, const std::string& content,
+                    const std::string& attributes = {})
 {
     return fmt::format("<{}{}{}>{}</{}>", name, attributes.empty() ? "" : " ", attributes,
                        escaped(content), name);
@@ -82,12 +96,12 @@ std::string comparison_of(const Outcomes& outcomes)
 
 std::string left_out()
 {
-    std::string page = element("h2", "Not reproduced") + "\n" +
-                       head_of("What the papers show and no figure here makes",
-                               {"paper", "where", "what", "why"});
+    std::string page =
+        element("h2", "Not reproduced") + "\n" +
+        head_of("What the papers show and no figure here makes", {"paper", "where", "what", "why"});
     for (const NotReproduced& part : not_reproduced())
-        page += row_of("td",
-                       std::array<std::string, 4>{part.paper, part.place, part.what, part.why});
+        page +=
+            row_of("td", std::array<std::string, 4>{part.paper, part.place, part.what, part.why});
     return page + "</table>\n";
 }
 
@@ -137,8 +151,10 @@ const char* words_of(Extent extent)
     case Extent::tiny:
         return "Sizes for a test of the program: the numbers and verdicts below say nothing about "
                "any paper.";
-    case Extent::full: return "The papers' own sizes, where we have their scenes (--full).";
-    case Extent::standard: break;
+    case Extent::full:
+        return "The papers' own sizes, where we have their scenes (--full).";
+    case Extent::standard:
+        break;
     }
     return "Smaller sizes than the papers', as each figure's command says; --full takes their own.";
 }
@@ -148,7 +164,8 @@ const char* words_of(Extent extent)
 std::string page_of(const Outcomes& outcomes, Extent extent, const std::string& folder)
 {
     std::string page = kHead + element("h1", "The papers' figures, made again") + "\n" +
-                       element("p", words_of(extent)) + "\n" + comparison_of(outcomes) + left_out();
+                       element("p", words_of(extent)) + "\n" + element("p", kTimes) + "\n" +
+                       comparison_of(outcomes) + left_out();
     for (const Run& run : all_runs())
         if (const auto outcome = outcomes.find(run.key); outcome != outcomes.end())
             page += section_of(run, outcome->second, extent, folder);

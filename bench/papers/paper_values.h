@@ -13,13 +13,13 @@ enum class Bar { at_most, at_least, none };
 
 /// A number of a paper, and where ours is found.
 struct PaperValue {
-    const char* paper;     ///< as docs/references.md names it
-    const char* place;     ///< figure, table or section
+    const char* paper;  ///< as docs/references.md names it
+    const char* place;  ///< figure, table or section
     const char* quantity;
-    const char* value;     ///< as the paper states it
+    const char* value;                       ///< as the paper states it
     const char *run, *table, *row, *column;  ///< see Run, Table and cell_at()
     Bar bar;
-    double limit;          ///< of what counts as met
+    double limit;  ///< of what counts as met
     /// What stands between the two numbers; why they cannot be compared, if there is no bar.
     const char* note;
 };
@@ -44,7 +44,7 @@ struct Judgement {
 /// What became of one run.
 struct Outcome {
     Report report;
-    std::string failure;  ///< what went wrong; empty: nothing
+    std::string failure;           ///< what went wrong; empty: nothing
     double wall = 0.0, cpu = 0.0;  ///< [s]
 };
 
@@ -52,7 +52,7 @@ struct Outcome {
 using Outcomes = std::map<std::string, Outcome>;
 Judgement judge(const PaperValue& value, const Outcomes& outcomes);
 
-std::string words_of(Verdict verdict);          ///< "met", "not measured"
-std::string bar_of(const PaperValue& value);    ///< "at most 1.25"; empty without a bar
+std::string words_of(Verdict verdict);        ///< "met", "not measured"
+std::string bar_of(const PaperValue& value);  ///< "at most 1.25"; empty without a bar
 
 }  // namespace lumel::bench

@@ -107,6 +107,11 @@ std::string words_of(const gpu::Device& device)
     return fmt::format("{} ({})", device.info().name, device.info().driver);
 }
 
+bool counts_processor_time(const gpu::Device& device)
+{
+    return device.info().type == "cpu";
+}
+
 const Cell* cell_at(const Table& table, const std::string& row, const std::string& column)
 {
     const auto place = std::find(table.columns.begin(), table.columns.end(), column);

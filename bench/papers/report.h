@@ -63,8 +63,12 @@ private:
 /// "llvmpipe (…) (driver)"
 std::string words_of(const gpu::Device& device);
 
-/// In the first row whose leading cells, joined by ", ", are `row`; nothing if the table has no such
-/// row or column.
+/// A processor as the device has other work beside the figures, which lengthens wall time: there
+/// processor time is what ratios are of.
+bool counts_processor_time(const gpu::Device& device);
+
+/// In the first row whose leading cells, joined by ", ", are `row`; nothing if the table has no
+/// such row or column.
 const Cell* cell_at(const Table& table, const std::string& row, const std::string& column);
 
 }  // namespace lumel::bench

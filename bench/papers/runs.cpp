@@ -5,8 +5,8 @@ namespace {
 
 constexpr Run kRuns[] = {
     {"iterations", "Time of an iteration, hemicubes",
-     "Wall time of a whole iteration with one shooter, the fastest of three stretches. Nothing is "
-     "read back but four bytes.",
+     "A whole iteration with one shooter, the fastest of three stretches. Nothing is read back but "
+     "four bytes.",
      "iterations --sizes 64,128,512 --iterations 8", "iterations",
      "iterations --sizes 16,32 --vertices 10,100 --iterations 4 --hemicube 32"},
     {"iterations-hemisphere", "Time of an iteration, hemispheres",
@@ -56,7 +56,7 @@ constexpr Run kRuns[] = {
      "directions -o {out}",
      "directions --size 16 --map-side 64 --directions 4 --width 16 -o {out}"},
     {"moves", "A box that turns",
-     "Wall time of an update, from the move until 0.2 % of all light is unshot, and of its "
+     "An update, from the move until 0.2 % of all light is unshot, and of its "
      "redistribution alone; a table of errors for either state. Errors are of the lumels' "
      "irradiance; the thesis has them of pictures.",
      "dynamic --hemicube 64 --size 64 --low-size 32 --steps 1 --reference-spp 512 --no-gather "
@@ -72,7 +72,7 @@ constexpr Run kRuns[] = {
      "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 --residual 0.1 "
      "--pieces 1"},
     {"vertices", "A box that turns, more vertices",
-     "Wall time until at rest, with edges cut into pieces over that with whole edges; the lumels "
+     "Time until at rest, with edges cut into pieces over that with whole edges; the lumels "
      "are the same.",
      "dynamic --scenes large,low --hemicube 64 --size 64 --low-size 32 --steps 1 --no-gather "
      "--reference-spp 0 --pieces 14",
@@ -88,7 +88,7 @@ constexpr Run kRuns[] = {
      "matrix --size 64 --patches 1024", "matrix",
      "matrix --size 16 --patches 64 --lights 2 --hemicube 32"},
     {"matrix-speed", "One multiply against many bounces",
-     "Wall time of the multiply alone, for three colours at once, the fastest of three stretches. "
+     "The multiply alone, for three colours at once, the fastest of three stretches. "
      "Naive radiosity reads the form factors, as floats without colours, once for each of 8 "
      "bounces, through the same kernel. Errors are of one state of light against all bounces.",
      "matrix-speed --large 4096", "matrix-speed --large 8192",

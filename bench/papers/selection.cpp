@@ -150,9 +150,8 @@ void time_selection(const SelectionSettings& settings, Report& report)
         const DrawCost gpu = on_device(device, power, numbers);
         const double rest =
             iteration.wall_ms - gpu.wall_ms - sum_of(iteration.stages, {"figures", "polish"});
-        report.row({fmt::format("{}²", size),
-                    world.lumels.lumels.size(), fixed(host.cpu_ms, 3), fixed(host.wall_ms, 3),
-                    fixed(gpu.cpu_ms, 3), fixed(gpu.wall_ms, 3),
+        report.row({fmt::format("{}²", size), world.lumels.lumels.size(), fixed(host.cpu_ms, 3),
+                    fixed(host.wall_ms, 3), fixed(gpu.cpu_ms, 3), fixed(gpu.wall_ms, 3),
                     fixed(host.wall_ms / gpu.wall_ms, 1), fixed(rest, 2),
                     fixed(host.wall_ms / rest, 2), fixed(gpu.wall_ms / rest, 2),
                     fmt::format("{} of {}", agreeing(host, gpu), numbers.size())});

@@ -81,7 +81,7 @@ TEST(Judgement, EveryNumberOfThePapersSaysWhatItIsOf)
 {
     for (const PaperValue& value : paper_values()) {
         EXPECT_STRNE(value.note, "") << value.quantity;
-        EXPECT_TRUE(std::any_of(all_runs().begin(), all_runs().end(), [&](const Run& run) {
+        EXPECT_TRUE(std::any_of(all_runs().begin(), all_runs().end(), [&](const bench::Run& run) {
             return std::string(run.key) == value.run;
         })) << value.quantity;
     }

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
+#include "../support/temporary_folder.h"
 #include "bench/papers/all.h"
 #include "bench/papers/page.h"
 #include "core/error.h"
-#include "support/source_folder.h"
-#include "support/temporary_folder.h"
 
 namespace lumel::bench {
 namespace {
