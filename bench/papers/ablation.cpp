@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bake/setting.h"
 #include "bench/papers/figures.h"
@@ -125,23 +124,30 @@ void take(Technique& technique, const Sight& sight, GlossyIllumination& solver, 
     technique.spread.add(pixels_of(sight, radiance));
 }
 
-void print_techniques(const std::vector<Technique>& techniques, const Sight& sight, int seeds)
+void add_techniques(Report& report, const std::vector<Technique>& techniques, const Sight& sight,
+                    int seeds)
 {
-    fmt::print("Multiple importance sampling: {} × {} pixels, {} seeds\n\n"
-               "| method | shooters | rays | mean cd/m² | variance / mean² | cpu s | product |\n"
-               "|---|---|---|---|---|---|---|\n",
-               sight.seen.width, sight.seen.height, seeds);
+    report.table("weighting",
+                 fmt::format("Multiple importance sampling ([BSS05] figure 1): {} × {} pixels, {} "
+                             "seeds",
+                             sight.seen.width, sight.seen.height, seeds),
+                 {"method", "shooters", "rays", "mean cd/m²", "variance / mean²", "cpu s",
+                  "product", "product / that of rays alone"});
+    const auto product = [](const Technique& technique) {
+        return technique.spread.variance() * technique.cpu;
+    };
     for (const Technique& technique : techniques) {
         const double cpu = technique.cpu / seeds;
-        fmt::print("| {} | {} | {} | {:.4g} | {:.3g} | {:.3f} | {:.3g} |\n", technique.name,
-                   technique.shots, technique.rays, technique.spread.mean(),
-                   technique.spread.variance(), cpu, technique.spread.variance() * cpu);
+        report.row({technique.name, technique.shots, technique.rays,
+                    significant(technique.spread.mean(), 4),
+                    significant(technique.spread.variance(), 3), fixed(cpu, 3),
+                    significant(technique.spread.variance() * cpu, 3),
+                    significant(product(technique) / product(techniques[1]), 3)});
     }
-    std::fflush(stdout);
 }
 
 /// Shooters, rays, and both. Only what the lobes reflect is counted: the rest is the same in all.
-void ablate_weighing(const AblationSettings& settings, const gpu::Device& device)
+void ablate_weighing(const AblationSettings& settings, const gpu::Device& device, Report& report)
 {
     const Sight sight(settings, device);
     const auto shots = std::uint64_t(settings.eye_shots);
@@ -172,7 +178,7 @@ void ablate_weighing(const AblationSettings& settings, const gpu::Device& device
         for (Technique& technique : techniques)
             take(technique, sight, technique.rays > 0 ? solver : alone, lit, gloss.seed);
     }
-    print_techniques(techniques, sight, settings.seeds);
+    add_techniques(report, techniques, sight, settings.seeds);
 }
 
 /// Light at every lumel after some iterations of the papers' scheme, between seeds.
@@ -203,17 +209,20 @@ struct Partial {
 };
 
 /// Eq. (8): with r² + A/π below, and with r² alone; A of a texel, and of merged ones.
-void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
+void ablate_disc(const AblationSettings& settings, const gpu::Device& device, Report& report)
 {
     Settings diffuse = settings.shared;
     diffuse.given.id = "stochastic";
     const Prepared world = prepare(diffuse, diffuse.size);
     const World resident(device, world.scene, world.lumels);
-    fmt::print("\nPartial analytic integration: {} lumels, {} iterations, {} seeds\n\n"
-               "| points | below | mean lx | variance / mean² | largest deviation / mean |\n"
-               "|---|---|---|---|---|\n",
-               world.lumels.lumels.size(), settings.iterations, settings.seeds);
-    for (const SampleRule rule : {SampleRule::centre, SampleRule::area})
+    report.table("disc",
+                 fmt::format("Partial analytic integration ([BSS05] Eq. (8)): {} lumels, {} "
+                             "iterations, {} seeds",
+                             world.lumels.lumels.size(), settings.iterations, settings.seeds),
+                 {"points", "below", "mean lx", "variance / mean²", "largest deviation / mean",
+                  "variance / that of r²"});
+    for (const SampleRule rule : {SampleRule::centre, SampleRule::area}) {
+        double plain = 0.0;  // variance with r² alone
         for (const Partial& partial : {Partial{"r²", false, 0}, Partial{"r² + A/π", true, 0},
                                        Partial{"r² + A/π, 2 × 2 texels merged", true, 1},
                                        Partial{"r² + A/π, 4 × 4 texels merged", true, 2}}) {
@@ -224,21 +233,24 @@ void ablate_disc(const AblationSettings& settings, const gpu::Device& device)
             options.disc = partial.disc;
             options.merge = partial.merge;
             const Spread spread = spread_of_irradiance(settings, device, world, resident, options);
-            fmt::print("| {} | {} | {:.4g} | {:.4g} | {:.4g} |\n",
-                       rule == SampleRule::centre ? "centres" : "spread over lumels", partial.below,
-                       spread.mean(), spread.variance(), spread.largest());
-            std::fflush(stdout);
+            if (!partial.disc)
+                plain = spread.variance();
+            report.row({rule == SampleRule::centre ? "centres" : "spread over lumels",
+                        partial.below, significant(spread.mean(), 4),
+                        significant(spread.variance(), 4), significant(spread.largest(), 4),
+                        significant(spread.variance() / plain, 3)});
         }
+    }
 }
 
 }  // namespace
 
-void ablate(const AblationSettings& settings)
+void ablate(const AblationSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
-    fmt::print("{}, {} ({})\n\n", settings.shared.scene, device.info().name, device.info().driver);
-    ablate_weighing(settings, device);
-    ablate_disc(settings, device);
+    report.say(fmt::format("{}, {}", settings.shared.scene, words_of(device)));
+    ablate_weighing(settings, device, report);
+    ablate_disc(settings, device, report);
     device.check_validation();
 }
 

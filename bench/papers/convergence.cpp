@@ -2,11 +2,10 @@
 // "we can expect converged images after 40 – 80 iterations".
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <optional>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bake/render.h"
 #include "bake/setting.h"
@@ -94,21 +93,18 @@ std::vector<Image> write_steps(const ConvergenceSettings& settings, const Solver
     return pictures;
 }
 
-void print_row(const SolverOptions& options, const SolverState& state, double cpu,
-               const std::optional<MapError>& error)
+void add_row(Report& report, const SolverOptions& options, const SolverState& state, double cpu,
+             const std::optional<MapError>& error)
 {
-    const std::string measured =
-        error ? fmt::format("{:.2f} | {:+.2f}", 100.0 * error->relative_rmse, 100.0 * error->bias)
-              : "– | –";
-    fmt::print("| {} | {} | {} | {} | {} | {:.3f} |\n", word_for(options), batch_of(options.method),
-               state.iterations, state.shots, measured, cpu);
-    std::fflush(stdout);
+    report.row({word_for(options), state.iterations, batch_of(options.method), state.shots,
+                error ? fixed(100.0 * error->relative_rmse, 2) : none(),
+                error ? signed_fixed(100.0 * error->bias, 2) : none(), fixed(cpu, 3)});
 }
 
 /// Returns the pictures, none without a folder for them.
 std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptions& options,
                           const gpu::Device& device, const Prepared& world,
-                          const std::optional<Image>& reference)
+                          const std::optional<Image>& reference, Report& report)
 {
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
@@ -139,7 +135,7 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
         std::optional<MapError> error;
         if (reference)
             error = compare_maps(step.map, *reference);
-        print_row(options, solver->state(), watch.cpu, error);
+        add_row(report, options, solver->state(), watch.cpu, error);
         if (settings.folder.empty())
             continue;
         step.picture = picture_of(settings, options, device, world, step);
@@ -150,22 +146,29 @@ std::vector<Image> follow(const ConvergenceSettings& settings, const SolverOptio
 
 }  // namespace
 
-void follow_convergence(const ConvergenceSettings& settings)
+void follow_convergence(const ConvergenceSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const Prepared world = prepare(settings.shared, settings.shared.size);
     const std::optional<Image> reference = reference_map(settings.shared, world);
-    fmt::print("{}, {}, {} lumels at {}², {} ({})\n\n"
-               "| scheme | K | iterations | shooters | RMSE % | bias % | cpu s |\n"
-               "|---|---|---|---|---|---|---|\n",
-               settings.shared.scene, settings.shared.given.id, world.lumels.lumels.size(),
-               world.atlas.width, device.info().name, device.info().driver);
+    report.say(fmt::format("{}, {}, {} lumels at {}², {}", settings.shared.scene,
+                           settings.shared.given.id, world.lumels.lumels.size(), world.atlas.width,
+                           words_of(device)));
+    report.table("convergence",
+                 "Error after iterations ([BJ04] figures 5 and 6); of the map, relative, against "
+                 "paths",
+                 {"scheme", "iterations", "K", "shooters", "RMSE %", "bias %", "cpu s"});
     const std::vector<std::vector<Image>> rows{
         follow(settings, papers_iteration(settings.shared.given.options()), device, world,
-               reference),
-        follow(settings, solver_of(settings.shared), device, world, reference)};
-    if (!settings.folder.empty())
-        write_png(stem_of(settings) + "-pictures.png", contact_sheet(rows));
+               reference, report),
+        follow(settings, solver_of(settings.shared), device, world, reference, report)};
+    if (!settings.folder.empty()) {
+        const std::string sheet = stem_of(settings) + "-pictures.png";
+        write_png(sheet, contact_sheet(rows));
+        report.picture(sheet, settings.shared.scene +
+                                  ": above the papers' scheme, below the default, after the "
+                                  "iterations of the table");
+    }
     device.check_validation();
 }
 

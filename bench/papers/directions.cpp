@@ -1,9 +1,9 @@
 // [TN11] figure 9: example scenes, with the directions and maps of the paper.
 
-#include <cstdio>
+#include <algorithm>
 #include <filesystem>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
@@ -29,13 +29,12 @@ constexpr float kAspect = 1.25f;
 constexpr std::size_t kPicturesInRow = 3;
 /// Of that which puts the bright end below white: skies make all of a scene bright.
 constexpr float kExposure = 0.5f;
-/// 3 × 3, "which we found gave an adequate visual quality for the majority of the scenes".
-constexpr int kLookups = 3;
 
 enum class Light { sky, own };
 
 /// A scene of the figure.
 struct Example {
+    const char* key;  ///< on the command line
     const char* name;
     const char* path;  ///< empty: the landscape
     int directions;
@@ -43,11 +42,11 @@ struct Example {
 };
 
 constexpr Example kExamples[] = {
-    {"four cubes", "scenes/four-cubes.gltf", 5120, Light::sky},
-    {"three balls", "scenes/three-balls.gltf", 5120, Light::sky},
-    {"Cornell box under a sky", "scenes/cornell-box.gltf", 4068, Light::sky},
-    {"Cornell box with its lamp", "scenes/cornell-box.gltf", 42624, Light::own},
-    {"landscape", "", 3764, Light::sky}};
+    {"cubes", "four cubes", "scenes/four-cubes.gltf", 5120, Light::sky},
+    {"balls", "three balls", "scenes/three-balls.gltf", 5120, Light::sky},
+    {"sky", "Cornell box under a sky", "scenes/cornell-box.gltf", 4068, Light::sky},
+    {"lamp", "Cornell box with its lamp", "scenes/cornell-box.gltf", 42624, Light::own},
+    {"landscape", "landscape", "", 3764, Light::sky}};
 
 Scene scene_of(const Example& example, const std::string& sky_file)
 {
@@ -91,7 +90,6 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 {
     auto directions = options_of<DirectionsOptions>(settings.shared);
     directions.layers = Layers::stochastic;
-    directions.lookups = kLookups;
     SolverOptions options = papers_iteration(directions);
     options.max_shots =
         std::uint64_t(settings.directions > 0 ? settings.directions : example.directions);
@@ -115,30 +113,35 @@ Image picture_of(const gpu::Device& device, const Prepared& world, const Image& 
     return tone_map(picture, kExposure * choose_exposure(picture));
 }
 
-void print_row(const Example& example, const Prepared& world, const Gathered& gathered,
-               const MapError& error)
+void add_row(Report& report, const Example& example, const Prepared& world,
+             const Gathered& gathered, const MapError& error)
 {
     const auto directions = double(gathered.directions);
     const auto ms = [&](const char* stage) {
-        return sum_of(gathered.stages, {stage}) / directions;
+        return fixed(sum_of(gathered.stages, {stage}) / directions, 2);
     };
-    fmt::print("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:+.1f} |\n",
-               example.name, find_occluders(world.scene).indices.size() / 3,
-               world.lumels.lumels.size(), gathered.directions,
-               1e3 * gathered.watch.wall / directions, 1e3 * gathered.watch.cpu / directions,
-               ms("look along"), ms("gather"), 100.0 * error.relative_rmse, 100.0 * error.bias);
-    std::fflush(stdout);
+    report.row({example.name, find_occluders(world.scene).indices.size() / 3,
+                world.lumels.lumels.size(), gathered.directions,
+                fixed(1e3 * gathered.watch.wall / directions, 2),
+                fixed(1e3 * gathered.watch.cpu / directions, 2), ms("look along"), ms("gather"),
+                fixed(100.0 * error.relative_rmse, 1), signed_fixed(100.0 * error.bias, 1)});
+}
+
+bool is_wanted(const DirectionsSettings& settings, const Example& example)
+{
+    return settings.scenes.empty() ||
+           std::count(settings.scenes.begin(), settings.scenes.end(), std::string(example.key)) > 0;
 }
 
 /// Returns the picture, if one is to be made.
 std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& device,
-                        const Example& example)
+                        const Example& example, Report& report)
 {
     const Prepared world(scene_of(example, settings.sky),
                          AtlasOptions{.size = settings.shared.size});
     const SolverOptions options = options_for(settings, example);
     const Gathered gathered = gather(device, world, options);
-    print_row(example, world, gathered, error_of_layers(device, world, options, gathered));
+    add_row(report, example, world, gathered, error_of_layers(device, world, options, gathered));
     if (settings.folder.empty())
         return {};
     return {picture_of(device, world, gathered.map, settings.width)};
@@ -146,25 +149,32 @@ std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& d
 
 }  // namespace
 
-void show_directions(const DirectionsSettings& settings)
+void show_directions(const DirectionsSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
-    fmt::print("lightmaps of {}², illumination maps of {}², {} × {} lookups, {} ({})\n\n"
-               "| scene | triangles | lumels | directions | wall ms per direction | cpu ms "
-               "| draw | gather | RMSE against list, % | bias, % |\n"
-               "|---|---|---|---|---|---|---|---|---|---|\n",
-               settings.shared.size, options_of<DirectionsOptions>(settings.shared).map_side,
-               kLookups, kLookups, device.info().name, device.info().driver);
+    const auto options = options_of<DirectionsOptions>(settings.shared);
+    report.say(fmt::format("lightmaps of {}², illumination maps of {}², {} × {} lookups, {}",
+                           settings.shared.size, options.map_side, options.lookups, options.lookups,
+                           words_of(device)));
+    report.table("directions",
+                 "Scenes lit by global directions ([TN11] figure 9); draw and gather: device, ms a "
+                 "direction",
+                 {"scene", "triangles", "lumels", "directions", "wall ms per direction", "cpu ms",
+                  "draw", "gather", "RMSE against list, %", "bias, %"});
     std::vector<std::vector<Image>> rows(1);
     for (const Example& example : kExamples) {
+        if (!is_wanted(settings, example))
+            continue;
         if (rows.back().size() == kPicturesInRow)
             rows.emplace_back();
-        for (Image& picture : show(settings, device, example))
+        for (Image& picture : show(settings, device, example, report))
             rows.back().push_back(std::move(picture));
     }
     if (!settings.folder.empty()) {
         std::filesystem::create_directories(settings.folder);
-        write_png(settings.folder + "/directions.png", contact_sheet(rows));
+        const std::string sheet = settings.folder + "/directions.png";
+        write_png(sheet, contact_sheet(rows));
+        report.picture(sheet, "The scenes of the table, row by row");
     }
     device.check_validation();
 }

@@ -1,8 +1,6 @@
 // Errors of incremental and of cross-redistribution radiosity must not pile up [Hoef13] 4.5.2.
 
-#include <cstdio>
-
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/papers/figures.h"
@@ -31,7 +29,7 @@ bool is_looked_at(int move, int moves)
 }
 
 void follow(const gpu::Device& device, const Scene& scene, Redistribution redistribution,
-            const DriftSettings& settings)
+            const DriftSettings& settings, Report& report)
 {
     const std::uint32_t box = find_instance(scene, kBox);
     LiveScene live(device, scene,
@@ -42,9 +40,8 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
                     .residual = settings.residual});
     live.settle();
     const char* name = redistribution == Redistribution::cross ? "cross" : "incremental";
-    const auto print = [&](const std::string& after, double error) {
-        fmt::print("| {} | {} | {:.4f} | {:.4f} |\n", name, after, error, live.state().residual);
-        std::fflush(stdout);
+    const auto add = [&](const std::string& after, double error) {
+        report.row({name, after, fixed(error, 4), fixed(live.state().residual, 4)});
     };
     const glm::mat4 home = scene.instances[box].transform;
     const auto before = in_a_row(live.lumels(), live.irradiance());
@@ -53,32 +50,36 @@ void follow(const gpu::Device& device, const Scene& scene, Redistribution redist
     for (const auto& [after, place] : places) {
         live.move(box, place);
         live.settle();
-        print(after, apart(live, before));
+        add(after, apart(live, before));
     }
     const Image first = in_a_row(live.lumels(), live.irradiance());
     for (int move = 1; move <= settings.moves; ++move) {
         live.move(box, move % 2 == 1 ? turned(scene, box, settings.degrees) : home);
         live.settle();
         if (is_looked_at(move, settings.moves))
-            print(fmt::format("{} moves", move), apart(live, first));
+            add(move == settings.moves ? "the last move" : fmt::format("{} moves", move),
+                apart(live, first));
     }
 }
 
 }  // namespace
 
-void follow_drift(const DriftSettings& settings)
+void follow_drift(const DriftSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const Scene scene = read_gltf(settings.shared.scene);
     if (settings.moves % 2 != 0)
         throw Error(ErrorKind::input, "--moves " + std::to_string(settings.moves),
                     "must be even, so that the box comes back");
-    fmt::print("{} at {}², {} ({})\n\n| redistribution | after | RMSE % | residual |\n"
-               "|---|---|---|---|\n",
-               settings.shared.scene, settings.shared.size, device.info().name,
-               device.info().driver);
-    follow(device, scene, Redistribution::incremental, settings);
-    follow(device, scene, Redistribution::cross, settings);
+    report.say(fmt::format("{} at {}², {}", settings.shared.scene, settings.shared.size,
+                           words_of(device)));
+    report.table("drift",
+                 fmt::format("What {} moves leave ([Hoef13] section 4.5.2); at rest, relative to "
+                             "the solution before them",
+                             settings.moves),
+                 {"redistribution", "after", "RMSE %", "residual"});
+    follow(device, scene, Redistribution::incremental, settings, report);
+    follow(device, scene, Redistribution::cross, settings, report);
     device.check_validation();
 }
 

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <optional>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/cut.h"
 #include "bench/papers/figures.h"
@@ -28,9 +27,10 @@ constexpr double kLeastShown = 0.1;  ///< of a part's time [ms]
 /// What one technique did after the last move.
 struct Outcome {
     Update update;
-    std::vector<glm::vec3> irradiance;
-    std::optional<MapError> from_truth;
-    double from_scratch = 0.0;  ///< relative RMSE from `progressive`, with the same lumels
+    std::vector<glm::vec3> alone, irradiance;  ///< after redistribution alone; at rest
+    std::optional<MapError> alone_from_truth, from_truth;
+    /// Relative RMSE from `progressive` at rest, with the same lumels.
+    double alone_from_scratch = 0.0, from_scratch = 0.0;
 };
 
 struct Results {
@@ -92,6 +92,7 @@ Outcome corrected(const gpu::Device& device, const Stage& stage, Redistribution 
     Outcome outcome;
     for (std::size_t step = 0; step < stage.places.size(); ++step) {
         Update update = update_after_move(live, stage.box, stage.places[step]);
+        outcome.alone = update.alone;
         // The driver compiles shaders in the first.
         if (step <= 1 || update.whole_ms < outcome.update.whole_ms)
             outcome.update = std::move(update);
@@ -105,7 +106,12 @@ Outcome from_scratch(const gpu::Device& device, const Stage& stage, Results& res
 {
     LiveScene fresh(device, stage.scene, stage.options);
     Outcome outcome{.update = update_after_move(fresh, stage.box, stage.places.back())};
-    outcome.irradiance = fresh.irradiance();
+    outcome.alone = outcome.irradiance = fresh.irradiance();
+    // There is nothing to redistribute.
+    outcome.update.alone_ms = outcome.update.whole_ms;
+    outcome.update.alone_cpu_ms = outcome.update.whole_cpu_ms;
+    outcome.update.alone_hemicubes = outcome.update.whole_hemicubes;
+    outcome.update.alone_stages = outcome.update.stages;
     count(stage, fresh.lumels(), results);
     return outcome;
 }
@@ -122,9 +128,10 @@ Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Sta
     Stopwatch watch;
     watch.start();
     solve(*solver, options);
-    outcome.irradiance = solver->irradiance();
+    outcome.alone = outcome.irradiance = solver->irradiance();
     watch.stop();
     outcome.update.alone_ms = outcome.update.whole_ms = 1e3 * watch.wall;
+    outcome.update.alone_cpu_ms = outcome.update.whole_cpu_ms = 1e3 * watch.cpu;
     outcome.update.alone_hemicubes = outcome.update.whole_hemicubes = solver->state().shots;
     outcome.update.alone_stages = outcome.update.stages = solver->times();
     return outcome;
@@ -150,9 +157,13 @@ void compare(const gpu::Device& device, const Stage& stage, const DynamicSetting
         if (!outcome)
             continue;
         const Image row = in_a_row(lumels, outcome->irradiance);
+        const Image alone = in_a_row(lumels, outcome->alone);
         outcome->from_scratch = compare_maps(row, scratch).relative_rmse;
-        if (truth)
+        outcome->alone_from_scratch = compare_maps(alone, scratch).relative_rmse;
+        if (truth) {
             outcome->from_truth = compare_maps(row, *truth);
+            outcome->alone_from_truth = compare_maps(alone, *truth);
+        }
     }
 }
 
@@ -175,80 +186,142 @@ double sum_of(const gpu::StageTimes& stages)
     return sum;
 }
 
-template <class Cell>
-void print_table(const std::string& title, const std::vector<Results>& all, const Cell& cell)
+/// One row for each technique, one column for each scene.
+template <class Number>
+void add_table(Report& report, const std::string& key, const std::string& title,
+               const std::vector<Results>& all, const Number& number)
 {
-    fmt::print("\n{}\n\n| |", title);
-    std::string rule = "\n|---|";
-    for (const Results& results : all) {
-        fmt::print(" {} |", results.title);
-        rule += "---|";
-    }
-    fmt::print("{}\n", rule);
+    std::vector<std::string> columns{"technique"};
+    for (const Results& results : all)
+        columns.push_back(results.title);
+    report.table(key, title, columns);
     for (int technique = 0; technique < kTechniques; ++technique) {
         if (!all.front().by[technique])
             continue;
-        fmt::print("| {} |", kNames[technique]);
+        std::vector<Cell> cells{kNames[technique]};
         for (const Results& results : all)
-            fmt::print(" {} |", cell(*results.by[technique]));
-        fmt::print("\n");
+            cells.push_back(number(*results.by[technique]));
+        report.row(cells);
     }
-    std::fflush(stdout);
 }
 
-void print_scenes(const std::vector<Results>& all)
+void add_scenes(Report& report, const std::string& suffix, const std::vector<Results>& all)
 {
-    fmt::print("\n| scene | lumels that stay | on the box | patches | on the box, \\|M\\| "
-               "| vertices | triangles |\n|---|---|---|---|---|---|---|\n");
+    report.table("scenes" + suffix, "Scenes",
+                 {"scene", "lumels that stay", "on the box", "patches", "of them on the box, |M|",
+                  "vertices", "triangles"});
     for (const Results& results : all)
-        fmt::print("| {} | {} | {} | {} | {} | {} | {} |\n", results.title, results.still,
-                   results.moving, results.patches, results.moving_patches, results.vertices,
-                   results.triangles);
+        report.row({results.title, results.still, results.moving, results.patches,
+                    results.moving_patches, results.vertices, results.triangles});
 }
 
-void print_errors(const std::vector<Results>& all)
+void add_errors(Report& report, const std::vector<Results>& all)
 {
-    const auto of_truth = [](const Outcome& o, auto number) {
-        return o.from_truth ? fmt::format("{:.5f}", number(*o.from_truth)) : std::string("–");
+    const auto normalized = [](const std::optional<MapError>& error) {
+        return error ? fixed(error->normalized_rmse, 5) : none();
     };
-    print_table("Normalized RMSE from the truth", all, [&](const Outcome& o) {
-        return of_truth(o, [](const MapError& e) { return e.normalized_rmse; });
-    });
-    print_table("Relative RMSE from the truth, %", all, [&](const Outcome& o) {
-        return of_truth(o, [](const MapError& e) { return 100.0 * e.relative_rmse; });
-    });
-    print_table("Relative RMSE from a progressive solution from scratch, %", all,
-                [](const Outcome& o) { return fmt::format("{:.3f}", 100.0 * o.from_scratch); });
+    add_table(report, "normalized", "Normalized RMSE from the truth at rest ([Hoef13] table 5.1)",
+              all, [&](const Outcome& o) { return normalized(o.from_truth); });
+    add_table(report, "normalized-alone",
+              "Normalized RMSE from the truth after redistribution alone", all,
+              [&](const Outcome& o) { return normalized(o.alone_from_truth); });
+    add_table(report, "relative", "Relative RMSE from the truth at rest, %", all,
+              [&](const Outcome& o) {
+                  return o.from_truth ? fixed(100.0 * o.from_truth->relative_rmse, 3) : none();
+              });
+    add_table(report, "from-scratch",
+              "Relative RMSE from a progressive solution from scratch, at rest, %", all,
+              [](const Outcome& o) { return fixed(100.0 * o.from_scratch, 3); });
+    add_table(report, "from-scratch-alone", "The same after redistribution alone, %", all,
+              [](const Outcome& o) { return fixed(100.0 * o.alone_from_scratch, 3); });
 }
 
-void print_times(const std::vector<Results>& all)
+void add_times(Report& report, const std::string& suffix, const std::vector<Results>& all)
 {
-    print_table("Time of an update, ms: redistribution alone / until at rest", all,
-                [](const Outcome& o) {
-                    return fmt::format("{:.0f} / {:.0f}", o.update.alone_ms, o.update.whole_ms);
-                });
-    print_table("The same of the device", all, [](const Outcome& o) {
-        return fmt::format("{:.0f} / {:.0f}", sum_of(o.update.alone_stages),
-                           sum_of(o.update.stages));
-    });
-    print_table(
-        "Hemicubes of an update: redistribution alone / until at rest", all, [](const Outcome& o) {
-            return fmt::format("{} / {}", o.update.alone_hemicubes, o.update.whole_hemicubes);
-        });
+    add_table(report, "rest-ms" + suffix, "Time of an update until at rest, wall, ms", all,
+              [](const Outcome& o) { return fixed(o.update.whole_ms, 0); });
+    add_table(report, "alone-ms" + suffix, "Time of redistribution alone, wall, ms", all,
+              [](const Outcome& o) { return fixed(o.update.alone_ms, 0); });
+    add_table(report, "rest-cpu-ms" + suffix, "The same until at rest, processor time, ms", all,
+              [](const Outcome& o) { return fixed(o.update.whole_cpu_ms, 0); });
+    add_table(report, "alone-cpu-ms" + suffix,
+              "The same of redistribution alone, processor time, ms", all,
+              [](const Outcome& o) { return fixed(o.update.alone_cpu_ms, 0); });
+    add_table(report, "rest-device-ms" + suffix, "Device time until at rest, ms", all,
+              [](const Outcome& o) { return fixed(sum_of(o.update.stages), 0); });
+    add_table(report, "alone-device-ms" + suffix, "Device time of redistribution alone, ms", all,
+              [](const Outcome& o) { return fixed(sum_of(o.update.alone_stages), 0); });
+    add_table(report, "rest-hemicubes" + suffix, "Hemicubes until at rest", all,
+              [](const Outcome& o) -> Cell { return o.update.whole_hemicubes; });
+    add_table(report, "alone-hemicubes" + suffix, "Hemicubes of redistribution alone", all,
+              [](const Outcome& o) -> Cell { return o.update.alone_hemicubes; });
+}
+
+std::string words_of(double Update::*ms)
+{
+    const bool by_processor = ms == &Update::whole_cpu_ms || ms == &Update::alone_cpu_ms;
+    return by_processor ? "processor time" : "wall time";
+}
+
+/// How many times as fast one technique is as another.
+struct Ratio {
+    const char* name;
+    Technique slow, fast;
+};
+constexpr Ratio kRatios[] = {{"gather / cross", kGather, kCross},
+                             {"progressive / cross", kProgressive, kCross},
+                             {"incremental / cross", kIncremental, kCross},
+                             {"progressive / incremental", kProgressive, kIncremental}};
+
+/// The techniques' times over one another.
+void add_ratios(Report& report, const std::string& key, const std::string& title,
+                const std::vector<Results>& all, double Update::*ms)
+{
+    std::vector<std::string> columns{"ratio"};
+    for (const Results& results : all)
+        columns.push_back(results.title);
+    report.table(key, title + ", " + words_of(ms), columns);
+    for (const Ratio& ratio : kRatios) {
+        std::vector<Cell> cells{ratio.name};
+        for (const Results& results : all) {
+            const auto& slow = results.by[ratio.slow];
+            cells.push_back(slow ? fixed(slow->update.*ms / (results.by[ratio.fast]->update.*ms), 2)
+                                 : none());
+        }
+        report.row(cells);
+    }
+}
+
+/// What more vertices cost [Hoef13] table 5.3.
+void add_growth(Report& report, const std::string& suffix, const std::vector<Results>& few,
+                const std::vector<Results>& many, double Update::*ms)
+{
+    std::vector<std::string> columns{"technique"};
+    for (const Results& results : many)
+        columns.push_back(results.title);
+    report.table("growth" + suffix,
+                 "Time until at rest with more vertices / with few, " + words_of(ms), columns);
+    for (int technique = kProgressive; technique < kTechniques; ++technique) {
+        std::vector<Cell> cells{kNames[technique]};
+        for (std::size_t i = 0; i < many.size(); ++i)
+            cells.push_back(
+                fixed(many[i].by[technique]->update.*ms / (few[i].by[technique]->update.*ms), 2));
+        report.row(cells);
+    }
 }
 
 /// What one scene's techniques spend on each part.
-void print_parts(const Results& results, const char* title, const gpu::StageTimes Update::*stages)
+void add_parts(Report& report, const std::string& key, const Results& results, const char* title,
+               const gpu::StageTimes Update::*stages)
 {
-    fmt::print("\n{}: device time by part, {}, ms\n\n", results.title, title);
+    report.table(key, fmt::format("{}: device time by part, {}", results.title, title),
+                 {"technique", "part", "ms"});
     for (int technique = 0; technique < kTechniques; ++technique) {
         if (!results.by[technique])
             continue;
-        fmt::print("- {}:", kNames[technique]);
         for (const auto& [stage, ms] : results.by[technique]->update.*stages)
             if (ms >= kLeastShown)
-                fmt::print(" {} {:.1f};", stage, ms);
-        fmt::print("\n");
+                report.row({kNames[technique], stage, fixed(ms, 1)});
     }
 }
 
@@ -264,31 +337,48 @@ std::vector<ThesisScene> scenes_of(const DynamicSettings& settings)
 
 }  // namespace
 
-void follow_moves(const DynamicSettings& settings)
+void follow_moves(const DynamicSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const ViewOptions views = options_of<ProgressiveOptions>(settings.shared).views;
-    fmt::print("hemicubes of side {}, {} a batch, {} samples per lumel for the truth, {} ({})\n",
-               views.hemicube, views.batch, settings.shared.reference_spp, device.info().name,
-               device.info().driver);
+    report.say(
+        fmt::format("hemicubes of side {}, {} a batch, {} samples per lumel for the truth, {}",
+                    views.hemicube, views.batch, settings.shared.reference_spp, words_of(device)));
     std::vector<int> all_pieces{1};
     std::copy_if(settings.pieces.begin(), settings.pieces.end(), std::back_inserter(all_pieces),
                  [](int pieces) { return pieces > 1; });
+    const bool by_processor = counts_processor_time(device);
+    const auto rest = by_processor ? &Update::whole_cpu_ms : &Update::whole_ms;
+    std::vector<Results> whole;  // with edges in one piece
     for (const int pieces : all_pieces) {
+        const std::string suffix = pieces > 1 ? fmt::format("-{}", pieces) : "";
         std::vector<Results> all;
         for (const ThesisScene& scene : scenes_of(settings)) {
             all.push_back(measure(device, scene, settings, pieces));
             if (pieces == 1)
                 compare(device, set(scene, settings, pieces), settings, all.back());
         }
-        print_scenes(all);
+        if (pieces > 1)
+            report.say(fmt::format("Edges cut into {} pieces", pieces));
+        add_scenes(report, suffix, all);
         if (pieces == 1)
-            print_errors(all);
-        print_times(all);
+            add_errors(report, all);
+        add_times(report, suffix, all);
+        add_ratios(report, "rest-ratios" + suffix, "Times until at rest, over one another", all,
+                   rest);
+        add_ratios(report, "alone-ratios" + suffix,
+                   "The same of redistribution alone; gather and progressive until at rest", all,
+                   by_processor ? &Update::alone_cpu_ms : &Update::alone_ms);
+        if (pieces > 1)
+            add_growth(report, suffix, whole, all, rest);
         for (const Results& results : all) {
-            print_parts(results, "redistribution alone", &Update::alone_stages);
-            print_parts(results, "until at rest", &Update::stages);
+            const std::string key = "-" + results.title + suffix;
+            add_parts(report, "alone-parts" + key, results, "redistribution alone",
+                      &Update::alone_stages);
+            add_parts(report, "rest-parts" + key, results, "until at rest", &Update::stages);
         }
+        if (pieces == 1)
+            whole = std::move(all);
     }
     device.check_validation();
 }

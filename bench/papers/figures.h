@@ -1,10 +1,11 @@
 #pragma once
-// The papers' figures. All throw Error and print Markdown tables to stdout.
+// The papers' figures. All throw Error and report what they show as they go on.
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "bench/papers/report.h"
 #include "bench/settings.h"
 #include "live/live_scene.h"
 
@@ -18,7 +19,7 @@ struct IterationSettings {
 };
 
 /// [BJ04] figures 7 and 8: time of an iteration against vertices, for each size of the map.
-void time_iterations(const IterationSettings& settings);
+void time_iterations(const IterationSettings& settings, Report& report);
 
 struct SelectionSettings {
     Settings shared;
@@ -27,7 +28,7 @@ struct SelectionSettings {
 };
 
 /// [BJ04] section 3.1: drawing by read-back and linear search against drawing on the device.
-void time_selection(const SelectionSettings& settings);
+void time_selection(const SelectionSettings& settings, Report& report);
 
 struct ConvergenceSettings {
     Settings shared;
@@ -37,7 +38,7 @@ struct ConvergenceSettings {
 };
 
 /// [BJ04] figures 5 and 6: error and picture after given numbers of iterations.
-void follow_convergence(const ConvergenceSettings& settings);
+void follow_convergence(const ConvergenceSettings& settings, Report& report);
 
 struct AblationSettings {
     Settings shared;
@@ -50,7 +51,7 @@ struct AblationSettings {
 };
 
 /// [BSS05] section 5: variance with and without its remedies.
-void ablate(const AblationSettings& settings);
+void ablate(const AblationSettings& settings, Report& report);
 
 struct LayersSettings {
     Settings shared;
@@ -62,7 +63,7 @@ struct LayersSettings {
 
 /// [TN11] figures 7 and 8: the chance that a surface is found, and the red light that leaks where
 /// it is not.
-void measure_layers(const LayersSettings& settings);
+void measure_layers(const LayersSettings& settings, Report& report);
 
 struct LeakSettings {
     Settings shared;
@@ -71,18 +72,19 @@ struct LeakSettings {
 };
 
 /// [TN11] section 5: leaky integration beside the mean, and how it follows light that changes.
-void follow_light(const LeakSettings& settings);
+void follow_light(const LeakSettings& settings, Report& report);
 
 struct DirectionsSettings {
-    Settings shared;     ///< the map's side is that of the lightmap
-    int directions = 0;  ///< for each scene; 0: as many as the paper
-    std::string sky;     ///< file; empty: a clear sky
-    std::string folder;  ///< for the picture; empty: none is made
-    int width = 320;     ///< of each scene's picture [pixels]
+    Settings shared;                  ///< the map's side is that of the lightmap
+    int directions = 0;               ///< for each scene; 0: as many as the paper
+    std::vector<std::string> scenes;  ///< keys of the table in directions.cpp; empty: all
+    std::string sky;                  ///< file; empty: a clear sky
+    std::string folder;               ///< for the picture; empty: none is made
+    int width = 320;                  ///< of each scene's picture [pixels]
 };
 
 /// [TN11] figure 9: its scenes, and the time per direction.
-void show_directions(const DirectionsSettings& settings);
+void show_directions(const DirectionsSettings& settings, Report& report);
 
 struct DynamicSettings {
     Settings shared;                  ///< the map's side is that of all but the low quality scene
@@ -97,7 +99,7 @@ struct DynamicSettings {
 
 /// [Hoef13] tables 5.1 to 5.3 and section 5.3.1: error, time and hemicubes of correcting a solution
 /// when something moves.
-void follow_moves(const DynamicSettings& settings);
+void follow_moves(const DynamicSettings& settings, Report& report);
 
 struct DriftSettings {
     Settings shared;
@@ -107,7 +109,7 @@ struct DriftSettings {
 };
 
 /// What many moves, or one far away and back, leave of the first solution.
-void follow_drift(const DriftSettings& settings);
+void follow_drift(const DriftSettings& settings, Report& report);
 
 struct MatrixSettings {
     Settings shared;
@@ -119,7 +121,7 @@ struct MatrixSettings {
 
 /// [SF17] figures 1, 2, 7 and 12: distribution of form factors, error and bytes of compressed
 /// matrices.
-void compare_matrix_forms(const MatrixSettings& settings);
+void compare_matrix_forms(const MatrixSettings& settings, Report& report);
 
 struct MatrixSpeedSettings {
     Settings shared;
@@ -130,6 +132,6 @@ struct MatrixSpeedSettings {
 };
 
 /// [SF17] figure 11: time of one multiply against naive radiosity, bounce by bounce.
-void time_matrices(const MatrixSpeedSettings& settings);
+void time_matrices(const MatrixSpeedSettings& settings, Report& report);
 
 }  // namespace lumel::bench

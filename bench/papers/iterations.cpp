@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/cut.h"
 #include "bench/papers/figures.h"
@@ -57,48 +55,78 @@ Scene drawn_with(const Scene& scene, int vertices)
     return cut(kept, best);
 }
 
-void print_head()
+void add_row(Report& report, int size, std::size_t lumels, const Scene& scene,
+             const IterationCost& cost)
 {
-    fmt::print("| map | lumels | vertices | triangles | cpu ms | wall ms | select | pyramid "
-               "| depth map | receive | average | else | dispatches | passes (draws) |\n"
-               "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    const auto ms = [&](std::initializer_list<const char*> stages) {
+        return fixed(sum_of(cost.stages, stages), 2);
+    };
+    report.row({fmt::format("{}²", size), lumels, drawn_vertices(scene),
+                find_occluders(scene).inner_indices().size() / 3, fixed(cost.cpu_ms, 2),
+                fixed(cost.wall_ms, 2), ms({"select"}), ms({"power"}), ms({"look"}),
+                ms({"receive"}), ms({"advance"}), ms({"other", "figures", "polish"}),
+                cost.recorded.dispatches, cost.recorded.passes, cost.recorded.draws});
 }
 
-void print_row(int size, std::size_t lumels, const Scene& scene, const IterationCost& cost)
+/// The costs of one map, for each number of vertices.
+using Costs = std::vector<IterationCost>;
+
+double slowest_to_fastest(const Costs& costs, double IterationCost::*ms)
 {
-    const auto ms = [&](const char* stage) { return sum_of(cost.stages, {stage}); };
-    const double other = sum_of(cost.stages, {"other", "figures", "polish"});
-    fmt::print("| {}² | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} "
-               "| {:.2f} | {:.2f} | {} | {} ({}) |\n",
-               size, lumels, drawn_vertices(scene),
-               find_occluders(scene).inner_indices().size() / 3, cost.cpu_ms, cost.wall_ms,
-               ms("select"), ms("power"), ms("look"), ms("receive"), ms("advance"), other,
-               cost.recorded.dispatches, cost.recorded.passes, cost.recorded.draws);
-    std::fflush(stdout);
+    const auto [fastest, slowest] = std::minmax_element(
+        costs.begin(), costs.end(), [ms](const auto& a, const auto& b) { return a.*ms < b.*ms; });
+    return (*slowest).*ms / ((*fastest).*ms);
+}
+
+/// What the papers state in words.
+void add_summary(Report& report, const IterationSettings& settings, const std::vector<Costs>& maps,
+                 bool by_processor)
+{
+    const auto ms = by_processor ? &IterationCost::cpu_ms : &IterationCost::wall_ms;
+    report.table("summary", by_processor ? "In short, processor time" : "In short, wall time",
+                 {"what", "maps", "value"});
+    report.row({"slowest / fastest number of vertices", fmt::format("{}²", settings.sizes.back()),
+                fixed(slowest_to_fastest(maps.back(), ms), 2)});
+    // "a few hundred vertices"
+    const std::size_t few = std::min<std::size_t>(1, settings.vertices.size() - 1);
+    if (maps.size() > 1)
+        report.row({"gain by the smaller map, %",
+                    fmt::format("{}² for {}²", settings.sizes[0], settings.sizes[1]),
+                    fixed(100.0 * (maps[1][few].*ms / (maps[0][few].*ms) - 1.0), 0)});
+    const gpu::Recorded& recorded = maps[std::min<std::size_t>(1, maps.size() - 1)][few].recorded;
+    report.row({"dispatches and passes",
+                fmt::format("{}²", settings.sizes[std::min<std::size_t>(1, maps.size() - 1)]),
+                recorded.dispatches + recorded.passes});
 }
 
 }  // namespace
 
-void time_iterations(const IterationSettings& settings)
+void time_iterations(const IterationSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const SolverOptions options = papers_iteration(settings.shared.given.options());
-    fmt::print("{}, {} of side {}, {} ({})\n\n", settings.shared.scene,
-               views_of(options.method).projection == Projection::hemisphere ? "hemispheres"
-                                                                             : "hemicubes",
-               views_of(options.method).hemicube, device.info().name, device.info().driver);
-    print_head();
+    report.say(fmt::format(
+        "{}, {} of side {}, {}", settings.shared.scene,
+        views_of(options.method).projection == Projection::hemisphere ? "hemispheres" : "hemicubes",
+        views_of(options.method).hemicube, words_of(device)));
+    report.table("iterations", "Time of an iteration ([BJ04] figures 7 and 8); stages: device, ms",
+                 {"map", "lumels", "vertices", "triangles", "cpu ms", "wall ms", "select",
+                  "pyramid", "depth map", "receive", "average", "else", "dispatches", "passes",
+                  "draws"});
+    std::vector<Costs> maps;
     for (const int size : settings.sizes) {
+        maps.emplace_back();
         const Prepared world = prepare(settings.shared, size);
         for (const int vertices : settings.vertices) {
             const Scene scene = drawn_with(world.scene, vertices);
             const World resident(device, scene, world.lumels);
             const NearField none = no_near_field(world.lumels);
             const auto solver = make_solver({device, &resident, world.lumels, none}, options);
-            print_row(size, world.lumels.lumels.size(), scene,
-                      cost_of_iteration(device, *solver, settings.iterations));
+            maps.back().push_back(cost_of_iteration(device, *solver, settings.iterations));
+            add_row(report, size, world.lumels.lumels.size(), scene, maps.back().back());
         }
     }
+    add_summary(report, settings, maps, counts_processor_time(device));
     device.check_validation();
 }
 

@@ -2,10 +2,11 @@
 // a stack of planes leaks onto one that can see no red.
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
+#include <cmath>
 #include <numbers>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
@@ -33,14 +34,14 @@ struct Variant {
 };
 
 constexpr Variant kVariants[] = {{"stochastic, 1 × 1", Layers::stochastic, 1},
-                                 {"the same, 2 slabs", Layers::stochastic, 1, 2},
-                                 {"the same, 4 slabs", Layers::stochastic, 1, 4},
-                                 {"the same, 8 slabs", Layers::stochastic, 1, 8},
+                                 {"1 × 1, 2 slabs", Layers::stochastic, 1, 2},
+                                 {"1 × 1, 4 slabs", Layers::stochastic, 1, 4},
+                                 {"1 × 1, 8 slabs", Layers::stochastic, 1, 8},
                                  {"stochastic, 3 × 3", Layers::stochastic, 3},
-                                 {"the same, 2 slabs", Layers::stochastic, 3, 2},
-                                 {"the same, 4 slabs", Layers::stochastic, 3, 4},
+                                 {"3 × 3, 2 slabs", Layers::stochastic, 3, 2},
+                                 {"3 × 3, 4 slabs", Layers::stochastic, 3, 4},
                                  {"stochastic, 5 × 5", Layers::stochastic, 5},
-                                 {"the same, 2 slabs", Layers::stochastic, 5, 2},
+                                 {"5 × 5, 2 slabs", Layers::stochastic, 5, 2},
                                  {"list", Layers::list, 1},
                                  {"peel", Layers::peel, 1}};
 
@@ -182,22 +183,36 @@ double expected_chance(double planes, int reach)
     return chance_found(planes, (2 * reach + 1) * (2 * reach + 1));
 }
 
-void print_chances(const LayersSettings& settings, const gpu::Device& device)
+void add_chances(Report& report, const LayersSettings& settings, const gpu::Device& device)
 {
-    fmt::print("| planes | slabs | K measured | 9 lookups, found % | 1 − (1 − 1/K)⁹, % "
-               "| 25 lookups, found % | 1 − (1 − 1/K)²⁵, % |\n|---|---|---|---|---|---|---|\n");
+    report.table("chances",
+                 fmt::format("Surfaces found among the lookups ([TN11] figure 7), {} maps of {}²",
+                             settings.views,
+                             options_of<DirectionsOptions>(settings.shared).map_side),
+                 {"planes", "slabs", "K measured", "9 lookups, found %", "1 − (1 − 1/K)⁹, %",
+                  "25 lookups, found %", "1 − (1 − 1/K)²⁵, %"});
+    std::array<double, std::size(kReaches)> farthest{};  // from the formula, without slabs
     for (const int slabs : settings.slabs)
         for (const int planes : settings.overdraws) {
             if (planes % slabs != 0)
                 continue;
             const Chances chances = measure_chances(settings, device, planes, slabs);
             const double shared = double(planes) / double(slabs);
-            fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", planes, slabs,
-                       chances.overdraw, 100.0 * chances.found[0],
-                       100.0 * expected_chance(shared, kReaches[0]), 100.0 * chances.found[1],
-                       100.0 * expected_chance(shared, kReaches[1]));
-            std::fflush(stdout);
+            std::vector<Cell> cells{planes, slabs, fixed(chances.overdraw, 2)};
+            for (std::size_t r = 0; r < farthest.size(); ++r) {
+                const double found = 100.0 * chances.found[r];
+                const double expected = 100.0 * expected_chance(shared, kReaches[r]);
+                cells.push_back(fixed(found, 2));
+                cells.push_back(fixed(expected, 2));
+                if (slabs == 1)
+                    farthest[r] = std::max(farthest[r], std::abs(found - expected));
+            }
+            report.row(cells);
         }
+    report.table("chance-errors", "Farthest from the formula, one slab",
+                 {"lookups", "percentage points"});
+    report.row({9, fixed(farthest[0], 3)});
+    report.row({25, fixed(farthest[1], 3)});
 }
 
 /// What the plane on top receives on one side: by how much the red exceeds the green, as a part
@@ -215,11 +230,12 @@ double red_error(const Prepared& world, const std::vector<glm::vec3>& irradiance
     return (sum.r - sum.g) / sum.g;
 }
 
-void print_red(const LayersSettings& settings, const gpu::Device& device, const Prepared& world)
+void add_red(Report& report, const LayersSettings& settings, const gpu::Device& device,
+             const Prepared& world)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
-    fmt::print("| layers | red error above, % | below, % | wall ms per direction | cpu ms |\n"
-               "|---|---|---|---|---|\n");
+    report.table("red", "Red light that leaks onto the plane on top ([TN11] figure 8)",
+                 {"layers", "red error above, %", "below, %", "wall ms per direction", "cpu ms"});
     for (const Variant& variant : kVariants) {
         auto options = options_of<DirectionsOptions>(settings.shared);
         options.layers = variant.layers;
@@ -238,17 +254,16 @@ void print_red(const LayersSettings& settings, const gpu::Device& device, const 
         const std::vector<glm::vec3> irradiance = solver->irradiance();
         watch.stop();
         const double directions = double(solver->state().shots - before);
-        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", variant.name,
-                   100.0 * red_error(world, irradiance, 0),
-                   100.0 * red_error(world, irradiance, kLumelBack), 1e3 * watch.wall / directions,
-                   1e3 * watch.cpu / directions);
-        std::fflush(stdout);
+        report.row({variant.name, fixed(100.0 * red_error(world, irradiance, 0), 2),
+                    fixed(100.0 * red_error(world, irradiance, kLumelBack), 2),
+                    fixed(1e3 * watch.wall / directions, 2),
+                    fixed(1e3 * watch.cpu / directions, 2)});
     }
 }
 
 }  // namespace
 
-void measure_layers(const LayersSettings& settings)
+void measure_layers(const LayersSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const Settings& shared = settings.shared;
@@ -257,12 +272,11 @@ void measure_layers(const LayersSettings& settings)
     white.sky_color = glm::vec3(1.0f);
     const Prepared world(read_scene(shared.scene, MaterialModel::diffuse, white),
                          AtlasOptions{.size = shared.size});
-    fmt::print("{}, {} lumels at {}², {} directions, maps of {}², {} ({})\n\n", shared.scene,
-               world.lumels.lumels.size(), world.atlas.width, settings.directions, map_side,
-               device.info().name, device.info().driver);
-    print_red(settings, device, world);
-    fmt::print("\nSurfaces found among the lookups, {} maps of {}²\n\n", settings.views, map_side);
-    print_chances(settings, device);
+    report.say(fmt::format("{}, {} lumels at {}², {} directions, maps of {}², {}", shared.scene,
+                           world.lumels.lumels.size(), world.atlas.width, settings.directions,
+                           map_side, words_of(device)));
+    add_red(report, settings, device, world);
+    add_chances(report, settings, device);
     device.check_validation();
 }
 

@@ -2,9 +2,8 @@
 // that changes.
 
 #include <cmath>
-#include <cstdio>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
@@ -58,14 +57,19 @@ DirectionsOptions options_for(const LeakSettings& settings, double leak)
     return options;
 }
 
-std::string text_of(const MapError& error)
+Cell rmse_of(const MapError& error)
 {
-    return fmt::format("{:.1f} | {:+.1f}", 100.0 * error.relative_rmse, 100.0 * error.bias);
+    return fixed(100.0 * error.relative_rmse, 1);
+}
+
+Cell bias_of(const MapError& error)
+{
+    return signed_fixed(100.0 * error.bias, 1);
 }
 
 }  // namespace
 
-void follow_light(const LeakSettings& settings)
+void follow_light(const LeakSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     LightOptions white;
@@ -80,31 +84,31 @@ void follow_light(const LeakSettings& settings)
     Gathering mean(device, prepared, world, options_for(settings, 0.0));
     Gathering leaky(device, prepared, world, options_for(settings, settings.leak));
 
-    fmt::print("{}, {} lumels at {}², maps of {}², a leak of {}, {} ({})\n\n"
-               "| directions | mean, RMSE % | bias % | leaky, RMSE % | bias % |\n"
-               "|---|---|---|---|---|\n",
-               settings.shared.scene, prepared.lumels.lumels.size(), prepared.atlas.width,
-               of_truth.map_side, settings.leak, device.info().name, device.info().driver);
+    report.say(fmt::format("{}, {} lumels at {}², maps of {}², a leak of {}, {}",
+                           settings.shared.scene, prepared.lumels.lumels.size(),
+                           prepared.atlas.width, of_truth.map_side, settings.leak,
+                           words_of(device)));
+    report.table("leak", "The mean and the leaky mean ([TN11] section 5)",
+                 {"directions", "mean, RMSE %", "mean, bias %", "leaky, RMSE %", "leaky, bias %"});
     for (const int directions : settings.directions) {
         mean.go_to(directions);
         leaky.go_to(directions);
-        fmt::print("| {} | {} | {} |\n", directions, text_of(compare_maps(mean.map(), truth.map())),
-                   text_of(compare_maps(leaky.map(), truth.map())));
-        std::fflush(stdout);
+        const MapError of_mean = compare_maps(mean.map(), truth.map());
+        const MapError of_leaky = compare_maps(leaky.map(), truth.map());
+        report.row(
+            {directions, rmse_of(of_mean), bias_of(of_mean), rmse_of(of_leaky), bias_of(of_leaky)});
     }
     for (glm::vec3& radiance : prepared.scene.sky.radiance)
         radiance *= kDimmed;
     leaky.relight();
-    fmt::print("\n| directions since the sky dimmed to {} | leaky, RMSE % | bias % "
-               "| of the old light's, % |\n|---|---|---|---|\n",
-               kDimmed);
+    report.table("dimmed", fmt::format("After the sky dimmed to {}", kDimmed),
+                 {"directions since", "leaky, RMSE %", "leaky, bias %", "of the old light's, %"});
     for (const int directions : settings.directions) {
         leaky.go_to(settings.directions.back() + directions);
         const double left = std::pow(1.0 - settings.leak, directions);
-        fmt::print("| {} | {} | {:+.1f} |\n", directions,
-                   text_of(compare_maps(leaky.map(), truth.map(kDimmed))),
-                   100.0 * left * (1.0 / double(kDimmed) - 1.0));
-        std::fflush(stdout);
+        const MapError error = compare_maps(leaky.map(), truth.map(kDimmed));
+        report.row({directions, rmse_of(error), bias_of(error),
+                    signed_fixed(100.0 * left * (1.0 / double(kDimmed) - 1.0), 1)});
     }
     device.check_validation();
 }

@@ -9,267 +9,47 @@
 //   [TN11]  A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
 #include <cstdio>
-#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "bench/papers/figures.h"
+#include "bench/papers/all.h"
+#include "bench/papers/commands.h"
+#include "core/error.h"
 
 namespace lumel::bench {
 namespace {
 
-/// Side of the illumination maps, and of most lightmaps, in [TN11] section 7.
-constexpr int kPapersSize = 512;
-constexpr const char* kPapersMap = "512";
+constexpr int kFigureFailed = 1, kFailed = 2;  ///< exit codes
 
-/// What figures are of that name no other method.
-constexpr const char* kMethod = "stochastic";
-
-/// An option of methods, for those of the figure that read it.
-void add_given(CLI::App* figure, Settings& shared, const std::string& name)
+void add_all(CLI::App& app, AllSettings& settings, bool& complete)
 {
-    for (const SharedOption& option : options_of_methods())
-        if (name == option.info->name)
-            figure
-                ->add_option_function<std::string>(
-                    "--" + name,
-                    [&shared, name](const std::string& value) {
-                        shared.given.values[name] = value;
-                    },
-                    option.info->help)
-                ->type_name(option.info->type);
-}
-
-CLI::App* add_figure(CLI::App& app, const std::string& name, const std::string& title,
-                     Settings& shared)
-{
-    CLI::App* figure = app.add_subcommand(name, title);
-    shared.given.id = kMethod;
-    figure->add_option("scene", shared.scene, "glTF scene")->capture_default_str();
-    figure->add_option("--device", shared.device, "as lumel devices lists");
-    add_given(figure, shared, "hemicube");
-    add_given(figure, shared, "projection");
-    add_given(figure, shared, "seed");
-    return figure;
-}
-
-CLI::Option* add_number(CLI::App* figure, const std::string& name, int& value,
-                        const std::string& help, int least = 1)
-{
-    return figure->add_option(name, value, help)
-        ->check(CLI::Range(least, 1'000'000))
-        ->capture_default_str();
-}
-
-CLI::Option* add_list(CLI::App* figure, const std::string& name, std::vector<int>& values,
-                      const std::string& help)
-{
-    return figure->add_option(name, values, help)
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-}
-
-void add_iterations(CLI::App& app, IterationSettings& settings)
-{
-    CLI::App* figure = add_figure(app, "iterations", "Time of an iteration", settings.shared);
-    add_list(figure, "--sizes", settings.sizes, "sides of the map [texels]");
-    add_list(figure, "--vertices", settings.vertices, "how many are drawn, about");
-    add_number(figure, "--iterations", settings.iterations, "timed at a stretch");
-    figure->callback([&settings] { time_iterations(settings); });
-}
-
-void add_selection(CLI::App& app, SelectionSettings& settings)
-{
-    CLI::App* figure = add_figure(app, "selection", "Time of drawing a shooter", settings.shared);
-    add_list(figure, "--sizes", settings.sizes, "sides of the map [texels]");
-    add_number(figure, "--draws", settings.draws, "timed at a stretch");
-    figure->callback([&settings] { time_selection(settings); });
-}
-
-void add_convergence(CLI::App& app, ConvergenceSettings& settings)
-{
-    CLI::App* figure = add_figure(app, "convergence", "Error after iterations", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
-    add_list(figure, "--iterations", settings.iterations, "ascending; where the error is taken");
-    figure->add_option("--solver", settings.shared.given.id, "as lumel methods lists")
-        ->capture_default_str();
-    add_given(figure, settings.shared, "batch");
-    figure->add_option("--reference", settings.shared.reference,
-                       "EXR to compare with, made for this atlas");
-    add_number(figure, "--reference-spp", settings.shared.reference_spp,
-               "samples of the reference made here; 0: none", 0);
-    figure->add_option("--save-reference", settings.shared.save_reference,
-                       "EXR to keep that reference in");
-    figure->add_option("-o,--out", settings.folder, "folder for maps and pictures");
-    add_number(figure, "--width", settings.width, "width of a picture [pixels]");
-    figure->callback([&settings] { follow_convergence(settings); });
-}
-
-void add_ablation(CLI::App& app, AblationSettings& settings)
-{
-    settings.shared.scene = "scenes/glossy-cornell-box.gltf";
-    CLI::App* figure = add_figure(app, "ablation", "Variance with and without", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
-    add_number(figure, "--seeds", settings.seeds, "runs to take the variance of", 2);
-    add_number(figure, "--width", settings.width, "of the picture [pixels]");
-    add_number(figure, "--solving-shots", settings.solving_shots, "shooters before an eye looks");
-    add_number(figure, "--shots", settings.eye_shots, "shooters for the eye");
-    add_number(figure, "--rays", settings.rays, "along the lobe at each place");
-    add_number(figure, "--iterations", settings.iterations, "of the papers' scheme, for the disc");
-    figure->callback([&settings] { ablate(settings); });
-}
-
-void add_layers(CLI::App& app, LayersSettings& settings)
-{
-    settings.shared.scene = "scenes/planes.gltf";
-    settings.shared.given.values["map-side"] = kPapersMap;
-    CLI::App* figure = add_figure(app, "layers", "What stochastic layers miss", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_given(figure, settings.shared, "map-side");
-    add_number(figure, "--directions", settings.directions, "that light is gathered from");
-    add_list(figure, "--overdraw", settings.overdraws, "planes behind one another");
-    add_list(figure, "--slabs", settings.slabs, "that they are cut into");
-    add_number(figure, "--views", settings.views, "that the chance is taken from");
-    figure->callback([&settings] { measure_layers(settings); });
-}
-
-void add_leak(CLI::App& app, LeakSettings& settings)
-{
-    settings.shared.scene = "scenes/four-cubes.gltf";
-    settings.shared.size = 64;
-    CLI::App* figure = add_figure(app, "leak", "How leaky means follow light", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_given(figure, settings.shared, "map-side");
-    figure->add_option("--leak", settings.leak, "part of the solution that a direction replaces")
-        ->check(CLI::Range(1e-6, 0.5))
-        ->capture_default_str();
-    add_list(figure, "--directions", settings.directions,
-             "numbers of directions at which the error is taken");
-    figure->callback([&settings] { follow_light(settings); });
-}
-
-void add_directions(CLI::App& app, DirectionsSettings& settings)
-{
-    settings.shared.size = kPapersSize;
-    settings.shared.given.values["map-side"] = kPapersMap;
-    CLI::App* figure = app.add_subcommand("directions", "Scenes lit by global directions");
-    figure->add_option("--device", settings.shared.device, "as lumel devices lists");
-    add_given(figure, settings.shared, "seed");
-    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_given(figure, settings.shared, "map-side");
-    settings.shared.given.values["slabs"] = "1";  // as the paper
-    add_given(figure, settings.shared, "slabs");
-    add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
-    figure->add_option("--sky", settings.sky, "file; else a clear sky");
-    figure->add_option("-o,--out", settings.folder, "folder for the picture");
-    add_number(figure, "--width", settings.width, "width of each scene's picture [pixels]");
-    figure->callback([&settings] { show_directions(settings); });
-}
-
-void add_residual(CLI::App* figure, double& residual)
-{
-    figure->add_option("--residual", residual, "light still to be shot, as a part of all, at rest")
-        ->check(CLI::Range(1e-6, 1.0))
-        ->capture_default_str();
-}
-
-void add_dynamic(CLI::App& app, DynamicSettings& settings)
-{
-    settings.shared.reference_spp = 1024;
-    CLI::App* figure = app.add_subcommand("dynamic", "A solution is corrected as a box turns");
-    figure->add_option("--device", settings.shared.device, "as lumel devices lists");
-    figure->add_option("--scenes", settings.scenes, "some of indirect, large, small, low")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"indirect", "large", "small", "low"}));
-    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
-    add_number(figure, "--low-size", settings.low_size, "the same of the low quality scene");
-    add_given(figure, settings.shared, "hemicube");
-    add_given(figure, settings.shared, "batch");
-    add_number(figure, "--degrees", settings.degrees, "that the box turns in a step");
-    add_residual(figure, settings.residual);
-    add_number(figure, "--steps", settings.steps, "after the first; the fastest counts");
-    add_number(figure, "--reference-spp", settings.shared.reference_spp,
-               "paths per lumel for the truth; 0: none", 0);
-    figure->add_flag("!--no-gather", settings.gathers, "leaves gathering out, which takes longest");
-    figure
-        ->add_option("--pieces", settings.pieces,
-                     "pieces that edges are cut into, for more vertices")
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    figure->callback([&settings] { follow_moves(settings); });
-}
-
-void add_drift(CLI::App& app, DriftSettings& settings)
-{
-    settings.shared.scene = "scenes/moving-large-lamp.gltf";
-    settings.shared.size = 64;
-    CLI::App* figure = add_figure(app, "drift", "What many moves leave", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
-    add_given(figure, settings.shared, "batch");
-    add_number(figure, "--degrees", settings.degrees, "that the box turns, there and back");
-    add_residual(figure, settings.residual);
-    add_number(figure, "--moves", settings.moves, "there and back", 2);
-    figure->callback([&settings] { follow_drift(settings); });
-}
-
-void add_matrix(CLI::App& app, MatrixSettings& settings)
-{
-    CLI::App* figure =
-        add_figure(app, "matrix", "Form-factor matrices compressed", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_list(figure, "--patches", settings.patches, "of the simplified scene, at most");
-    add_number(figure, "--lights", settings.lights, "states of light that errors are taken of");
-    figure->add_option("--shares", settings.shares, "shares of a row that are kept exactly [%]")
-        ->delimiter(',')
-        ->check(CLI::Range(0.0, 100.0))
-        ->capture_default_str();
-    figure->add_option("--forms", settings.forms, "only those whose names have this in them");
-    figure->callback([&settings] { compare_matrix_forms(settings); });
-}
-
-void add_matrix_speed(CLI::App& app, MatrixSpeedSettings& settings)
-{
-    CLI::App* figure =
-        add_figure(app, "matrix-speed", "One multiply against many bounces", settings.shared);
-    add_number(figure, "--size", settings.shared.size, "side of the lightmap [texels]");
-    add_number(figure, "--patches", settings.patches, "of the simplified scene, at most", 8);
-    add_list(figure, "--bounces", settings.bounces, "of naive radiosity");
-    add_number(figure, "--large", settings.large, "rows of a matrix of random numbers", 0);
-    add_number(figure, "--repeats", settings.repeats, "timed at a stretch");
-    figure->callback([&settings] { time_matrices(settings); });
+    CLI::App* all = app.add_subcommand("all", "All figures, and a page of them beside the papers'");
+    all->add_option("folder", settings.folder, "for papers.html and its pictures")->required();
+    const auto choose = [&](const char* name, Extent extent, const char* help) {
+        return all->add_flag_callback(
+            name, [&settings, extent] { settings.extent = extent; }, help);
+    };
+    CLI::Option* full = choose("--full", Extent::full, "the papers' own sizes; takes many hours");
+    choose("--tiny", Extent::tiny, "for tests: sizes that say nothing about any paper")
+        ->excludes(full);
+    all->add_option("--figures", settings.figures, "only these, by their names on the page")
+        ->delimiter(',');
+    all->callback([&] { complete = make_all(settings); });
 }
 
 int run(int argc, char** argv)
 {
-    IterationSettings iterations;
-    SelectionSettings selection;
-    ConvergenceSettings convergence;
-    AblationSettings ablation;
-    LayersSettings layers;
-    LeakSettings leak;
-    DirectionsSettings directions;
-    DynamicSettings dynamic;
-    DriftSettings drift;
-    MatrixSettings matrix;
-    MatrixSpeedSettings matrix_speed;
+    Report report;
+    Figures figures;
+    AllSettings all;
+    bool complete = true;
     CLI::App app("The papers' figures, made again");
     app.require_subcommand(1);
-    add_iterations(app, iterations);
-    add_selection(app, selection);
-    add_convergence(app, convergence);
-    add_ablation(app, ablation);
-    add_layers(app, layers);
-    add_leak(app, leak);
-    add_directions(app, directions);
-    add_dynamic(app, dynamic);
-    add_drift(app, drift);
-    add_matrix(app, matrix);
-    add_matrix_speed(app, matrix_speed);
+    add_all(app, all, complete);
+    add_figures(app, figures, report);
     CLI11_PARSE(app, argc, argv);
-    return 0;
+    return complete ? 0 : kFigureFailed;
 }
 
 }  // namespace
@@ -281,6 +61,6 @@ int main(int argc, char** argv)
         return lumel::bench::run(argc, argv);
     } catch (const std::exception& error) {
         fmt::print(stderr, "lumel-papers: {}\n", error.what());
-        return 2;
+        return lumel::bench::kFailed;
     }
 }

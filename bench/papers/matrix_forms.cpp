@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/matrix_case.h"
 #include "core/usage.h"
@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kPercent = 100.0;
 constexpr double kMebibyte = 1048576.0;
+constexpr float kLow = 5e-3f;  ///< below this most form factors lie [SF17]
 
 /// Differences of entries. The numbers of figure 7 fit total = Σ e² and average = √total / entries.
 struct EntryError {
@@ -67,7 +68,7 @@ CodingOptions papers_settings()
     return {.code = Code::bc1, .mend = false};
 }
 
-void print_distribution(const MatrixCase& matrix_case)
+void add_distribution(Report& report, const MatrixCase& matrix_case)
 {
     constexpr std::array bounds = {0.0f,  1e-8f, 1e-7f, 1e-6f, 1e-5f,
                                    1e-4f, 1e-3f, 5e-3f, 1e-2f, 1e-1f};
@@ -76,22 +77,26 @@ void print_distribution(const MatrixCase& matrix_case)
         const auto above = std::lower_bound(bounds.begin(), bounds.end(), value);
         ++counts[std::size_t(above - bounds.begin())];
     }
-    fmt::print("\nForm factors (figure 1):\n\n| form factor | share % |\n|---|---|\n");
+    report.table("distribution", "Form factors ([SF17] figure 1)", {"form factor", "share %"});
     const double all = double(matrix_case.form_factors.values.size());
+    double below = 0.0;  // kLow
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const std::string range =
             k == 0 ? "0"
                    : (k < bounds.size() ? fmt::format("{:g} to {:g}", bounds[k - 1], bounds[k])
                                         : fmt::format("above {:g}", bounds[k - 1]));
-        fmt::print("| {} | {:.3f} |\n", range, kPercent * double(counts[k]) / all);
+        const double share = kPercent * double(counts[k]) / all;
+        report.row({range, fixed(share, 3)});
+        below += k < bounds.size() && bounds[k] <= kLow ? share : 0.0;
     }
+    report.row({fmt::format("below {:g}", kLow), fixed(below, 3)});
 }
 
-void print_shares(const MatrixCase& matrix_case, const std::vector<double>& shares)
+void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector<double>& shares)
 {
-    fmt::print("\nError against the share kept exactly (figure 2), the paper's settings:\n\n"
-               "| share % | Σ e | Σ e² | largest | light, RMSE % | worst % | naive / bytes |\n"
-               "|---|---|---|---|---|---|---|\n");
+    report.table(
+        "shares", "Error against the share kept exactly ([SF17] figure 2), the paper's settings",
+        {"share %", "Σ e", "Σ e²", "largest", "light, RMSE %", "worst %", "naive / bytes"});
     for (const double share : shares) {
         CodingOptions options = papers_settings();
         options.exact_share = float(share / kPercent);
@@ -99,14 +104,14 @@ void print_shares(const MatrixCase& matrix_case, const std::vector<double>& shar
         const ColorMatrix decoded = decode(coded);
         const EntryError error = entry_error(decoded, matrix_case.bounces);
         const LightError light = light_error(matrix_case, decoded);
-        fmt::print("| {:g} | {:.1f} | {:.4f} | {:.4f} | {:.2f} | {:.2f} | {:.2f} |\n", share,
-                   error.sum, error.squares, error.largest, kPercent * light.mean,
-                   kPercent * light.worst, naive_bytes(matrix_case) / double(coded.bytes()));
-        std::fflush(stdout);
+        report.row({fmt::format("{:g}", share), fixed(error.sum, 1), fixed(error.squares, 4),
+                    fixed(error.largest, 4), fixed(kPercent * light.mean, 2),
+                    fixed(kPercent * light.worst, 2),
+                    fixed(naive_bytes(matrix_case) / double(coded.bytes()), 2)});
     }
 }
 
-void print_reorderings(const ColorMatrix& matrix, const char* patches)
+void add_reorderings(Report& report, const ColorMatrix& matrix, const char* patches)
 {
     constexpr std::array names = {"as it is", "rows", "rows and columns"};
     for (const bool mend : {false, true}) {
@@ -119,22 +124,22 @@ void print_reorderings(const ColorMatrix& matrix, const char* patches)
             const EntryError error = entry_error(decode(encode(matrix, options)), matrix);
             if (how == Reordering::none)
                 without = error;
-            fmt::print("| {} | {} | {} | {:.3g} | {:.4f} | {:.4f} | {:.2f} | {:.1f} | {:.2f} |\n",
-                       patches, mend ? "mended" : "the paper's", names[std::size_t(how)],
-                       std::sqrt(error.squares) / error.entries, error.largest, error.squares,
-                       without.squares / error.squares, error.sum, without.sum / error.sum);
-            std::fflush(stdout);
+            report.row({patches, mend ? "mended" : "the paper's", names[std::size_t(how)],
+                        significant(std::sqrt(error.squares) / error.entries, 3),
+                        fixed(error.largest, 4), fixed(error.squares, 4),
+                        fixed(without.squares / error.squares, 2), fixed(error.sum, 1),
+                        fixed(without.sum / error.sum, 2)});
         }
     }
 }
 
-void print_reorderings(const MatrixCase& matrix_case)
+void add_reorderings(Report& report, const MatrixCase& matrix_case)
 {
-    fmt::print("\nError by reordering (figure 7), BC1:\n\n"
-               "| patches come | exact part | order | √Σe² / entries | largest | Σ e² | without / "
-               "this | Σ e | without / this |\n|---|---|---|---|---|---|---|---|---|\n");
-    print_reorderings(matrix_case.bounces, "by place");
-    print_reorderings(shuffled(matrix_case.bounces), "shuffled");
+    report.table("reordering", "Error by reordering ([SF17] figure 7), BC1",
+                 {"patches come", "exact part", "order", "√Σe² / entries", "largest", "Σ e²",
+                  "Σ e²: without / this", "Σ e", "Σ e: without / this"});
+    add_reorderings(report, matrix_case.bounces, "by place");
+    add_reorderings(report, shuffled(matrix_case.bounces), "shuffled");
 }
 
 struct FormOfCurve {
@@ -189,12 +194,13 @@ std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
 }
 
 /// Of forms whose names have `wanted` in them.
-void print_curve(const MatrixCase& matrix_case, const std::string& wanted)
+void add_curve(Report& report, const MatrixCase& matrix_case, const std::string& wanted)
 {
-    fmt::print("\nBytes (figure 12) and error of indirect light, {} states:\n\n"
-               "| form | MiB | naive / bytes | RMSE % | worst state % | seconds |\n"
-               "|---|---|---|---|---|---|\n| naive: F, without colours | {:.2f} | 1 | | | |\n",
-               matrix_case.lights.size(), naive_bytes(matrix_case) / kMebibyte);
+    report.table("curve",
+                 fmt::format("Bytes ([SF17] figure 12) and error of indirect light, {} states; "
+                             "naive: F as floats, without colours, {:.2f} MiB",
+                             matrix_case.lights.size(), naive_bytes(matrix_case) / kMebibyte),
+                 {"form", "MiB", "naive / bytes", "RMSE %", "worst state %", "seconds"});
     for (const FormOfCurve& form : forms_of(matrix_case)) {
         if (form.name.find(wanted) == std::string::npos)
             continue;
@@ -202,31 +208,30 @@ void print_curve(const MatrixCase& matrix_case, const std::string& wanted)
         const CompressedMatrix compressed = form.make();
         const double seconds = wall_seconds() - begin;
         const LightError error = light_error(matrix_case, whole(compressed));
-        fmt::print("| {} | {:.2f} | {:.2f} | {:.3f} | {:.3f} | {:.1f} |\n", form.name,
-                   double(bytes_of(compressed)) / kMebibyte,
-                   naive_bytes(matrix_case) / double(bytes_of(compressed)), kPercent * error.mean,
-                   kPercent * error.worst, seconds);
-        std::fflush(stdout);
+        report.row({form.name, fixed(double(bytes_of(compressed)) / kMebibyte, 2),
+                    fixed(naive_bytes(matrix_case) / double(bytes_of(compressed)), 2),
+                    fixed(kPercent * error.mean, 3), fixed(kPercent * error.worst, 3),
+                    fixed(seconds, 1)});
     }
 }
 
 }  // namespace
 
-void compare_matrix_forms(const MatrixSettings& settings)
+void compare_matrix_forms(const MatrixSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     for (const int patches : settings.patches) {
         const double begin = wall_seconds();
         const MatrixCase matrix_case =
             make_matrix_case(device, settings.shared, std::uint32_t(patches), settings.lights);
-        fmt::print("\n## {}, {} patches, {:.0f} s to make\n", settings.shared.scene,
-                   matrix_case.size(), wall_seconds() - begin);
-        print_curve(matrix_case, settings.forms);
+        report.say(fmt::format("{}, {} patches, {:.0f} s to make, {}", settings.shared.scene,
+                               matrix_case.size(), wall_seconds() - begin, words_of(device)));
+        add_curve(report, matrix_case, settings.forms);
         if (!settings.forms.empty())
             continue;
-        print_distribution(matrix_case);
-        print_reorderings(matrix_case);
-        print_shares(matrix_case, settings.shares);
+        add_distribution(report, matrix_case);
+        add_reorderings(report, matrix_case);
+        add_shares(report, matrix_case, settings.shares);
     }
 }
 

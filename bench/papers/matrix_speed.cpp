@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/matrix_case.h"
 #include "bench/papers/matrix_speed.reflect.comp.h"
@@ -124,38 +124,43 @@ std::vector<std::pair<std::string, CompressedMatrix>> forms_of(const MatrixCase&
     return forms;
 }
 
-void print_against_naive(const gpu::Device& device, const MatrixCase& matrix_case,
-                         const MatrixSpeedSettings& settings)
+void add_against_naive(Report& report, const gpu::Device& device, const MatrixCase& matrix_case,
+                       const MatrixSpeedSettings& settings)
 {
-    fmt::print("\nFigure 11: {}, {} patches:\n\n"
-               "| what | MiB | cpu ms | wall ms | naive, {} bounces / this (cpu) | (wall) | "
-               "difference from all bounces % |\n|---|---|---|---|---|---|---|\n",
-               settings.shared.scene, matrix_case.size(), settings.bounces.back());
+    report.table("speed",
+                 fmt::format("One multiply against naive radiosity of {} bounces ([SF17] figure "
+                             "11): {}, {} patches",
+                             settings.bounces.back(), settings.shared.scene, matrix_case.size()),
+                 {"what", "MiB", "cpu ms", "wall ms", "naive / this, cpu", "naive / this, wall",
+                  "naive / this", "difference from all bounces %"});
     const std::vector<glm::vec3>& light = matrix_case.lights.front();
     const std::vector<glm::vec3> truth = multiply(matrix_case.bounces, light);
     const gpu::Array<glm::vec3> x(device, std::span<const glm::vec3>(light));
     const gpu::Array<glm::vec3> y(device, light.size());
     const double n = double(matrix_case.size()), mebi = 1048576.0;
 
+    const bool by_processor = counts_processor_time(device);
     NaiveRadiosity naive(device, matrix_case);
     Time naive_time;
     for (const int bounces : settings.bounces) {
         naive_time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
             naive.record(commands, x, y, bounces);
         });
-        fmt::print("| naive, {} bounces | {:.2f} | {:.2f} | {:.2f} | | | {:.3f} |\n", bounces,
-                   4.0 * n * n / mebi, naive_time.cpu_ms, naive_time.wall_ms,
-                   100.0 * difference(y.download(), truth));
+        report.row({fmt::format("naive, {} bounces", bounces), fixed(4.0 * n * n / mebi, 2),
+                    fixed(naive_time.cpu_ms, 2), fixed(naive_time.wall_ms, 2), none(), none(),
+                    none(), fixed(100.0 * difference(y.download(), truth), 3)});
     }
     for (const auto& [name, matrix] : forms_of(matrix_case)) {
         Multiply product(device, matrix);
         const Time time = time_of(device, settings.repeats,
                                   [&](gpu::Commands& commands) { product.record(commands, x, y); });
-        fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.1f} | {:.1f} | {:.3f} |\n", name,
-                   double(bytes_of(matrix)) / mebi, time.cpu_ms, time.wall_ms,
-                   naive_time.cpu_ms / time.cpu_ms, naive_time.wall_ms / time.wall_ms,
-                   100.0 * difference(y.download(), truth));
-        std::fflush(stdout);
+        report.row({name, fixed(double(bytes_of(matrix)) / mebi, 2), fixed(time.cpu_ms, 2),
+                    fixed(time.wall_ms, 2), fixed(naive_time.cpu_ms / time.cpu_ms, 1),
+                    fixed(naive_time.wall_ms / time.wall_ms, 1),
+                    fixed(by_processor ? naive_time.cpu_ms / time.cpu_ms
+                                       : naive_time.wall_ms / time.wall_ms,
+                          1),
+                    fixed(100.0 * difference(y.download(), truth), 3)});
     }
 }
 
@@ -230,26 +235,26 @@ double copy_bandwidth(const gpu::Device& device, int repeats)
     return 2.0 * double(bytes) / (1e-3 * time.wall_ms);
 }
 
-void print_large(const gpu::Device& device, const MatrixSpeedSettings& settings)
+void add_large(Report& report, const gpu::Device& device, const MatrixSpeedSettings& settings)
 {
     const auto n = std::uint32_t(settings.large);
     const double copy = copy_bandwidth(device, settings.repeats);
-    fmt::print(
-        "\nThe multiply alone, {} × {} random numbers for each channel. A copy reads and "
-        "writes {:.2f} GB/s.\n\n"
-        "| kernel | MiB | cpu ms | wall ms | row by row / this (cpu) | (wall) | GB/s read | of "
-        "the copy % |\n|---|---|---|---|---|---|---|---|\n",
-        n, n, copy / kGigabyte);
+    report.table("multiply",
+                 fmt::format("The multiply alone, {} × {} random numbers for each channel. A copy "
+                             "reads and writes {:.2f} GB/s",
+                             n, n, copy / kGigabyte),
+                 {"kernel", "MiB", "cpu ms", "wall ms", "row by row / this, cpu",
+                  "row by row / this, wall", "GB/s read", "of the copy %"});
     const std::vector<float> ones(std::size_t(filled_up(n)) * 3, 1.0f);
     const gpu::Array<float> in(device, std::span<const float>(ones));
     const gpu::Array<float> out(device, ones.size());
     Time plain;
-    const auto print = [&](const char* name, double bytes, const Time& time) {
+    const auto add = [&](const char* name, double bytes, const Time& time) {
         const double rate = bytes / (1e-3 * time.wall_ms);
-        fmt::print("| {} | {:.0f} | {:.1f} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.0f} |\n", name,
-                   bytes / 1048576.0, time.cpu_ms, time.wall_ms, plain.cpu_ms / time.cpu_ms,
-                   plain.wall_ms / time.wall_ms, rate / kGigabyte, 100.0 * rate / copy);
-        std::fflush(stdout);
+        report.row({name, fixed(bytes / 1048576.0, 0), fixed(time.cpu_ms, 1),
+                    fixed(time.wall_ms, 1), fixed(plain.cpu_ms / time.cpu_ms, 2),
+                    fixed(plain.wall_ms / time.wall_ms, 2), fixed(rate / kGigabyte, 2),
+                    fixed(100.0 * rate / copy, 0)});
     };
     for (const auto& [code, name] :
          {std::pair{Code::float32, "float"}, std::pair{Code::float16, "half"},
@@ -260,7 +265,7 @@ void print_large(const gpu::Device& device, const MatrixSpeedSettings& settings)
             RowByRow simple(device, matrix);
             plain = time_of(device, settings.repeats,
                             [&](gpu::Commands& commands) { simple.record(commands, in, out); });
-            print("float, a group for each row", double(matrix.bytes()), plain);
+            add("float, a group for each row", double(matrix.bytes()), plain);
         }
         for (const Decoder decoder : {Decoder::shader, Decoder::hardware}) {
             if (decoder == Decoder::hardware &&
@@ -272,23 +277,22 @@ void print_large(const gpu::Device& device, const MatrixSpeedSettings& settings)
             const Time time = time_of(device, settings.repeats, [&](gpu::Commands& commands) {
                 product.record(commands, in, out, filled_up(n), 1);
             });
-            print(decoder == Decoder::hardware ? "BC1, texture" : name, double(matrix.bytes()),
-                  time);
+            add(decoder == Decoder::hardware ? "BC1, texture" : name, double(matrix.bytes()), time);
         }
     }
 }
 
 }  // namespace
 
-void time_matrices(const MatrixSpeedSettings& settings)
+void time_matrices(const MatrixSpeedSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
-    fmt::print("Device: {} ({})\n", device.info().name, device.info().driver);
-    print_against_naive(
-        device, make_matrix_case(device, settings.shared, std::uint32_t(settings.patches), 1),
-        settings);
+    report.say(words_of(device));
+    add_against_naive(report, device,
+                      make_matrix_case(device, settings.shared, std::uint32_t(settings.patches), 1),
+                      settings);
     if (settings.large > 0)
-        print_large(device, settings);
+        add_large(report, device, settings);
 }
 
 }  // namespace lumel::bench

@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bench/papers/iteration_cost.h"
+#include "core/usage.h"
 #include "live/still_part.h"
 
 namespace lumel::bench {
@@ -22,13 +23,18 @@ Update update_after_move(LiveScene& live, std::uint32_t instance, const glm::mat
     const gpu::StageTimes before = live.times();
     const std::uint64_t hemicubes = live.state().hemicubes;
     Update update;
+    const double begin = cpu_seconds();
     live.move(instance, place);
     do {  // batch by batch, until the move is redistributed
         update.alone_ms += live.update(0.0).milliseconds;
     } while (live.state().under_way);
+    update.alone_cpu_ms = 1e3 * (cpu_seconds() - begin);
     update.alone_hemicubes = live.state().hemicubes - hemicubes;
+    update.alone = live.irradiance();
     update.alone_stages = since(before, live.times());
+    const double rest = cpu_seconds();
     update.whole_ms = update.alone_ms + live.settle().milliseconds;
+    update.whole_cpu_ms = update.alone_cpu_ms + 1e3 * (cpu_seconds() - rest);
     update.whole_hemicubes = live.state().hemicubes - hemicubes;
     update.stages = since(before, live.times());
     return update;

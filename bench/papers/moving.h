@@ -32,12 +32,15 @@ glm::mat4 turned(const Scene& scene, std::uint32_t box, double degrees);
 
 /// What the host and the device did for one move.
 struct Update {
-    double alone_ms = 0.0;              ///< redistribution alone, wall time
-    double whole_ms = 0.0;              ///< until at rest, wall time
+    double alone_ms = 0.0;      ///< redistribution alone, wall time
+    double whole_ms = 0.0;      ///< until at rest, wall time
+    double alone_cpu_ms = 0.0;  ///< the same in processor time
+    double whole_cpu_ms = 0.0;
     std::uint64_t alone_hemicubes = 0;  ///< of redistribution alone
     std::uint64_t whole_hemicubes = 0;
     gpu::StageTimes alone_stages;  ///< device time of redistribution alone
     gpu::StageTimes stages;        ///< until at rest
+    std::vector<glm::vec3> alone;  ///< H [N] after redistribution alone
 };
 
 /// Moves an instance and goes on until at rest.

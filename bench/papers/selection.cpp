@@ -3,11 +3,10 @@
 // replaced it, a search in sums on the device.
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <random>
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
@@ -129,16 +128,17 @@ std::vector<float> draw_numbers(int count, std::uint32_t seed)
 
 }  // namespace
 
-void time_selection(const SelectionSettings& settings)
+void time_selection(const SelectionSettings& settings, Report& report)
 {
     const gpu::Device device(settings.shared.device);
     const SolverOptions options = papers_iteration(settings.shared.given.options());
-    fmt::print("{}, {} ({})\n\n"
-               "| map | lumels | read-back, cpu ms | wall ms | device, cpu ms | wall ms "
-               "| read-back / device | rest of an iteration, ms | read-back / rest "
-               "| device / rest | same lumel |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-               settings.shared.scene, device.info().name, device.info().driver);
+    report.say(fmt::format("{}, {}", settings.shared.scene, words_of(device)));
+    report.table("selection", "Time of drawing a shooter ([BJ04] section 3.1)",
+                 {"map", "lumels", "read-back, cpu ms", "read-back, wall ms", "device, cpu ms",
+                  "device, wall ms", "read-back / device", "rest of an iteration, ms",
+                  "read-back / rest", "device / rest", "same lumel"});
     const std::vector<float> numbers = draw_numbers(settings.draws, seed_of(options.method));
+    double largest = 0.0;  // read-back over the rest
     for (const int size : settings.sizes) {
         const Prepared world = prepare(settings.shared, size);
         const World resident(device, world.scene, world.lumels);
@@ -150,13 +150,15 @@ void time_selection(const SelectionSettings& settings)
         const DrawCost gpu = on_device(device, power, numbers);
         const double rest =
             iteration.wall_ms - gpu.wall_ms - sum_of(iteration.stages, {"figures", "polish"});
-        fmt::print("| {}² | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.1f} | {:.2f} | {:.2f} "
-                   "| {:.2f} | {} of {} |\n",
-                   size, world.lumels.lumels.size(), host.cpu_ms, host.wall_ms, gpu.cpu_ms,
-                   gpu.wall_ms, host.wall_ms / gpu.wall_ms, rest, host.wall_ms / rest,
-                   gpu.wall_ms / rest, agreeing(host, gpu), numbers.size());
-        std::fflush(stdout);
+        report.row({fmt::format("{}²", size), world.lumels.lumels.size(), fixed(host.cpu_ms, 3),
+                    fixed(host.wall_ms, 3), fixed(gpu.cpu_ms, 3), fixed(gpu.wall_ms, 3),
+                    fixed(host.wall_ms / gpu.wall_ms, 1), fixed(rest, 2),
+                    fixed(host.wall_ms / rest, 2), fixed(gpu.wall_ms / rest, 2),
+                    fmt::format("{} of {}", agreeing(host, gpu), numbers.size())});
+        largest = host.wall_ms / rest;
     }
+    report.table("summary", "In short, wall time", {"what", "map", "value"});
+    report.row({"read-back / rest", fmt::format("{}²", settings.sizes.back()), fixed(largest, 2)});
     device.check_validation();
 }
 

@@ -1,0 +1,281 @@
+#include "bench/papers/paper_values.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+namespace lumel::bench {
+namespace {
+
+constexpr const char* kOtherDevice =
+    "Milliseconds of a GPU; ours are of two processor cores without one.";
+constexpr const char* kAtRest =
+    "Ours: at rest, lumels against paths, whose noise counts. The thesis: pictures of a frame "
+    "against gathering of high quality.";
+constexpr const char* kGathered =
+    "Ours: once its error is estimated at 2 %, lumels against paths, whose noise counts. The "
+    "thesis: pictures against gathering of high quality.";
+constexpr const char* kFrame =
+    "The thesis: average total frame time. Ours: until at rest, with the passes that shoot what "
+    "redistribution left unshot; errors at rest are in the first tables of this figure.";
+constexpr const char* kAlone =
+    "Progressive goes on until at rest, redistribution does not: light is left unshot. Errors of "
+    "that state are in tables of their own. The thesis: average total frame time.";
+constexpr const char* kVertices =
+    "Times until at rest; the thesis: frame time, of about 3000 vertices over 80.";
+constexpr const char* kMoreVertices =
+    "Times until at rest; the thesis: frame time, of about 23,000 vertices over 80.";
+constexpr const char* kPlanes =
+    "After all directions, on the side that light can leak to. Fewer leaks are better, but the "
+    "paper gives neither distances nor albedos, so this is a check and no race.";
+
+constexpr PaperValue kValues[] = {
+    // clang-format off
+    {"[BJ04]", "Figure 7, section 4", "time of an iteration, 10,000 vertices / 10", "150 / 120 ms = 1.25",
+     "iterations-hemisphere", "summary", "slowest / fastest number of vertices", "value", Bar::at_most, 1.25,
+     "Time of a whole iteration through one hemisphere, as the paper has it."},
+    {"[BJ04]", "Figure 7, section 4", "the same through a hemicube instead of a hemisphere", "150 / 120 ms = 1.25",
+     "iterations", "summary", "slowest / fastest number of vertices", "value", Bar::at_most, 1.25,
+     "The paper has a hemisphere, which is the row above."},
+    {"[BJ04]", "Section 3.1", "read-back and search / rest of an iteration", "almost 10",
+     "selection", "summary", "read-back / rest", "value", Bar::none, 0.0,
+     "A software device has no bus to read back through."},
+    {"[BSS05]", "Section 6", "render passes of an iteration, 128²", "22 to 30",
+     "iterations", "summary", "dispatches and passes", "value", Bar::at_most, 22.0,
+     "Ours: compute dispatches and raster passes as they are recorded, without the error estimate."},
+    {"[BSS05]", "Section 6", "gain in speed by maps of 64² for 128², %", "about 40",
+     "iterations", "summary", "gain by the smaller map, %", "value", Bar::at_least, 40.0,
+     "A whole iteration, about a hundred vertices. Where time follows the lumels, as here, it is easy to meet."},
+    {"[BSS05]", "Section 6", "error after 80 iterations of the papers' scheme, diffuse, %", "\"converged\" after 40 to 80",
+     "convergence", "convergence", "paper, 80", "RMSE %", Bar::at_most, 5.0,
+     "The paper states no number; the bar of 5 % is ours. Map against paths, one shooter an iteration."},
+    {"[BSS05]", "Section 6", "error after 80 iterations of the default scheme, diffuse, %", "\"converged\" after 40 to 80",
+     "convergence", "convergence", "phased, 80", "RMSE %", Bar::at_most, 5.0,
+     "The bar is ours. Sixteen shooters an iteration and exact near pairs, so no like for like."},
+    {"[BSS05]", "Section 6", "error after 80 iterations of the papers' scheme, glossy, %", "\"converged\" after 40 to 80",
+     "convergence-glossy", "convergence", "paper, 80", "RMSE %", Bar::at_most, 5.0,
+     "The bar is ours. Arriving light against paths; the average began anew at 32."},
+    {"[BSS05]", "Section 6", "error after 80 iterations of the default scheme, glossy, %", "\"converged\" after 40 to 80",
+     "convergence-glossy", "convergence", "phased, 80", "RMSE %", Bar::at_most, 5.0,
+     "The bar is ours. Sixteen shooters an iteration, exact near pairs and particles."},
+    {"[BSS05]", "Section 5, Eq. (8)", "variance with the disc and 2 × 2 texels merged / with r²", "significantly reduced",
+     "ablation", "disc", "centres, r² + A/π, 2 × 2 texels merged", "variance / that of r²", Bar::at_most, 0.5,
+     "The paper states no number; the bar of a half is ours. Between seeds, at equal iterations."},
+    {"[BSS05]", "Figure 1", "variance × time of both techniques weighted / of the better alone", "used, not measured",
+     "ablation", "weighting", "both, weighted", "product / that of rays alone", Bar::at_most, 1.0,
+     "The bar is ours: weighting pays if it beats the better technique at equal time. Ours weighs shooters with rays; the paper has no rays."},
+    {"[TN11]", "Figure 8 (a)", "red that leaks with 1 × 1 lookups, %", "41",
+     "layers", "red", "stochastic, 1 × 1", "below, %", Bar::at_most, 41.0, kPlanes},
+    {"[TN11]", "Figure 8 (b)", "red that leaks with 3 × 3 lookups, %", "8",
+     "layers", "red", "stochastic, 3 × 3", "below, %", Bar::at_most, 8.0, kPlanes},
+    {"[TN11]", "Figure 8 (c)", "red that leaks with 5 × 5 lookups, %", "1",
+     "layers", "red", "stochastic, 5 × 5", "below, %", Bar::at_most, 1.0, kPlanes},
+    {"[TN11]", "Figure 7, section 6", "found among 9 lookups, farthest from 1 − (1 − 1/K)⁹, percentage points", "0: the curve is the formula",
+     "layers", "chance-errors", "9", "percentage points", Bar::at_most, 0.5,
+     "The bar is ours; counted over all pixels of a few maps."},
+    {"[TN11]", "Figure 7, section 6", "found among 25 lookups, farthest from 1 − (1 − 1/K)²⁵, percentage points", "0: the curve is the formula",
+     "layers", "chance-errors", "25", "percentage points", Bar::at_most, 0.5,
+     "The bar is ours; counted over all pixels of a few maps."},
+    {"[TN11]", "Figure 9 (a)", "four cubes, ms a direction", "5 s / 5120 = 1.0",
+     "directions", "directions", "four cubes", "wall ms per direction", Bar::none, 0.0, kOtherDevice},
+    {"[TN11]", "Figure 9 (b)", "three balls, ms a direction", "5 s / 5120 = 1.0",
+     "directions", "directions", "three balls", "wall ms per direction", Bar::none, 0.0, kOtherDevice},
+    {"[TN11]", "Figure 9 (c)", "Cornell box under a sky, ms a direction", "2 s / 4068 = 0.5",
+     "directions", "directions", "Cornell box under a sky", "wall ms per direction", Bar::none, 0.0, kOtherDevice},
+    {"[TN11]", "Figure 9 (e)", "Cornell box with its lamp, ms a direction", "30 s / 42,624 = 0.7",
+     "directions", "directions", "Cornell box with its lamp", "wall ms per direction", Bar::none, 0.0, kOtherDevice},
+    {"[TN11]", "Figure 9 (f)", "landscape, ms a direction", "10 s / 3764 = 2.7",
+     "directions", "directions", "landscape", "wall ms per direction", Bar::none, 0.0, kOtherDevice},
+    {"[TN11]", "Section 7", "error by stochastic depths, Cornell box under a sky, %", "\"visually comparable\"",
+     "directions", "directions", "Cornell box under a sky", "RMSE against list, %", Bar::at_most, 5.0,
+     "The paper states no number; the bar of 5 % is ours. Against exact layers and the same directions."},
+    {"[TN11]", "Section 7", "error by stochastic depths, landscape, %", "\"visually comparable\"",
+     "directions", "directions", "landscape", "RMSE against list, %", Bar::at_most, 5.0,
+     "The paper states no number; the bar of 5 % is ours. Against exact layers and the same directions."},
+    {"[Hoef13]", "Table 5.1", "gathering, large lamp: normalized RMSE", "0.00226",
+     "gather", "normalized", "gather", "Cornell, large", Bar::at_most, 0.00225834, kGathered},
+    {"[Hoef13]", "Table 5.1", "gathering, small lamp: normalized RMSE", "0.00280",
+     "gather", "normalized", "gather", "Cornell, small", Bar::at_most, 0.0028034, kGathered},
+    {"[Hoef13]", "Table 5.1", "gathering, low quality: normalized RMSE", "0.0111",
+     "gather", "normalized", "gather", "Low quality", Bar::at_most, 0.0110786, kGathered},
+    {"[Hoef13]", "Table 5.1", "gathering, indirect light: normalized RMSE", "0.0522",
+     "gather", "normalized", "gather", "Indirect light", Bar::at_most, 0.0522469, kGathered},
+    {"[Hoef13]", "Table 5.1", "progressive, indirect light: normalized RMSE", "0.0631",
+     "moves", "normalized", "progressive", "Indirect light", Bar::at_most, 0.0631117, kAtRest},
+    {"[Hoef13]", "Table 5.1", "progressive, large lamp: normalized RMSE", "0.00676",
+     "moves", "normalized", "progressive", "Cornell, large", Bar::at_most, 0.00675699, kAtRest},
+    {"[Hoef13]", "Table 5.1", "progressive, small lamp: normalized RMSE", "0.00981",
+     "moves", "normalized", "progressive", "Cornell, small", Bar::at_most, 0.0098088, kAtRest},
+    {"[Hoef13]", "Table 5.1", "progressive, low quality: normalized RMSE", "0.0149",
+     "moves", "normalized", "progressive", "Low quality", Bar::at_most, 0.0149107, kAtRest},
+    {"[Hoef13]", "Table 5.1", "incremental, indirect light: normalized RMSE", "0.0473",
+     "moves", "normalized", "incremental", "Indirect light", Bar::at_most, 0.0472801, kAtRest},
+    {"[Hoef13]", "Table 5.1", "incremental, large lamp: normalized RMSE", "0.00741",
+     "moves", "normalized", "incremental", "Cornell, large", Bar::at_most, 0.00741281, kAtRest},
+    {"[Hoef13]", "Table 5.1", "incremental, small lamp: normalized RMSE", "0.0107",
+     "moves", "normalized", "incremental", "Cornell, small", Bar::at_most, 0.0106912, kAtRest},
+    {"[Hoef13]", "Table 5.1", "incremental, low quality: normalized RMSE", "0.0198",
+     "moves", "normalized", "incremental", "Low quality", Bar::at_most, 0.0197874, kAtRest},
+    {"[Hoef13]", "Table 5.1", "cross, indirect light: normalized RMSE", "0.0579",
+     "moves", "normalized", "cross", "Indirect light", Bar::at_most, 0.0579452, kAtRest},
+    {"[Hoef13]", "Table 5.1", "cross, large lamp: normalized RMSE", "0.00695",
+     "moves", "normalized", "cross", "Cornell, large", Bar::at_most, 0.00694691, kAtRest},
+    {"[Hoef13]", "Table 5.1", "cross, small lamp: normalized RMSE", "0.0102",
+     "moves", "normalized", "cross", "Cornell, small", Bar::at_most, 0.0102216, kAtRest},
+    {"[Hoef13]", "Table 5.1", "cross, low quality: normalized RMSE", "0.0147",
+     "moves", "normalized", "cross", "Low quality", Bar::at_most, 0.0147345, kAtRest},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / incremental, indirect light", "265 / 52 = 5.10",
+     "moves", "rest-ratios", "progressive / incremental", "Indirect light", Bar::at_least, 5.10, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / incremental, large lamp", "116 / 108 = 1.07",
+     "moves", "rest-ratios", "progressive / incremental", "Cornell, large", Bar::at_least, 1.07, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / incremental, small lamp", "87 / 70 = 1.24",
+     "moves", "rest-ratios", "progressive / incremental", "Cornell, small", Bar::at_least, 1.24, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / incremental, low quality", "49 / 14 = 3.50",
+     "moves", "rest-ratios", "progressive / incremental", "Low quality", Bar::at_least, 3.50, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / cross, indirect light", "265 / 16 = 16.6",
+     "moves", "rest-ratios", "progressive / cross", "Indirect light", Bar::at_least, 16.56, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / cross, large lamp", "116 / 24 = 4.83",
+     "moves", "rest-ratios", "progressive / cross", "Cornell, large", Bar::at_least, 4.83, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / cross, small lamp", "87 / 25 = 3.48",
+     "moves", "rest-ratios", "progressive / cross", "Cornell, small", Bar::at_least, 3.48, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / cross, low quality", "49 / 7 = 7.00",
+     "moves", "rest-ratios", "progressive / cross", "Low quality", Bar::at_least, 7.00, kFrame},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, incremental, indirect light", "265 / 52 = 5.10",
+     "moves", "alone-ratios", "progressive / incremental", "Indirect light", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, incremental, large lamp", "116 / 108 = 1.07",
+     "moves", "alone-ratios", "progressive / incremental", "Cornell, large", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, incremental, small lamp", "87 / 70 = 1.24",
+     "moves", "alone-ratios", "progressive / incremental", "Cornell, small", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, incremental, low quality", "49 / 14 = 3.50",
+     "moves", "alone-ratios", "progressive / incremental", "Low quality", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, cross, indirect light", "265 / 16 = 16.6",
+     "moves", "alone-ratios", "progressive / cross", "Indirect light", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, cross, large lamp", "116 / 24 = 4.83",
+     "moves", "alone-ratios", "progressive / cross", "Cornell, large", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, cross, small lamp", "87 / 25 = 3.48",
+     "moves", "alone-ratios", "progressive / cross", "Cornell, small", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of progressive / redistribution alone, cross, low quality", "49 / 7 = 7.00",
+     "moves", "alone-ratios", "progressive / cross", "Low quality", Bar::none, 0.0, kAlone},
+    {"[Hoef13]", "Table 5.2 (a)", "time of gather / cross, large lamp", "2437 / 24 = 102",
+     "gather", "rest-ratios", "gather / cross", "Cornell, large", Bar::none, 0.0,
+     "Ours gathers until its error is estimated at 2 %, the thesis for a number of bounces that it does not give."},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of progressive, large lamp", "148 / 116 = 1.28",
+     "vertices", "growth-14", "progressive", "Cornell, large", Bar::at_most, 1.28, kVertices},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of incremental, large lamp", "118 / 108 = 1.09",
+     "vertices", "growth-14", "incremental", "Cornell, large", Bar::at_most, 1.09, kVertices},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of cross, large lamp", "39 / 24 = 1.63",
+     "vertices", "growth-14", "cross", "Cornell, large", Bar::at_most, 1.63, kVertices},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of progressive, low quality", "52 / 49 = 1.06",
+     "vertices", "growth-14", "progressive", "Low quality", Bar::at_most, 1.06, kVertices},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of incremental, low quality", "16 / 14 = 1.14",
+     "vertices", "growth-14", "incremental", "Low quality", Bar::at_most, 1.14, kVertices},
+    {"[Hoef13]", "Table 5.3 (a)", "3004 vertices / 80: time of cross, low quality", "10 / 7 = 1.43",
+     "vertices", "growth-14", "cross", "Low quality", Bar::at_most, 1.43, kVertices},
+    {"[Hoef13]", "Table 5.3 (b)", "23,147 vertices / 80: time of progressive, large lamp", "948 / 116 = 8.17",
+     "vertices", "growth-41", "progressive", "Cornell, large", Bar::at_most, 8.17, kMoreVertices},
+    {"[Hoef13]", "Table 5.3 (b)", "23,147 vertices / 80: time of incremental, large lamp", "864 / 108 = 8.00",
+     "vertices", "growth-41", "incremental", "Cornell, large", Bar::at_most, 8.00, kMoreVertices},
+    {"[Hoef13]", "Table 5.3 (b)", "23,147 vertices / 80: time of cross, large lamp", "191 / 24 = 7.96",
+     "vertices", "growth-41", "cross", "Cornell, large", Bar::at_most, 7.96, kMoreVertices},
+    {"[Hoef13]", "Section 4.5.2", "cross, after many moves: error, %", "does not accumulate",
+     "drift", "drift", "cross, the last move", "RMSE %", Bar::at_most, 0.5,
+     "The thesis states no number; the bar of 0.5 % is ours. At rest, against the solution before the moves."},
+    {"[Hoef13]", "Section 4.5.2", "incremental, after many moves: error, %", "–",
+     "drift", "drift", "incremental, the last move", "RMSE %", Bar::at_most, 0.5,
+     "The thesis has it for cross only; the bar of 0.5 % is ours."},
+    {"[SF17]", "Figure 1, section 3.5", "form factors below 0.005, %", "prevail",
+     "matrix", "distribution", "below 0.005", "share %", Bar::at_least, 50.0,
+     "More than half is our reading of the word. Patches of the Cornell box."},
+    {"[SF17]", "Figure 7", "Σ e² without order / rows in order, the paper's exact part", "47.12 / 18.86 = 2.50",
+     "matrix", "reordering", "shuffled, the paper's, rows", "Σ e²: without / this", Bar::at_least, 2.50,
+     "Patches shuffled first: ours come in order of place, which leaves less to gain."},
+    {"[SF17]", "Figure 7", "Σ e² without order / rows and columns, the paper's exact part", "47.12 / 9.40 = 5.01",
+     "matrix", "reordering", "shuffled, the paper's, rows and columns", "Σ e²: without / this", Bar::at_least, 5.01,
+     "Patches shuffled first."},
+    {"[SF17]", "Figure 7", "Σ e² without order / rows and columns, our exact part", "47.12 / 9.40 = 5.01",
+     "matrix", "reordering", "shuffled, mended, rows and columns", "Σ e²: without / this", Bar::at_least, 5.01,
+     "Patches shuffled first; the paper's exact part is the row above."},
+    {"[SF17]", "Abstract, figure 12", "bytes of naive form factors / of ours, BC1 at the paper's settings", "3",
+     "matrix", "curve", "BC1, the paper's settings", "naive / bytes", Bar::at_least, 3.0,
+     "Bytes of the file, exact part included; naive: floats without colours."},
+    {"[SF17]", "Section 5", "error of that BC1 matrix, indirect light, %", "\"hardly differs\"",
+     "matrix", "curve", "BC1, the paper's settings", "RMSE %", Bar::at_most, 2.0,
+     "The paper states no number; the bar of 2 % is ours. Against the matrix before compression, not against paths."},
+    {"[SF17]", "Abstract, figure 11", "time of naive radiosity / of one multiply, BC1", "10",
+     "matrix-speed", "speed", "BC1", "naive / this", Bar::at_least, 10.0,
+     "The multiply alone against 8 bounces of naive radiosity, a number that the paper does not give."},
+    {"[SF17]", "Abstract, figure 11", "time of naive radiosity / of one multiply, our tiles of 1 %", "10",
+     "matrix-speed", "speed", "tiles, error 1 %", "naive / this", Bar::at_least, 10.0,
+     "A code of ours that the paper does not have; BC1 is the row above."},
+    // clang-format on
+};
+
+constexpr NotReproduced kNotReproduced[] = {
+    // clang-format off
+    {"[BJ04]", "Figure 8", "time of an iteration at 1024²", "in a full run only; the paper's curve has no numbers in its text"},
+    {"[BJ04]", "Section 4", "120 to 150 ms an iteration, 20 to 30 ms without read-back", "milliseconds of another device; the page compares their ratios"},
+    {"[BSS05]", "Figure 1", "the picture with its times, 100 iterations at 128²", "the program that renders has no scheme of the papers"},
+    {"[BSS05]", "Figure 2", "9 s for specular objects in a diffuse room", "our picture is in docs/papers.md, its time beside the paper's is not measured"},
+    {"[BSS05]", "Section 6", "under 20 ms an iteration at 128²; 0.5 to 1 frames a second", "milliseconds of another device"},
+    {"[BSS05]", "Section 6", "frame coherence with moving objects", "no figure of ours moves a glossy scene"},
+    {"[TN11]", "Figure 8", "the pictures", "numbers only"},
+    {"[TN11]", "Figure 9 (d)", "Sponza, 5 × 5 lookups, 1024²", "the scene is not in the repository"},
+    {"[TN11]", "Figure 9 (a) to (f)", "light probes, the Cornell box of 1102 triangles", "our scenes have a clear sky, and a Cornell box of 32 triangles"},
+    {"[TN11]", "Section 6", "regions that are boxes", "ours are slabs along the direction"},
+    {"[Hoef13]", "Figures 4.5.3, 4.5.4", "reprojection, error of incremental cross projection", "neither can be switched off or on here"},
+    {"[Hoef13]", "Figures 5.2.1 to 5.2.5", "pictures of the four scenes and of contact shadows", "errors of the lumels only"},
+    {"[Hoef13]", "Table 5.2 (b), (c)", "two more graphics cards", "one device here"},
+    {"[Hoef13]", "Section 5.3.1", "cost of each hemicube and pass", "time by part is measured, cost of one hemicube is not"},
+    {"[Hoef13]", "Table 5.4", "other techniques", "times of other programs, which the thesis quotes too"},
+    {"[Hoef13]", "Section 5.1", "about 10,000 lumels in three scenes", "a quarter of them here; a full run has as many"},
+    {"[SF17]", "Figures 3, 4", "distribution after normalization and logarithm", "not made"},
+    {"[SF17]", "Figures 5, 8 to 10", "pictures of the matrix and of its errors", "not made"},
+    {"[SF17]", "Figures 13, 14", "pictures beside path tracing (17 ms against 5 minutes) and light propagation volumes", "not made; agreement with paths is in docs/papers.md"},
+    // clang-format on
+};
+
+}  // namespace
+
+std::span<const PaperValue> paper_values()
+{
+    return kValues;
+}
+
+std::span<const NotReproduced> not_reproduced()
+{
+    return kNotReproduced;
+}
+
+Judgement judge(const PaperValue& value, const Outcomes& outcomes)
+{
+    const auto outcome = outcomes.find(value.run);
+    if (outcome == outcomes.end())
+        return {.reason = "The figure was not made."};
+    const Table* table = outcome->second.report.find(value.table);
+    const Cell* cell = table ? cell_at(*table, value.row, value.column) : nullptr;
+    if (!cell || !cell->value)
+        return {.reason = outcome->second.failure.empty()
+                              ? "These settings leave it out."
+                              : "The figure failed: " + outcome->second.failure};
+    const bool met =
+        value.bar == Bar::at_most ? *cell->value <= value.limit : *cell->value >= value.limit;
+    const Verdict verdict = value.bar == Bar::none ? Verdict::not_comparable
+                            : met                  ? Verdict::met
+                                                   : Verdict::missed;
+    return {verdict, cell->text, {}};
+}
+
+std::string words_of(Verdict verdict)
+{
+    constexpr std::array words{"met", "missed", "not comparable", "not measured"};
+    return words[std::size_t(verdict)];
+}
+
+std::string bar_of(const PaperValue& value)
+{
+    if (value.bar == Bar::none)
+        return {};
+    return fmt::format("at {} {:g}", value.bar == Bar::at_most ? "most" : "least", value.limit);
+}
+
+}  // namespace lumel::bench

@@ -1,0 +1,105 @@
+#include "bench/papers/runs.h"
+
+namespace lumel::bench {
+namespace {
+
+constexpr Run kRuns[] = {
+    {"iterations", "Time of an iteration, hemicubes",
+     "A whole iteration with one shooter, the fastest of three stretches. Nothing is read back but "
+     "four bytes.",
+     "iterations --sizes 64,128,512 --iterations 8", "iterations",
+     "iterations --sizes 16,32 --vertices 10,100 --iterations 4 --hemicube 32"},
+    {"iterations-hemisphere", "Time of an iteration, hemispheres",
+     "The same through one hemisphere instead of a hemicube, as [BJ04] does.",
+     "iterations --projection hemisphere --sizes 64,128,512 --iterations 8",
+     "iterations --projection hemisphere",
+     "iterations --projection hemisphere --sizes 16,32 --vertices 10,100 --iterations 4 "
+     "--hemicube 32"},
+    {"selection", "Drawing a shooter",
+     "Wall time of a draw by read-back and linear search, and by sums on the device; the rest of "
+     "an iteration is without either.",
+     "selection --sizes 64,128,512", "selection", "selection --sizes 16 --draws 4 --hemicube 32"},
+    {"convergence", "Error after iterations, diffuse",
+     "Error of the map after the iterations of a row, nothing finished or filtered.",
+     "convergence --size 64 --reference-spp 2048 --width 160 -o {out}",
+     "convergence --reference-spp 4096 -o {out}",
+     "convergence --size 16 --iterations 1,80 --hemicube 32 --reference-spp 16 --width 16 "
+     "-o {out}"},
+    {"convergence-glossy", "Error after iterations, glossy",
+     "The same of arriving light in a glossy scene. Both schemes begin their average anew after 8 "
+     "and 32 iterations, so that the rows of 40, 50 and 80 iterations average 8, 18 and 48 of "
+     "them; the papers' scheme has no such restarts.",
+     "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 64 --reference-spp 2048 "
+     "--width 160 -o {out}",
+     "convergence scenes/glossy-cornell-box.gltf --solver glossy --reference-spp 4096 -o {out}",
+     "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 16 --iterations 1,80 "
+     "--hemicube 32 --reference-spp 16 --width 16 -o {out}"},
+    {"ablation", "Variance with and without its remedies",
+     "Variance between seeds, not an error against a truth. Processor time of the eye's stages "
+     "only; the solution before them is the same.",
+     "ablation --size 64 --seeds 3 --solving-shots 1024 --shots 256", "ablation",
+     "ablation --size 16 --seeds 2 --width 16 --solving-shots 64 --shots 32 --rays 2 "
+     "--iterations 4 --hemicube 32"},
+    {"layers", "Stochastic layers",
+     "Excess of red over green on the plane on top after all directions, on its lower side, where "
+     "light may leak. The distances and albedos of the planes are ours: the paper does not give "
+     "its own.",
+     "layers --size 64 --directions 1500 --views 2", "layers --size 64",
+     "layers --size 16 --map-side 64 --directions 4 --overdraw 1,4 --slabs 1,2 --views 1"},
+    {"leak", "Leaky integration",
+     "Error of the running solution after the directions of a row, against a mean of many.",
+     "leak --size 48 --map-side 256", "leak", "leak --size 16 --map-side 64 --directions 4,8"},
+    {"directions", "Scenes lit by global directions",
+     "Wall time of a direction, its map and the gathering. Errors are against exact layers and the "
+     "same directions, so they are those of stochastic depths alone.",
+     "directions --size 128 --map-side 512 --directions 256 --width 240 -o {out}",
+     "directions -o {out}",
+     "directions --size 16 --map-side 64 --directions 4 --width 16 -o {out}"},
+    {"moves", "A box that turns",
+     "An update, from the move until 0.2 % of all light is unshot, and of its "
+     "redistribution alone; a table of errors for either state. Errors are of the lumels' "
+     "irradiance; the thesis has them of pictures.",
+     "dynamic --hemicube 64 --size 64 --low-size 32 --steps 1 --reference-spp 512 --no-gather "
+     "--pieces 1",
+     "dynamic --hemicube 64 --no-gather --pieces 1",
+     "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 "
+     "--residual 0.1 --no-gather --pieces 1"},
+    {"gather", "A box that turns, with gathering",
+     "The same with gathering, which goes on until its error is estimated at 2 %.",
+     "dynamic --scenes large,small,low --hemicube 64 --size 24 --low-size 16 --steps 1 "
+     "--reference-spp 512 --pieces 1",
+     "dynamic --hemicube 64 --pieces 1",
+     "dynamic --size 16 --low-size 16 --hemicube 16 --steps 1 --reference-spp 4 --residual 0.1 "
+     "--pieces 1"},
+    {"vertices", "A box that turns, more vertices",
+     "Time until at rest, with edges cut into pieces over that with whole edges; the lumels "
+     "are the same.",
+     "dynamic --scenes large,low --hemicube 64 --size 64 --low-size 32 --steps 1 --no-gather "
+     "--reference-spp 0 --pieces 14",
+     "dynamic --hemicube 64 --no-gather --reference-spp 0",
+     "dynamic --scenes large,low --size 16 --low-size 16 --hemicube 16 --steps 1 --no-gather "
+     "--reference-spp 0 --residual 0.1"},
+    {"drift", "Many moves", "Error at rest after the moves of a row.",
+     "drift --size 24 --hemicube 32 --moves 100", "drift --size 24 --hemicube 32 --moves 1000",
+     "drift --size 16 --hemicube 16 --residual 0.1 --moves 2"},
+    {"matrix", "Form-factor matrices",
+     "Bytes of the file. Errors of indirect light over patches by their area against the matrix "
+     "before it was compressed.",
+     "matrix --size 64 --patches 1024", "matrix",
+     "matrix --size 16 --patches 64 --lights 2 --hemicube 32"},
+    {"matrix-speed", "One multiply against many bounces",
+     "The multiply alone, for three colours at once, the fastest of three stretches. "
+     "Naive radiosity reads the form factors, as floats without colours, once for each of 8 "
+     "bounces, through the same kernel. Errors are of one state of light against all bounces.",
+     "matrix-speed --large 4096", "matrix-speed --large 8192",
+     "matrix-speed --size 16 --patches 64 --hemicube 32 --large 64 --repeats 1"},
+};
+
+}  // namespace
+
+std::span<const Run> all_runs()
+{
+    return kRuns;
+}
+
+}  // namespace lumel::bench
