@@ -40,6 +40,10 @@ void add_other_modes(CLI::App& app, Settings& settings)
            "--projections", settings.cuts,
            "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
+    app.add_option("--edits", settings.edits,
+                   "times edits of a scene that is kept lit over links instead: dim:LAMP, "
+                   "shift:LAMP, paint:MATERIAL, move:THING")
+        ->delimiter(',');
 }
 
 void add_references(CLI::App& app, Settings& settings)
@@ -118,6 +122,8 @@ int main(int argc, char** argv)
         settings.given.id = first_method(settings);
         if (!settings.cuts.empty())
             compare_projections(settings);
+        else if (!settings.edits.empty())
+            time_edits(settings);
         else if (!settings.growth.empty())
             grow(settings);
         else

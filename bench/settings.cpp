@@ -79,13 +79,18 @@ void check_racers(const Settings& settings)
             refuse("--" + given.first, "is read by none of those that race");
 }
 
-Prepared prepare(const Settings& settings, int size)
+Scene scene_of(const Settings& settings)
 {
     Scene scene =
         read_scene(settings.scene, method_of(settings.given.id).materials, settings.lights);
     if (const std::vector<float>& l = settings.lamp; !l.empty())
         add_lamp(scene, {{l[0], l[1], l[2]}, {l[3], l[4]}, l[5]});
-    return Prepared(std::move(scene), AtlasOptions{.size = size});
+    return scene;
+}
+
+Prepared prepare(const Settings& settings, int size)
+{
+    return Prepared(scene_of(settings), AtlasOptions{.size = size});
 }
 
 }  // namespace lumel::bench

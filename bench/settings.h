@@ -42,6 +42,7 @@ struct Settings {
     double seconds = 60.0;                       ///< processor time after which a method stops
     std::vector<int> growth;                     ///< atlas sides to time instead of racing
     std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
+    std::vector<std::string> edits;  ///< to time instead, of a scene that is kept lit: dim:lamp
     GivenMethod given;      ///< the method and its options
     std::string device;
     float near_radius = 0.0f;  ///< 0: as suits the solver
@@ -74,7 +75,10 @@ Options options_of(const Settings& settings)
     return std::get<Options>(method);
 }
 
-/// The scene with its lamp, laid out in an atlas of side `size`. Throws Error.
+/// The scene with its lamp. Throws Error.
+Scene scene_of(const Settings& settings);
+
+/// The same, laid out in an atlas of side `size`. Throws Error.
 Prepared prepare(const Settings& settings, int size);
 
 }  // namespace lumel::bench
