@@ -116,7 +116,7 @@ void print(const std::string& what, const Cost& cost)
 void time_edits(const Settings& settings)
 {
     std::vector<Edit> edits;
-    LiveLinksOptions options;
+    LiveLinksOptions options{.rays = settings.edit_rays};
     for (const std::string& text : settings.edits) {
         edits.push_back(edit_of(text));
         if (edits.back().what == "move")

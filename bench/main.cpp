@@ -44,6 +44,8 @@ void add_other_modes(CLI::App& app, Settings& settings)
                    "times edits of a scene that is kept lit over links instead: dim:LAMP, "
                    "shift:LAMP, paint:MATERIAL, move:THING")
         ->delimiter(',');
+    app.add_option("--edit-rays", settings.edit_rays, "rays of a lumel in such a scene")
+        ->capture_default_str();
 }
 
 void add_references(CLI::App& app, Settings& settings)

@@ -1,5 +1,6 @@
 #include "links/near_lumels.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace lumel {
@@ -11,36 +12,39 @@ constexpr int kNeighbours = 2;
 }  // namespace
 
 NearLumels::NearLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels)
-    : lumels_(lumels),
-      at_hits_(scene, atlas, lumels),
-      by_side_(lumels_by_side(lumels))
+    : places_(scene, atlas, lumels),
+      width_(lumels.width),
+      height_(lumels.height),
+      by_side_(2 * std::size_t(width_) * std::size_t(height_))
 {
+    const std::vector<std::uint32_t> all = lumels_by_side(lumels);
+    for (std::size_t n = 0; n < all.size(); ++n)
+        if (all[n] != kNoLumel && !(lumels.lumels[all[n]].flags & kLumelBuried))
+            by_side_[n] = {all[n], lumels.lumels[all[n]].instance};
+}
+
+std::uint32_t NearLumels::at(int x, int y, const RayHit& hit) const
+{
+    const std::size_t texel = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+    const Entry& entry = by_side_[2 * texel + (hit.front ? 0 : 1)];
+    return entry.instance == hit.instance ? entry.lumel : kNoLumel;
 }
 
 std::uint32_t NearLumels::lumel(const RayHit& hit) const
 {
-    const std::vector<Lumel>& lumels = lumels_.lumels;
-    const auto serves = [&](std::uint32_t j) {
-        return j != kNoLumel && lumels[j].instance == hit.instance &&
-               !(lumels[j].flags & kLumelBuried);
-    };
-    const std::uint32_t exact = at_hits_.lumel(hit);
-    if (serves(exact))
-        return exact;
-    const glm::vec2 at = at_hits_.place(hit);
-    const int width = lumels_.width, height = lumels_.height;
-    std::uint32_t best = kNoLumel;
+    const glm::vec2 place = places_.place(hit);
+    std::uint32_t best =
+        at(std::clamp(int(place.x), 0, width_ - 1), std::clamp(int(place.y), 0, height_ - 1), hit);
+    if (best != kNoLumel)
+        return best;
     float least = std::numeric_limits<float>::max();
-    for (int dy = -kNeighbours; dy <= kNeighbours; ++dy)
-        for (int dx = -kNeighbours; dx <= kNeighbours; ++dx) {
-            const int x = int(at.x) + dx, y = int(at.y) + dy;
-            if (x < 0 || x >= width || y < 0 || y >= height)
-                continue;
-            const std::uint32_t j =
-                by_side_[2 * (std::size_t(y) * std::size_t(width) + std::size_t(x)) +
-                         (hit.front ? 0 : 1)];
-            const glm::vec2 apart = glm::vec2(x, y) + 0.5f - at;
-            if (serves(j) && glm::dot(apart, apart) < least) {
+    for (int y = std::max(int(place.y) - kNeighbours, 0);
+         y <= std::min(int(place.y) + kNeighbours, height_ - 1); ++y)
+        for (int x = std::max(int(place.x) - kNeighbours, 0);
+             x <= std::min(int(place.x) + kNeighbours, width_ - 1); ++x) {
+            const std::uint32_t j = at(x, y, hit);
+            const glm::vec2 apart = glm::vec2(x, y) + 0.5f - place;
+            if (j != kNoLumel && glm::dot(apart, apart) < least) {
                 least = glm::dot(apart, apart);
                 best = j;
             }

@@ -197,7 +197,7 @@ glm::vec3 GroupedLight::passing(const RayStart& start, const SourceSample& sampl
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
-    const RaySpan ray = ray_towards(sample, start, place_.rays.still().lift(), seed);
+    const RaySpan ray = ray_towards(sample, start, place_.lift, seed);
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 

@@ -104,7 +104,7 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
       rays_(checked(scene()), instances_of(scene(), options.things)),
       surfaces_(scene()),
       world_(scene(), rays_.still(), lumels()),
-      starts_(world_, nullptr, rays_.still().lift(), false),
+      starts_(world_, nullptr, rays_.lift(), false),
       sources_(scene(), surfaces_, glm::distance(rays_.still().low(), rays_.still().high())),
       lumels_of_(lumels_by_thing(lumels(), rays_)),
       links_(place(), atlas(), side_of(options.rays), options.seed),
@@ -118,7 +118,8 @@ LivePlace LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
         throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
-    return {scene(), lumels(), rays_, surfaces_, world_, starts_, sources_};
+    return {scene(), lumels(), rays_, surfaces_, world_, starts_, sources_,
+            rays_.lift()};
 }
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)

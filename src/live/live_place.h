@@ -14,6 +14,7 @@ struct LivePlace {
     const WorldLumels& world;
     const RayStarts& starts;
     const LightSources& sources;
+    float lift;  ///< how far off surfaces rays start [m]
 
     /// The thing that a lumel is on, or ThingRays::kStays.
     std::uint32_t thing_of(std::size_t lumel) const
@@ -23,7 +24,7 @@ struct LivePlace {
     /// No point of a lumel, nor where its rays start, is farther from its centre [m].
     float reach(std::size_t lumel) const
     {
-        return kReach * lumels.lumels[lumel].size + kLifts * rays.still().lift();
+        return kReach * lumels.lumels[lumel].size + kLifts * lift;
     }
 
 private:

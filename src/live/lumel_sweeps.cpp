@@ -52,12 +52,10 @@ bool LumelSweeps::step(std::size_t lumels)
     const std::size_t end = std::min(next_ + lumels, direct_.size());
     for (; next_ < end; ++next_) {
         const std::span<const std::uint32_t> links = links_.of(next_);
-        glm::vec4 even(0.0f), odd(0.0f);
-        for (std::size_t k = 0; k < links.size(); k += 2) {
-            even += sent_[links[k]];
-            odd += sent_[links[k + 1]];
-        }
-        received_[next_] = share * (even + odd);
+        glm::vec4 sum(0.0f);
+        for (std::size_t k = 0; k < links.size(); k += 2)
+            sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs wait less for each other
+        received_[next_] = share * sum;
         const glm::vec4 now = albedo_[next_] * (direct_[next_] + received_[next_]);
         const double light = all_channels(now), change = light - all_channels(sent_[next_]);
         sent_[next_] = now;

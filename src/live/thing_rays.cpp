@@ -48,40 +48,53 @@ ThingRays::ThingRays(const Scene& scene, std::vector<std::vector<std::uint32_t>>
     : scene_(&scene),
       things_(std::move(things)),
       thing_of_(things_by_instance(scene, things_)),
-      still_(scene, those_that_stay(thing_of_))
+      still_(scene, those_that_stay(thing_of_)),
+      lift_(still_.lift())
 {
-    for (const std::vector<std::uint32_t>& instances : things_)
-        trees_.emplace_back(scene, instances);
+    for (const std::vector<std::uint32_t>& instances : things_) {
+        const RayScene& tree = trees_.emplace_back(scene, instances);
+        boxes_.push_back({tree.low(), tree.high()});
+    }
 }
 
 void ThingRays::place(std::size_t thing)
 {
     trees_[thing] = RayScene(*scene_, things_[thing]);
+    boxes_[thing] = {trees_[thing].low(), trees_[thing].high()};
 }
 
 bool ThingRays::closest(const RaySpan& ray, RayHit& hit) const
 {
     RaySpan rest = ray;
     bool any = still_.closest(rest, hit);
-    for (const RayScene& tree : trees_) {
+    for (std::size_t t = 0; t < trees_.size(); ++t) {
         if (any)
             rest.far = hit.distance;
-        any = tree.closest(rest, hit) || any;
+        if (may_meet(t, rest))
+            any = trees_[t].closest(rest, hit) || any;
     }
     return any;
 }
 
 bool ThingRays::is_clear(const RaySpan& ray) const
 {
-    const glm::vec3 nothing(0.0f);
-    return still_.passing(ray) != nothing &&
-           std::all_of(trees_.begin(), trees_.end(),
-                       [&](const RayScene& tree) { return tree.passing(ray) != nothing; });
+    if (still_.passing(ray) == glm::vec3(0.0f))
+        return false;
+    for (std::size_t t = 0; t < trees_.size(); ++t)
+        if (meets(t, ray))
+            return false;
+    return true;
+}
+
+/// A look at a box costs much less than one at a tree.
+bool ThingRays::may_meet(std::size_t thing, const RaySpan& ray) const
+{
+    return boxes_[thing].may_meet(ray.origin, ray.direction, ray.far, lift_);
 }
 
 bool ThingRays::meets(std::size_t thing, const RaySpan& ray) const
 {
-    return trees_[thing].passing(ray) == glm::vec3(0.0f);
+    return may_meet(thing, ray) && trees_[thing].passing(ray) == glm::vec3(0.0f);
 }
 
 }  // namespace lumel

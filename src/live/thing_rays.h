@@ -44,7 +44,9 @@ public:
 
     std::size_t things() const { return trees_.size(); }
     const std::vector<std::uint32_t>& instances(std::size_t thing) const { return things_[thing]; }
-    Box box(std::size_t thing) const { return {trees_[thing].low(), trees_[thing].high()}; }
+    const Box& box(std::size_t thing) const { return boxes_[thing]; }
+    /// How far off a surface rays should start, wherever things are [m].
+    float lift() const { return lift_; }
     const RayScene& still() const { return still_; }
 
     static constexpr std::uint32_t kStays = ~0u;
@@ -52,11 +54,15 @@ public:
     std::uint32_t thing_of(std::uint32_t instance) const { return thing_of_[instance]; }
 
 private:
+    bool may_meet(std::size_t thing, const RaySpan& ray) const;
+
     const Scene* scene_;
     std::vector<std::vector<std::uint32_t>> things_;
     std::vector<std::uint32_t> thing_of_;  ///< [instances]
     RayScene still_;
+    float lift_;                   ///< [m]
     std::vector<RayScene> trees_;  ///< [things]
+    std::vector<Box> boxes_;       ///< [things] around them
 };
 
 }  // namespace lumel
