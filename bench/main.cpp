@@ -21,6 +21,10 @@ void add_scene(CLI::App& app, Settings& settings)
         ->delimiter(',')
         ->expected(6)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
+    app.add_option("--box", settings.box, "adds a grey box of that name, around a place [m]")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,WIDTH,HEIGHT,DEPTH");
     app.add_option_function<std::string>(
            "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
            "light from all directions, as in lumel bake")

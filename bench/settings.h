@@ -28,6 +28,7 @@ struct Settings {
     LightOptions lights;
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none
+    std::vector<float> box;  ///< centre and size [m] of one that is added; empty: none
     std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
     int reference_spp = 4096;    ///< 0: none, nothing is compared
     std::string save_reference;  ///< EXR to keep the reference in
@@ -76,7 +77,7 @@ Options options_of(const Settings& settings)
     return std::get<Options>(method);
 }
 
-/// The scene with its lamp. Throws Error.
+/// The scene with its lamp and box. Throws Error.
 Scene scene_of(const Settings& settings);
 
 /// The same, laid out in an atlas of side `size`. Throws Error.
