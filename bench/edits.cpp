@@ -29,7 +29,8 @@ struct Edit {
 Edit edit_of(const std::string& text)
 {
     const std::size_t colon = text.find(':');
-    const Edit edit{text.substr(0, colon), colon == std::string::npos ? "" : text.substr(colon + 1)};
+    const Edit edit{text.substr(0, colon),
+                    colon == std::string::npos ? "" : text.substr(colon + 1)};
     if (edit.what != "dim" && edit.what != "shift" && edit.what != "paint" && edit.what != "move")
         throw Error(ErrorKind::input, "--edits " + text,
                     "is not one of dim:LAMP, shift:LAMP, paint:MATERIAL and move:THING");
@@ -63,13 +64,12 @@ double make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_
                        shifted(live.scene(), edit.name,
                                glm::distance(rays.still().low(), rays.still().high()), n));
     else {
-        const Box box = rays.box(thing);
+        const Box& box = rays.box(std::uint32_t(thing));
         const float size = std::max(box.high.x - box.low.x, box.high.z - box.low.z);
         const glm::mat4 shift = glm::translate(
             glm::mat4(1.0f), glm::vec3(kStep * size * float(n % 2 + 1), 0.0f, kStep * size * wave));
         const Retraced retraced = live.move(edit.name, shift);
-        return double(retraced.all()) /
-               double(live.lumels().lumels.size() * live.links().rays());
+        return double(retraced.all()) / double(live.lumels().lumels.size() * live.links().rays());
     }
     return 0.0;
 }
@@ -106,8 +106,8 @@ Cost median(std::vector<Cost> costs)
 
 void print(const std::string& what, const Cost& cost)
 {
-    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>10.2f}\n", what, cost.edit, cost.good,
-               cost.good_sweeps, cost.rest, cost.rest_sweeps, 100.0 * cost.retraced);
+    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>10.2f}\n", what, cost.edit,
+               cost.good, cost.good_sweeps, cost.rest, cost.rest_sweeps, 100.0 * cost.retraced);
     std::fflush(stdout);
 }
 

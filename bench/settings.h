@@ -28,7 +28,7 @@ struct Settings {
     LightOptions lights;
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none
-    std::vector<float> box;  ///< centre and size [m] of one that is added; empty: none
+    std::vector<float> box;   ///< centre and size [m] of one that is added; empty: none
     std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
     int reference_spp = 4096;    ///< 0: none, nothing is compared
     std::string save_reference;  ///< EXR to keep the reference in
@@ -45,7 +45,7 @@ struct Settings {
     std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
     std::vector<std::string> edits;  ///< to time instead, of a scene that is kept lit: dim:lamp
     std::uint32_t edit_rays = 64;    ///< of a lumel of such a scene
-    GivenMethod given;      ///< the method and its options
+    GivenMethod given;               ///< the method and its options
     std::string device;
     float near_radius = 0.0f;  ///< 0: as suits the solver
 };

@@ -38,10 +38,10 @@ public:
     enum class Part { material, light, sky };
     struct Origin {
         Part part;
-        std::uint32_t index;     ///< of the material or the light
-        std::uint32_t instance;  ///< of a surface
-        glm::vec3 centre;        ///< of a ball around it [m]
-        float radius;            ///< [m]
+        std::uint32_t index;                 ///< of the material or the light
+        std::uint32_t instance;              ///< of a surface
+        glm::vec3 centre;                    ///< of a ball around it [m]
+        float radius;                        ///< [m]
         const PunctualLight* sun = nullptr;  ///< that it is; then it is infinitely far away
     };
     Origin origin(std::size_t source) const;

@@ -140,8 +140,8 @@ bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& befor
     });
 }
 
-/// May a ray from a lumel to a source meet a box? All of them lie within the lumel's reach, or the
-/// source's radius, of the line between their centres.
+/// May a ray from a lumel to a source meet a box? All of them lie in the hull of two balls, around
+/// the lumel and around the source.
 bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
 {
     const LightSources::Origin origin = place_.sources.origin(source);
@@ -158,7 +158,12 @@ bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box
     const float distance = glm::length(path);
     if (!(distance > 0.0f))
         return true;
-    return box.may_meet(from, path / distance, distance, std::max(reach, origin.radius));
+    // Of the balls that lead from the one to the other, so many times the way may touch the box.
+    const glm::vec3 along = path / distance;
+    const float growth = std::max(origin.radius - reach, 0.0f);
+    const float last = glm::dot(box.centre() - from, along) + box.radius() + reach;
+    const float way = distance > growth ? std::clamp(last / (distance - growth), 0.0f, 1.0f) : 1.0f;
+    return box.may_meet(from, along, way * distance, reach + way * growth);
 }
 
 glm::vec3 GroupedLight::light_of(const Group& group, std::size_t i) const
@@ -237,8 +242,8 @@ glm::vec3 GroupedLight::by_many(const Sender& sender, std::uint32_t stream, std:
             continue;
         const SourceSample sample =
             place_.sources.sample(sender.sources[n], start, samples.stratified(kSourcePair));
-        sum += passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance *
-               (total / own);
+        sum +=
+            passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
     }
     return sum / float(options_.many_rays);
 }

@@ -49,7 +49,8 @@ private:
     };
     struct Group {
         std::vector<std::uint32_t> senders;
-        std::vector<glm::vec3> light;  ///< [N] [lx] of the one sender by factor 1, of several by theirs
+        std::vector<glm::vec3>
+            light;  ///< [N] [lx] of the one sender by factor 1, of several by theirs
 
         bool is_shared() const { return senders.size() > 1; }
     };

@@ -55,7 +55,8 @@ std::vector<std::vector<std::uint32_t>> lumels_by_thing(const Lumels& lumels, co
 {
     std::vector<std::vector<std::uint32_t>> result(rays.things());
     for (std::uint32_t i = 0; i < lumels.lumels.size(); ++i)
-        if (const std::uint32_t t = rays.thing_of(lumels.lumels[i].instance); t != ThingRays::kStays)
+        if (const std::uint32_t t = rays.thing_of(lumels.lumels[i].instance);
+            t != ThingRays::kStays)
             result[t].push_back(i);
     return result;
 }
@@ -118,8 +119,7 @@ LivePlace LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
         throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
-    return {scene(), lumels(), rays_, surfaces_, world_, starts_, sources_,
-            rays_.lift()};
+    return {scene(), lumels(), rays_, surfaces_, world_, starts_, sources_, rays_.lift()};
 }
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
@@ -154,9 +154,8 @@ void LiveLinks::set_sky(const glm::vec3& factor)
 void LiveLinks::set_albedo(const std::string& name, const glm::vec3& colour)
 {
     const std::vector<Material>& materials = scene().materials;
-    const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material& one) {
-        return one.name == name;
-    });
+    const auto found = std::find_if(materials.begin(), materials.end(),
+                                    [&](const Material& one) { return one.name == name; });
     if (found == materials.end())
         throw Error(ErrorKind::input, scene().path, "has no material named \"" + name + "\"");
     if (glm::clamp(colour, 0.0f, 1.0f) != colour)

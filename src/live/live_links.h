@@ -29,7 +29,8 @@ struct LumelScene {
 };
 
 /// Lays a scene out. What lies under or in what stays is buried. Throws Error.
-LumelScene lay_out(Scene scene, const AtlasOptions& options, const std::vector<std::string>& things);
+LumelScene lay_out(Scene scene, const AtlasOptions& options,
+                   const std::vector<std::string>& things);
 
 struct LiveLinksState {
     /// Light still to come, as far as the last sweeps tell: of all lumels by their mean, and of

@@ -2,7 +2,8 @@
 //
 // - those that start on it,
 // - those that ended on it, of which those that were lost on it have an end of their own,
-// - those that meet it in its new place. Only the rays of the cells of directions that lead to it are
+// - those that meet it in its new place. Only the rays of the cells of directions that lead to it
+// are
 //   made again, and ask the thing alone.
 //
 // What merely passed its old place meets what it met before.
@@ -160,11 +161,10 @@ Retraced LumelLinks::follow(std::uint32_t thing)
                 blocks[b].crossed += one.crossed;
             }
     });
-    return std::accumulate(blocks.begin(), blocks.end(), Retraced{},
-                           [](const Retraced& a, const Retraced& b) {
-                               return Retraced{a.started + b.started, a.ended + b.ended,
-                                               a.crossed + b.crossed};
-                           });
+    return std::accumulate(
+        blocks.begin(), blocks.end(), Retraced{}, [](const Retraced& a, const Retraced& b) {
+            return Retraced{a.started + b.started, a.ended + b.ended, a.crossed + b.crossed};
+        });
 }
 
 Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)

@@ -49,7 +49,8 @@ public:
                sky_light_.size() * sizeof(glm::vec3);
     }
 
-    /// What the rays of a lumel bring from the sky, without the bright parts that are a source [lx].
+    /// What the rays of a lumel bring from the sky, without the bright parts that are a source
+    /// [lx].
     const std::vector<glm::vec3>& sky_light() const { return sky_light_; }
 
 private:
@@ -64,9 +65,9 @@ private:
     const LivePlace place_;
     NearLumels near_;
     std::uint32_t side_, seed_, lumels_;
-    std::vector<std::uint32_t> links_;      ///< [N][side²]
-    std::vector<std::uint32_t> on_thing_;   ///< [ends] a thing, or ThingRays::kStays
-    std::vector<glm::vec3> sky_light_;      ///< [N]
+    std::vector<std::uint32_t> links_;     ///< [N][side²]
+    std::vector<std::uint32_t> on_thing_;  ///< [ends] a thing, or ThingRays::kStays
+    std::vector<glm::vec3> sky_light_;     ///< [N]
 };
 
 }  // namespace lumel

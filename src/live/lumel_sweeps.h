@@ -16,8 +16,8 @@ struct SweepChange {
     double dark = 0.0;  ///< the same of lumels between 0.5 and 30 % of the mean of all
 };
 
-/// Solves H = D + X, X_i = 1/n Σ_k B[link_ik], B = ρ H by forward Gauss-Seidel sweeps in place: links
-/// that end in no lumel find B = 0. One thread, so that the same edits give the same bytes.
+/// Solves H = D + X, X_i = 1/n Σ_k B[link_ik], B = ρ H by forward Gauss-Seidel sweeps in place:
+/// links that end in no lumel find B = 0. One thread, so that the same edits give the same bytes.
 class LumelSweeps {
 public:
     /// The links must outlive it.

@@ -83,7 +83,7 @@ private:
     void place_facets(std::size_t i, const Lumel& lumel, const Piece* local,
                       const Placement& placement);
 
-    float extent_;  ///< largest coordinate [m]
+    float extent_;                                ///< largest coordinate [m]
     std::vector<std::vector<GaussPoint>> rules_;  ///< of 1, 2, … points
     std::vector<WorldLumel> lumels_;
     std::vector<Piece> pieces_;

@@ -30,7 +30,8 @@ Scene read(const std::string& name)
 Scene open_box()
 {
     Scene scene = read("cornell-box.gltf");
-    scene.sky = {.width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
+    scene.sky = {
+        .width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
     scene.sky.radiance[3 * 16 + 4] = glm::vec3(3000.0f, 2000.0f, 1000.0f);  // low in the open side
     PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.02f};
     lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.15f, 0.4f, 0.3f));
@@ -109,7 +110,8 @@ LiveLinks anew(const LiveLinks& live, const LiveLinksOptions& options)
 
 TEST(LiveLinks, ClosedRoomGlowsByItsLampDimmed)
 {
-    for (const auto& [name, albedo] : {std::pair("furnace-0.5.gltf", 0.5f), {"furnace-0.9.gltf", 0.9f}}) {
+    for (const auto& [name, albedo] :
+         {std::pair("furnace-0.5.gltf", 0.5f), {"furnace-0.9.gltf", 0.9f}}) {
         const Scene scene = read(name);
         const float sent = kPi * scene.materials[0].emitted.r;
         LiveLinks live(lay_out(scene, {.size = 32}, {}), options_for({}));
@@ -207,7 +209,9 @@ TEST(LiveLinks, MovedAtRandomLinksAndDirectLightAreThoseOfTheLastPlace)
     LiveLinks live(laid_out(open_box(), options.things), options);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(-1.0f, 1.0f);
-    const auto vector = [&](float size) { return size * glm::vec3(any(random), any(random), any(random)); };
+    const auto vector = [&](float size) {
+        return size * glm::vec3(any(random), any(random), any(random));
+    };
     std::uint64_t retraced = 0;
     for (int k = 0; k < 20; ++k) {
         const std::string& thing = k % 4 == 2 ? kLight : kBlock;
@@ -238,8 +242,8 @@ TEST(LiveLinks, ShadowsOfABoxAlongTheAxesMoveToTheirEdges)
     sun.transform[2] = glm::vec4(glm::normalize(glm::vec3(0.1f, 0.3f, -1.0f)), 0.0f);
     scene.lights.push_back(sun);
     LiveLinks live(laid_out(scene, options.things), options);
-    for (const glm::vec3& shift : {glm::vec3(0.1f, 0.0f, 0.0f), glm::vec3(0.0f, 0.3f, 0.2f),
-                                   glm::vec3(-0.2f, 0.1f, 0.1f)}) {
+    for (const glm::vec3& shift :
+         {glm::vec3(0.1f, 0.0f, 0.0f), glm::vec3(0.0f, 0.3f, 0.2f), glm::vec3(-0.2f, 0.1f, 0.1f)}) {
         live.move(box, glm::translate(glm::mat4(1.0f), shift));
         LiveLinks fresh = anew(live, options);
         EXPECT_EQ(different(live, fresh), 0u);
@@ -250,7 +254,8 @@ TEST(LiveLinks, MovedBackNothingIsDifferent)
 {
     const LiveLinksOptions options = options_for({kBlock});
     LiveLinks live(laid_out(open_box(), options.things), options), still = anew(live, options);
-    live.move(kBlock, motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f, 0.0f, 0.1f)));
+    live.move(kBlock,
+              motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f, 0.0f, 0.1f)));
     EXPECT_GT(different(live, still), 0u);
     live.move(kBlock, glm::mat4(1.0f));
     EXPECT_EQ(different(live, still), 0u);
