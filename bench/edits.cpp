@@ -51,8 +51,8 @@ glm::mat4 shifted(const Scene& scene, const std::string& lamp, float extent, int
            found->transform;
 }
 
-/// Makes an edit for the n-th time; returns the share of links that it traced again.
-double make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t thing, int n)
+/// Makes an edit for the n-th time; returns what moves have found again.
+Moved make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t thing, int n)
 {
     const float wave = float(n + 1) / float(kTimes);
     if (edit.what == "dim")
@@ -68,16 +68,15 @@ double make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_
         const float size = std::max(box.high.x - box.low.x, box.high.z - box.low.z);
         const glm::mat4 shift = glm::translate(
             glm::mat4(1.0f), glm::vec3(kStep * size * float(n % 2 + 1), 0.0f, kStep * size * wave));
-        const Retraced retraced = live.move(edit.name, shift);
-        return double(retraced.all()) / double(live.lumels().lumels.size() * live.links().rays());
+        return live.move(edit.name, shift);
     }
-    return 0.0;
+    return {};
 }
 
 struct Cost {
     double edit, good, rest;  ///< [ms] of the edit; with sweeps until good, and until at rest
     int good_sweeps, rest_sweeps;
-    double retraced;
+    double links, direct;  ///< share that is found again
 };
 
 /// Light that bounces is swept until it is good, then until it rests.
@@ -106,8 +105,9 @@ Cost median(std::vector<Cost> costs)
 
 void print(const std::string& what, const Cost& cost)
 {
-    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>10.2f}\n", what, cost.edit,
-               cost.good, cost.good_sweeps, cost.rest, cost.rest_sweeps, 100.0 * cost.retraced);
+    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>10.2f} {:>11.1f}\n", what,
+               cost.edit, cost.good, cost.good_sweeps, cost.rest, cost.rest_sweeps,
+               100.0 * cost.links, 100.0 * cost.direct);
     std::fflush(stdout);
 }
 
@@ -124,7 +124,7 @@ void time_edits(const Settings& settings)
     }
     const LumelScene laid_out =
         lay_out(scene_of(settings), {.size = settings.size}, options.things);
-    Cost first{.retraced = 1.0};
+    Cost first{.links = 1.0, .direct = 1.0};
     Stopwatch watch;
     watch.start();
     LiveLinks live(laid_out, options);
@@ -133,8 +133,8 @@ void time_edits(const Settings& settings)
     finish(live, watch, first);
     fmt::print("{} at {}: {} lumels, {} rays each, {:.0f} MB\n", settings.scene, settings.size,
                live.lumels().lumels.size(), live.links().rays(), 1e-6 * double(live.bytes()));
-    fmt::print("{:<24} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10}\n", "processor time [ms] of", "edit",
-               "to 1 %", "sweeps", "to rest", "sweeps", "links [%]");
+    fmt::print("{:<24} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10} {:>11}\n", "processor time [ms] of",
+               "edit", "to 1 %", "sweeps", "to rest", "sweeps", "links [%]", "direct [%]");
     print("all anew", first);
     const LumelScene& scene = laid_out;
     std::vector<std::vector<std::uint32_t>> instances;
@@ -150,8 +150,11 @@ void time_edits(const Settings& settings)
             Cost& cost = costs.emplace_back();
             Stopwatch own;
             own.start();
-            cost.retraced = make(live, edit, rays, thing, n);
+            const Moved moved = make(live, edit, rays, thing, n);
             own.stop();
+            cost.links = double(moved.links.all()) /
+                         double(live.lumels().lumels.size() * live.links().rays());
+            cost.direct = moved.direct;
             cost.edit = 1e3 * own.cpu;
             finish(live, own, cost);
         }

@@ -199,17 +199,19 @@ void LiveLinks::put(std::uint32_t thing, const glm::mat4& motion)
     sources_.place();
 }
 
-Retraced LiveLinks::move(const std::string& name, const glm::mat4& motion)
+Moved LiveLinks::move(const std::string& name, const glm::mat4& motion)
 {
     const std::uint32_t moved = thing(name);
     if (!is_rigid(glm::mat4(1.0f), motion))
         throw Error(ErrorKind::input, "\"" + name + "\"", "would be stretched by its motion");
     const Box before = rays_.box(moved);
     put(moved, motion);
-    const Retraced retraced = links_.follow(moved);
-    light_.follow(moved, before);
+    Moved again{.links = links_.follow(moved)};
+    const double all = double(lumels().lumels.size() * light_.groups());
+    const double found = double(light_.follow(moved, before));
+    again.direct = all > 0.0 ? found / all : 0.0;
     edited_ = true;
-    return retraced;
+    return again;
 }
 
 std::vector<glm::vec3> LiveLinks::direct()

@@ -32,6 +32,12 @@ struct LumelScene {
 LumelScene lay_out(Scene scene, const AtlasOptions& options,
                    const std::vector<std::string>& things);
 
+/// What a move has found again.
+struct Moved {
+    Retraced links;
+    double direct = 0.0;  ///< share of direct light: of lumels, each for each group
+};
+
 struct LiveLinksState {
     /// Light still to come, as far as the last sweeps tell: of all lumels by their mean, and of
     /// dark ones by theirs.
@@ -47,7 +53,7 @@ struct LiveLinksState {
 ///
 /// At rest the light is that of a scene that is solved anew with the same seed: links and direct
 /// light in every bit, what bounces within the residual. Works on the host; not safe for use from
-/// several threads. Closed rooms of albedo over 0.9 take hundreds of sweeps.
+/// several threads. Closed rooms of albedo 0.99 take hundreds of sweeps.
 class LiveLinks {
 public:
     /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
@@ -66,7 +72,7 @@ public:
     void move_lamp(const std::string& name, const glm::mat4& transform);
     /// A thing stands where `motion` takes it from its place in the scene (world to world).
     /// Throws Error{input} if it is no thing of the options, or would be stretched.
-    Retraced move(const std::string& thing, const glm::mat4& motion);
+    Moved move(const std::string& thing, const glm::mat4& motion);
 
     /// Sweeps for about so many milliseconds, or until at rest; a part of a sweep at least.
     LiveLinksState advance(double budget_ms);

@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// Rays that a move has traced again.
+/// Rays of links that a move has traced again.
 struct Retraced {
     std::uint64_t started = 0;  ///< on the thing
     std::uint64_t ended = 0;    ///< on it before

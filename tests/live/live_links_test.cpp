@@ -218,7 +218,7 @@ TEST(LiveLinks, MovedAtRandomLinksAndDirectLightAreThoseOfTheLastPlace)
         // Through walls too, and out of the box.
         retraced += live.move(thing, motion(glm::vec3(0.2f), kPi * any(random), vector(1.0f),
                                             vector(k % 5 == 4 ? 0.8f : 0.2f)))
-                        .all();
+                        .links.all();
         live.advance(0.0);
     }
     EXPECT_LT(retraced, 20 * live.lumels().lumels.size() * options.rays / 3);
