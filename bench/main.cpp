@@ -21,6 +21,10 @@ void add_scene(CLI::App& app, Settings& settings)
         ->delimiter(',')
         ->expected(6)
         ->type_name("X,Y,Z,WIDTH,DEPTH,LUX");
+    app.add_option("--box", settings.box, "adds a grey box of that name, around a place [m]")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,WIDTH,HEIGHT,DEPTH");
     app.add_option_function<std::string>(
            "--sky", [&](const std::string& text) { set_sky(settings.lights, text); },
            "light from all directions, as in lumel bake")
@@ -40,6 +44,12 @@ void add_other_modes(CLI::App& app, Settings& settings)
            "--projections", settings.cuts,
            "compares both projections instead, edges of triangles cut into this number of pieces")
         ->delimiter(',');
+    app.add_option("--edits", settings.edits,
+                   "times edits of a scene that is kept lit over links instead: dim:LAMP, "
+                   "shift:LAMP, paint:MATERIAL, move:THING")
+        ->delimiter(',');
+    app.add_option("--edit-rays", settings.edit_rays, "rays of a lumel in such a scene")
+        ->capture_default_str();
 }
 
 void add_references(CLI::App& app, Settings& settings)
@@ -118,6 +128,8 @@ int main(int argc, char** argv)
         settings.given.id = first_method(settings);
         if (!settings.cuts.empty())
             compare_projections(settings);
+        else if (!settings.edits.empty())
+            time_edits(settings);
         else if (!settings.growth.empty())
             grow(settings);
         else

@@ -14,4 +14,7 @@ void grow(const Settings& settings);
 /// Both projections of what eyes see: errors against rays and device time, by triangle count.
 void compare_projections(const Settings& settings);
 
+/// Processor time of edits of a scene that is kept lit over links.
+void time_edits(const Settings& settings);
+
 }  // namespace lumel::bench

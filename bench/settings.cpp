@@ -27,6 +27,33 @@ void add_lamp(Scene& scene, const Lamp& lamp)
     scene.instances.push_back(instance);
 }
 
+/// A closed grey box.
+void add_box(Scene& scene, const glm::vec3& centre, const glm::vec3& size)
+{
+    Material material{.name = "box"};
+    material.base_color = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);
+    scene.materials.push_back(material);
+
+    Primitive box;
+    for (int side = 0; side < 6; ++side) {
+        glm::vec3 out(0.0f), u(0.0f);
+        out[side / 2] = side % 2 == 0 ? 0.5f : -0.5f;
+        u[(side / 2 + 1) % 3] = 0.5f;
+        const glm::vec3 v = 2.0f * glm::cross(out, u);
+        const auto first = std::uint32_t(box.positions.size());
+        for (const glm::vec3& corner : {out - u - v, out + u - v, out + u + v, out - u + v})
+            box.positions.push_back(size * corner);
+        for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u})
+            box.indices.push_back(first + k);
+    }
+    box.material = int(scene.materials.size()) - 1;
+    scene.meshes.push_back({"box", {box}});
+
+    Instance instance{.name = "box", .mesh = int(scene.meshes.size()) - 1};
+    instance.transform[3] = glm::vec4(centre, 1.0f);
+    scene.instances.push_back(instance);
+}
+
 bool is_competitor(std::string_view racer)
 {
     return racer == kPathTracer || racer == kIteratedGather;
@@ -79,13 +106,20 @@ void check_racers(const Settings& settings)
             refuse("--" + given.first, "is read by none of those that race");
 }
 
-Prepared prepare(const Settings& settings, int size)
+Scene scene_of(const Settings& settings)
 {
     Scene scene =
         read_scene(settings.scene, method_of(settings.given.id).materials, settings.lights);
     if (const std::vector<float>& l = settings.lamp; !l.empty())
         add_lamp(scene, {{l[0], l[1], l[2]}, {l[3], l[4]}, l[5]});
-    return Prepared(std::move(scene), AtlasOptions{.size = size});
+    if (const std::vector<float>& b = settings.box; !b.empty())
+        add_box(scene, {b[0], b[1], b[2]}, {b[3], b[4], b[5]});
+    return scene;
+}
+
+Prepared prepare(const Settings& settings, int size)
+{
+    return Prepared(scene_of(settings), AtlasOptions{.size = size});
 }
 
 }  // namespace lumel::bench

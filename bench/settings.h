@@ -28,6 +28,7 @@ struct Settings {
     LightOptions lights;
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
     std::vector<float> lamp;  ///< x, y, z, width, depth, exitance of a Lamp; empty: none
+    std::vector<float> box;   ///< centre and size [m] of one that is added; empty: none
     std::string reference;  ///< EXR made by `lumel reference` with the same atlas; empty: made here
     int reference_spp = 4096;    ///< 0: none, nothing is compared
     std::string save_reference;  ///< EXR to keep the reference in
@@ -42,7 +43,9 @@ struct Settings {
     double seconds = 60.0;                       ///< processor time after which a method stops
     std::vector<int> growth;                     ///< atlas sides to time instead of racing
     std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
-    GivenMethod given;      ///< the method and its options
+    std::vector<std::string> edits;  ///< to time instead, of a scene that is kept lit: dim:lamp
+    std::uint32_t edit_rays = 64;    ///< of a lumel of such a scene
+    GivenMethod given;               ///< the method and its options
     std::string device;
     float near_radius = 0.0f;  ///< 0: as suits the solver
 };
@@ -74,7 +77,10 @@ Options options_of(const Settings& settings)
     return std::get<Options>(method);
 }
 
-/// The scene with its lamp, laid out in an atlas of side `size`. Throws Error.
+/// The scene with its lamp and box. Throws Error.
+Scene scene_of(const Settings& settings);
+
+/// The same, laid out in an atlas of side `size`. Throws Error.
 Prepared prepare(const Settings& settings, int size);
 
 }  // namespace lumel::bench

@@ -1,10 +1,4 @@
-// The light of a source at a lumel is that of the source as if nothing were between, where that is
-// known exactly, times the visible share, weighted by what comes along each ray:
-//
-//     D = ⟨open⟩ · Σ V f / Σ f,        else  D = ⟨V f⟩.
-//
-// So lumels that see all of a source, or nothing of it, have no noise. Random numbers of the two
-// halves are independent.
+// Random numbers of the two halves are independent.
 //
 // A few rays tell which lumels see parts of sources; these begin anew with many, so that what the
 // few have shown decides nothing about the result. More go where neighbours are uncertain.
@@ -17,6 +11,7 @@
 #include "core/luminance.h"
 #include "core/parallel.h"
 #include "links/deviation.h"
+#include "links/found_light.h"
 #include "paths/samples.h"
 
 namespace lumel {
@@ -59,39 +54,6 @@ constexpr std::uint32_t kManyStream = 0x10000;
 constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
 
 }  // namespace
-
-/// What the rays to one source tell, of a lumel or of a cell.
-struct DirectFinder::Sums {
-    glm::vec3 open{0.0f};    ///< Σ of what is known exactly
-    glm::vec3 passed{0.0f};  ///< Σ V f
-    float offered = 0.0f;    ///< Σ f by luminance
-    glm::vec3 seen{0.0f};    ///< Σ V f by luminance of f
-    std::uint32_t rays = 0, free = 0, hidden = 0;
-    bool exact = true;
-
-    void add(const SourceSample& sample, const glm::vec3& passing)
-    {
-        const float offer = float(luminance(sample.irradiance));
-        ++rays;
-        if (sample.open)
-            open += *sample.open;
-        else
-            exact = false;
-        passed += passing * sample.irradiance;
-        offered += offer;
-        seen += passing * offer;
-        if (offer > 0.0f)
-            ++(passing == glm::vec3(0.0f) ? hidden : free);
-    }
-    glm::vec3 light() const
-    {
-        if (rays == 0)
-            return glm::vec3(0.0f);
-        if (!exact)
-            return passed / float(rays);
-        return offered > 0.0f ? open / float(rays) * (seen / offered) : glm::vec3(0.0f);
-    }
-};
 
 struct DirectFinder::Found {
     glm::vec3 half[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
@@ -203,11 +165,7 @@ void DirectFinder::look(const RayStart& start, std::size_t source, float factor,
         sample.irradiance *= factor;
         sample.open.reset();
     }
-    looks.add(sample,
-              std::isinf(sample.distance)
-                  ? ray_out(start.position, sample.direction, seed)
-                  : ray_between(start.position, start.position + sample.distance * sample.direction,
-                                place_.rays.lift(), seed));
+    looks.add(sample, ray_towards(sample, start, place_.rays.lift(), seed));
 }
 
 std::uint32_t DirectFinder::looks_around() const
@@ -292,13 +250,13 @@ void DirectFinder::add(std::uint32_t i, Wave& wave) const
 /// Adds what the rays of a group have found.
 void DirectFinder::take(const Group& group, const Wave& wave, Found& found)
 {
-    std::array<Sums, kCells> of_cells;
-    Sums of_both;
+    std::array<FoundLight, kCells> of_cells;
+    FoundLight of_both;
     for (std::uint32_t h = 0; h < 2; ++h) {
-        Sums sums;
+        FoundLight sums;
         const std::uint32_t first = group.first + h * group.rays;
         for (std::uint32_t look = first; look < first + group.rays; ++look)
-            for (Sums* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
+            for (FoundLight* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
                 into->add(wave.looks.sample(look), wave.looks.passing(look));
         found.half[h] += sums.light();
     }

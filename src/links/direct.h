@@ -77,7 +77,6 @@ private:
 
     struct Choice;
     struct Found;
-    struct Sums;
     /// A source that rays go to, or several that share them.
     struct RaysTo {
         std::uint32_t source = 0;

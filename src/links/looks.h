@@ -1,6 +1,7 @@
 #pragma once
 // Looks from points at sources of light: asked one by one, answered together.
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,16 @@
 #include "rays/ray_caster.h"
 
 namespace lumel {
+
+/// From a point to where a sample of a source is. lift: short of it [m].
+inline RaySpan ray_towards(const SourceSample& sample, const RayStart& start, float lift,
+                           std::uint32_t seed)
+{
+    if (std::isinf(sample.distance))
+        return ray_out(start.position, sample.direction, seed);
+    return ray_between(start.position, start.position + sample.distance * sample.direction, lift,
+                       seed);
+}
 
 class Looks {
 public:

@@ -98,9 +98,37 @@ LightSources::LightSources(const Scene& scene, const Surfaces& surfaces, float e
       extent_(extent),
       most_(kInfinite)
 {
-    add_surfaces(surfaces);
+    cut_sky();
+    place();
+}
+
+void LightSources::place()
+{
+    sources_.clear();
+    triangles_.clear();
+    add_surfaces(*surfaces_);
     add_lights();
-    add_sky();
+    if (bright_power_ > 0.0)
+        sources_.push_back({.kind = Kind::sky, .power = bright_power_});
+}
+
+LightSources::Origin LightSources::origin(std::size_t index) const
+{
+    const Source& source = sources_[index];
+    if (source.kind == Kind::sky)
+        return {.part = Part::sky};
+    if (source.kind == Kind::lamp || source.kind == Kind::sun)
+        return {.part = Part::light,
+                .index = source.first,
+                .centre = source.centre,
+                .radius = source.radius,
+                .sun = source.kind == Kind::sun ? &scene_->lights[source.first] : nullptr};
+    const std::size_t surface = triangles_[source.first].surface;
+    return {.part = Part::material,
+            .index = std::uint32_t(surfaces_->all()[surface].source->material),
+            .instance = surfaces_->instance(surface),
+            .centre = source.centre,
+            .radius = source.radius};
 }
 
 void LightSources::add_surfaces(const Surfaces& surfaces)
@@ -226,8 +254,8 @@ void LightSources::add_lights()
     }
 }
 
-/// Cuts off what is far brighter than the mean, and makes a source of it.
-void LightSources::add_sky()
+/// Cuts off what is far brighter than the mean, to be a source.
+void LightSources::cut_sky()
 {
     const Sky& sky = scene_->sky;
     if (sky.empty())
@@ -256,7 +284,7 @@ void LightSources::add_sky()
         radiance *= bright > most ? float(1.0 - most / bright) : 0.0f;
     }
     bright_sampler_.emplace(bright_);
-    sources_.push_back({.kind = Kind::sky, .power = above});
+    bright_power_ = above;
 }
 
 glm::vec3 LightSources::rest_of_sky(const glm::vec3& direction) const

@@ -29,7 +29,22 @@ public:
     /// The scene and its surfaces must outlive this, unmoved. extent: of the scene [m].
     LightSources(const Scene& scene, const Surfaces& surfaces, float extent);
 
+    /// Finds lamps and surfaces again, where they are now.
+    void place();
+
     std::size_t count() const { return sources_.size(); }
+
+    /// What a source is part of, and where it is.
+    enum class Part { material, light, sky };
+    struct Origin {
+        Part part;
+        std::uint32_t index;                 ///< of the material or the light
+        std::uint32_t instance;              ///< of a surface
+        glm::vec3 centre;                    ///< of a ball around it [m]
+        float radius;                        ///< [m]
+        const PunctualLight* sun = nullptr;  ///< that it is; then it is infinitely far away
+    };
+    Origin origin(std::size_t source) const;
 
     /// One sample; `at` in the unit square.
     SourceSample sample(std::size_t source, const RayStart& start, const glm::vec2& at) const;
@@ -71,7 +86,7 @@ private:
     void add_surfaces(const Surfaces& surfaces);
     void add_surface(const Surfaces& surfaces, std::size_t index);
     void add_lights();
-    void add_sky();
+    void cut_sky();
     float form_factors(const Source& source, const RayStart& start, float* of_triangles) const;
     SourceSample from_triangle(const Source& source, const Triangle& triangle, float chance,
                                const RayStart& start, const glm::vec2& at) const;
@@ -92,7 +107,8 @@ private:
     std::vector<double> running_;  ///< [triangles] sums of power within their source, to 1
     Sky bright_;                   ///< what the sky has above `most_`
     std::optional<SkySampler> bright_sampler_;
-    float most_ = 0.0f;  ///< [cd/m²] by luminance, that rays which meet nothing find
+    double bright_power_ = 0.0;  ///< of that, by luminance [lx]; 0: there is none
+    float most_ = 0.0f;          ///< [cd/m²] by luminance, that rays which meet nothing find
 };
 
 }  // namespace lumel

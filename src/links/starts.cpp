@@ -19,7 +19,7 @@ RayStart RayStarts::start(std::size_t i, const glm::vec2& at) const
 
     // Lean towards the middle too, so that no start lies behind a wall that touches the lumel.
     RayStart start{point.position + lift_ * geometric, point.normal, geometric,
-                   cells_->cell(i, point.position)};
+                   cells_ ? cells_->cell(i, point.position) : 0u};
     const glm::vec3 inward = lumel.centre - point.position;
     const float distance = glm::length(inward);
     if (distance > 0.0f)

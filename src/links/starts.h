@@ -22,10 +22,11 @@ struct RayStart {
 
 class RayStarts {
 public:
-    /// What is given must outlive it. centre: all rays leave from the lumel's centre.
-    RayStarts(const WorldLumels& world, const Cells& cells, float lift, bool centre)
+    /// What is given must outlive it. centre: all rays leave from the lumel's centre. Without cells
+    /// all starts are in cell 0.
+    RayStarts(const WorldLumels& world, const Cells* cells, float lift, bool centre)
         : world_(&world),
-          cells_(&cells),
+          cells_(cells),
           lift_(lift),
           centre_(centre)
     {

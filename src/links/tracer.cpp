@@ -33,8 +33,6 @@ constexpr float kMayBeHidden = 1.0f;
 constexpr int kMostReflections = 8;
 /// Lookups are checked by rays this far above the surfaces, in sides of the lumel.
 constexpr float kLift = 0.05f;
-/// Texels around a hit without a lumel that are searched for one.
-constexpr int kNeighbours = 2;
 
 /// Dimension pairs of a ray's random numbers; each reflection has kPerReflection more.
 constexpr std::uint32_t kStartPair = 0, kDirectionPair = 1, kPassPair = 2, kFirstReflection = 3,
@@ -135,43 +133,9 @@ LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
       direct_(direct),
       order_(order),
       hits_(place.scene, place.atlas, place.lumels),
-      by_side_(lumels_by_side(place.lumels)),
       seed_(seed),
       lift_(place.rays.lift())
 {
-}
-
-/// The lumel at a hit, or where none is the nearest of its instance and side in the texels around:
-/// rays that end in no lumel would darken a closed room without bound.
-std::uint32_t LinkTracer::lumel_near(const RayHit& hit) const
-{
-    const std::vector<Lumel>& lumels = place_.lumels.lumels;
-    const auto serves = [&](std::uint32_t j) {
-        return j != kNoLumel && lumels[j].instance == hit.instance &&
-               !(lumels[j].flags & kLumelBuried);
-    };
-    const std::uint32_t exact = hits_.lumel(hit);
-    if (serves(exact))
-        return exact;
-    const glm::vec2 at = hits_.place(hit);
-    const int width = place_.lumels.width, height = place_.lumels.height;
-    std::uint32_t best = kNoLumel;
-    float least = kFar;
-    for (int dy = -kNeighbours; dy <= kNeighbours; ++dy)
-        for (int dx = -kNeighbours; dx <= kNeighbours; ++dx) {
-            const int x = int(at.x) + dx, y = int(at.y) + dy;
-            if (x < 0 || x >= width || y < 0 || y >= height)
-                continue;
-            const std::uint32_t j =
-                by_side_[2 * (std::size_t(y) * std::size_t(width) + std::size_t(x)) +
-                         (hit.front ? 0 : 1)];
-            const glm::vec2 apart = glm::vec2(x, y) + 0.5f - at;
-            if (serves(j) && glm::dot(apart, apart) < least) {
-                least = glm::dot(apart, apart);
-                best = j;
-            }
-        }
-    return best;
 }
 
 /// Rays that lumel i sends out.
@@ -264,7 +228,7 @@ void LinkTracer::meet(Wave& wave) const
         const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
         if (!hit.front && !place_.surfaces.all()[surface].double_sided)
             continue;
-        const std::uint32_t j = lumel_near(hit);
+        const std::uint32_t j = hits_.lumel(hit);
         if (j == kNoLumel) {
             path.met = Met::lost;
             continue;

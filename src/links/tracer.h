@@ -10,6 +10,7 @@
 
 #include "links/cells.h"
 #include "links/direct.h"
+#include "links/near_lumels.h"
 #include "links/shared_directions.h"
 #include "paths/samples.h"
 
@@ -102,7 +103,6 @@ private:
     void end_or_reflect(Wave& wave) const;
     RaySpan reflect(const Wave& wave, const Arrival& arrival, Path& path, Looks& looks) const;
     void keep(const Wave& wave, std::size_t lumel, LinkBlock& block, Gathered& into) const;
-    std::uint32_t lumel_near(const RayHit& hit) const;
     void keep_all(const Wave& wave, std::size_t first, Gathered& into) const;
     void trace_blocks(std::size_t first, std::size_t last, const Sending& sending,
                       Gathered& into) const;
@@ -117,8 +117,7 @@ private:
     const LumelParts& parts_;
     const DirectFinder& direct_;
     const std::vector<std::uint32_t>& order_;
-    HitLumels hits_;
-    std::vector<std::uint32_t> by_side_;  ///< [texels][2]
+    NearLumels hits_;
     std::uint32_t seed_;
     float lift_;
 };

@@ -34,27 +34,45 @@ WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels&
       pieces_(lumels.pieces.size()),
       facets_(lumels.pieces.size())
 {
-    std::vector<Placement> placements;  // by instance
+    for (int side = 1; side <= kMostSide; ++side)
+        rules_.push_back(gauss_legendre(side));
+    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
+    extent_ = std::max({reach.x, reach.y, reach.z});
+    const std::vector<Placement> placements = placements_of(scene);
+    parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            place(i, lumels, placements[lumels.lumels[i].instance]);
+    });
+}
+
+void WorldLumels::place(const Scene& scene, const Lumels& lumels,
+                        std::span<const std::uint32_t> chosen)
+{
+    const std::vector<Placement> placements = placements_of(scene);
+    for (const std::uint32_t i : chosen)
+        place(i, lumels, placements[lumels.lumels[i].instance]);
+}
+
+/// By instance.
+std::vector<WorldLumels::Placement> WorldLumels::placements_of(const Scene& scene)
+{
+    std::vector<Placement> placements;
     for (const Instance& instance : scene.instances) {
         const glm::mat3 linear(instance.transform);
         placements.push_back({instance.transform, glm::transpose(glm::inverse(linear))});
     }
-    for (int side = 1; side <= kMostSide; ++side)
-        rules_.push_back(gauss_legendre(side));
-    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
-    const float extent = std::max({reach.x, reach.y, reach.z});
-    parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) {
-            const Lumel& lumel = lumels.lumels[i];
-            const Placement& placement = placements[lumel.instance];
-            WorldLumel& world = lumels_[i];
-            world.centre = glm::vec3(placement.points * glm::vec4(lumel.position, 1.0f));
-            world.normal = glm::normalize(placement.normals * lumel.normal);
-            world.size = lumel.size;
-            world.lift = std::max(kLift * lumel.size, kLiftOfExtent * extent);
-            place_facets(i, lumel, &lumels.pieces[lumel.first_piece], placement);
-        }
-    });
+    return placements;
+}
+
+void WorldLumels::place(std::size_t i, const Lumels& lumels, const Placement& placement)
+{
+    const Lumel& lumel = lumels.lumels[i];
+    WorldLumel& world = lumels_[i];
+    world.centre = glm::vec3(placement.points * glm::vec4(lumel.position, 1.0f));
+    world.normal = glm::normalize(placement.normals * lumel.normal);
+    world.size = lumel.size;
+    world.lift = std::max(kLift * lumel.size, kLiftOfExtent * extent_);
+    place_facets(i, lumel, &lumels.pieces[lumel.first_piece], placement);
 }
 
 void WorldLumels::place_facets(std::size_t i, const Lumel& lumel, const Piece* local,

@@ -45,6 +45,9 @@ class WorldLumels {
 public:
     WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
 
+    /// Places some lumels anew, where the scene now has their instances.
+    void place(const Scene& scene, const Lumels& lumels, std::span<const std::uint32_t> chosen);
+
     std::size_t size() const { return lumels_.size(); }
     const WorldLumel& operator[](std::size_t i) const { return lumels_[i]; }
     const Facet* begin(const WorldLumel& lumel) const { return &facets_[lumel.first_facet]; }
@@ -75,9 +78,12 @@ private:
         glm::mat3 normals;
     };
 
+    static std::vector<Placement> placements_of(const Scene& scene);
+    void place(std::size_t i, const Lumels& lumels, const Placement& placement);
     void place_facets(std::size_t i, const Lumel& lumel, const Piece* local,
                       const Placement& placement);
 
+    float extent_;                                ///< largest coordinate [m]
     std::vector<std::vector<GaussPoint>> rules_;  ///< of 1, 2, … points
     std::vector<WorldLumel> lumels_;
     std::vector<Piece> pieces_;

@@ -1,6 +1,7 @@
 #pragma once
 // The scene's surfaces as a path tracer meets them: material, normals and sides at a point.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -41,6 +42,12 @@ public:
     std::size_t index(std::uint32_t instance, std::uint32_t primitive) const
     {
         return first_[instance] + primitive;
+    }
+    /// Which instance one of them belongs to.
+    std::uint32_t instance(std::size_t surface) const
+    {
+        const auto next = std::upper_bound(first_.begin(), first_.end(), surface);
+        return std::uint32_t(next - first_.begin()) - 1;
     }
     /// In order of instance, then primitive.
     const std::vector<PlacedSurface>& all() const { return surfaces_; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include <embree3/rtcore.h>
 
@@ -143,6 +144,13 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near,
     return ray;
 }
 
+std::vector<std::uint32_t> all_instances(const Scene& scene)
+{
+    std::vector<std::uint32_t> all(scene.instances.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
 /// The tint of what passes along the ray; 0 if it meets something.
 glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
@@ -224,7 +232,10 @@ void RayScene::Data::add(const Scene& scene, std::uint32_t instance, std::uint32
     rtcReleaseGeometry(geometry);
 }
 
-RayScene::RayScene(const Scene& scene) : data_(std::make_unique<Data>())
+RayScene::RayScene(const Scene& scene) : RayScene(scene, all_instances(scene)) {}
+
+RayScene::RayScene(const Scene& scene, std::span<const std::uint32_t> instances)
+    : data_(std::make_unique<Data>())
 {
     data_->device = rtcNewDevice(nullptr);
     if (!data_->device)
@@ -234,10 +245,10 @@ RayScene::RayScene(const Scene& scene) : data_(std::make_unique<Data>())
     rtcSetSceneBuildQuality(data_->tree, RTC_BUILD_QUALITY_HIGH);
 
     std::size_t part_count = 0;
-    for (const Instance& instance : scene.instances)
-        part_count += scene.meshes[instance.mesh].primitives.size();
+    for (const std::uint32_t i : instances)
+        part_count += scene.meshes[scene.instances[i].mesh].primitives.size();
     data_->parts.reserve(part_count);  // Embree keeps pointers to the parts
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+    for (const std::uint32_t i : instances)
         for (std::uint32_t p = 0; p < scene.meshes[scene.instances[i].mesh].primitives.size(); ++p)
             data_->add(scene, i, p);
     rtcCommitScene(data_->tree);

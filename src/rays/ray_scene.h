@@ -51,6 +51,8 @@ class RayScene {
 public:
     /// Throws Error{device} if Embree cannot build its tree (out of memory).
     explicit RayScene(const Scene& scene);
+    /// Of some of its instances alone.
+    RayScene(const Scene& scene, std::span<const std::uint32_t> instances);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;

@@ -40,7 +40,7 @@ DirectRays::DirectRays(const HostScene& host, const Lumels& lumels, std::uint32_
       place_{host.scene, surfaces_, host.rays, *caster_, nullptr, host.atlas, lumels},
       world_(host.scene, host.rays, lumels),
       cells_(world_),
-      starts_(world_, cells_, host.rays.lift(), false),
+      starts_(world_, &cells_, host.rays.lift(), false),
       sources_(dark_, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
       order_(as_they_come(lumels.lumels.size())),
       finder_(place_, sources_, starts_, order_, PathSamples::hash(seed, kDirectStream))

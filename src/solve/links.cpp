@@ -145,7 +145,7 @@ LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, c
       place_{host.scene, surfaces_, host.rays, *caster_, bundles_.get(), host.atlas, lumels},
       world_(host.scene, host.rays, lumels),
       cells_(world_),
-      starts_(world_, cells_, host.rays.lift(), options.rule == SampleRule::centre),
+      starts_(world_, &cells_, host.rays.lift(), options.rule == SampleRule::centre),
       sources_(host.scene, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
       order_(order_in_space(world_))
 {

@@ -1,0 +1,274 @@
+#include "live/grouped_light.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "links/looks.h"
+#include "paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels worth a task.
+constexpr std::size_t kGrain = 256;
+/// A sender of more sources chooses among them for each ray, by what they may send.
+constexpr std::size_t kMostAlone = 8;
+/// Dimension pairs of a ray's random numbers.
+constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
+
+}  // namespace
+
+GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& options)
+    : place_(place),
+      options_(options)
+{
+    list_senders();
+    const std::uint64_t of_one = place.lumels.lumels.size() * sizeof(glm::vec3);
+    const std::size_t fit = std::max<std::size_t>(std::size_t(options.most_bytes / of_one), 1);
+    groups_.resize(std::min(fit, senders_.size()));
+    for (std::uint32_t s = 0; s < senders_.size(); ++s)
+        groups_[std::min<std::size_t>(s, groups_.size() - 1)].senders.push_back(s);
+    for (Group& group : groups_)
+        find(group);
+}
+
+void GroupedLight::list_senders()
+{
+    for (std::size_t s = 0; s < place_.sources.count(); ++s) {
+        const LightSources::Origin origin = place_.sources.origin(s);
+        const auto is_it = [&](const Sender& sender) {
+            return sender.part == origin.part && sender.index == origin.index;
+        };
+        if (std::none_of(senders_.begin(), senders_.end(), is_it))
+            senders_.push_back({.part = origin.part, .index = origin.index});
+    }
+    list_sources();
+}
+
+/// Surfaces that move may be split into other sources.
+void GroupedLight::list_sources()
+{
+    for (Sender& sender : senders_)
+        sender.sources.clear();
+    for (std::uint32_t s = 0; s < place_.sources.count(); ++s) {
+        const LightSources::Origin origin = place_.sources.origin(s);
+        senders_[sender_of(origin.part, origin.index)].sources.push_back(s);
+    }
+}
+
+/// Its number, or that of senders where there is none.
+std::uint32_t GroupedLight::sender_of(LightSources::Part part, std::uint32_t index) const
+{
+    const auto found = std::find_if(senders_.begin(), senders_.end(), [&](const Sender& sender) {
+        return sender.part == part && sender.index == index;
+    });
+    return std::uint32_t(found - senders_.begin());
+}
+
+void GroupedLight::set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor)
+{
+    const std::uint32_t sender = sender_of(part, index);
+    if (sender == senders_.size())
+        return;  // it sends nothing
+    senders_[sender].factor = factor;
+    if (groups_[std::min<std::size_t>(sender, groups_.size() - 1)].is_shared())
+        find(groups_.back());
+    summed_ = false;
+}
+
+void GroupedLight::find_again(LightSources::Part part, std::uint32_t index)
+{
+    list_sources();
+    const std::uint32_t sender = sender_of(part, index);
+    if (sender < senders_.size())
+        find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
+}
+
+void GroupedLight::find(Group& group)
+{
+    group.light.resize(place_.lumels.lumels.size());
+    parallel_for(group.light.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            group.light[i] = light_of(group, i);
+    });
+    summed_ = false;
+}
+
+std::uint64_t GroupedLight::follow(std::uint32_t thing, const Box& before)
+{
+    list_sources();
+    const Box now = place_.rays.box(thing);
+    std::atomic<std::uint64_t> found = 0;
+    for (Group& group : groups_) {
+        const bool moved = is_moved(group, thing);
+        parallel_for(group.light.size(), kGrain, [&](std::size_t first, std::size_t last) {
+            std::uint64_t count = 0;
+            for (std::size_t i = first; i < last; ++i)
+                if (moved || place_.thing_of(i) == thing || may_cross(group, i, before, now)) {
+                    group.light[i] = light_of(group, i);
+                    ++count;
+                }
+            found += count;
+        });
+    }
+    summed_ = false;
+    return found;
+}
+
+/// Do any of its sources move with a thing?
+bool GroupedLight::is_moved(const Group& group, std::uint32_t thing) const
+{
+    return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
+        const std::vector<std::uint32_t>& sources = senders_[s].sources;
+        return senders_[s].part == LightSources::Part::material &&
+               std::any_of(sources.begin(), sources.end(), [&](std::uint32_t source) {
+                   return place_.rays.thing_of(place_.sources.origin(source).instance) == thing;
+               });
+    });
+}
+
+bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& before,
+                             const Box& now) const
+{
+    return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
+        const std::vector<std::uint32_t>& sources = senders_[s].sources;
+        return std::any_of(sources.begin(), sources.end(), [&](std::uint32_t source) {
+            return may_cross(source, i, before) || may_cross(source, i, now);
+        });
+    });
+}
+
+/// May a ray from a lumel to a source meet a box? All of them lie in the hull of two balls, around
+/// the lumel and around the source.
+bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
+{
+    const LightSources::Origin origin = place_.sources.origin(source);
+    const glm::vec3& from = place_.world[i].centre;
+    const float reach = place_.reach(i);
+    if (origin.part == LightSources::Part::sky)
+        return true;
+    if (origin.sun) {
+        const float far = glm::distance(from, box.centre()) + box.radius() + reach;
+        return box.may_meet(from, glm::normalize(glm::vec3(origin.sun->transform[2])), far,
+                            reach + far * std::tan(origin.sun->angle));
+    }
+    const glm::vec3 path = origin.centre - from;
+    const float distance = glm::length(path);
+    if (!(distance > 0.0f))
+        return true;
+    // Of the balls that lead from the one to the other, so many times the way may touch the box.
+    const glm::vec3 along = path / distance;
+    const float growth = std::max(origin.radius - reach, 0.0f);
+    const float last = glm::dot(box.centre() - from, along) + box.radius() + reach;
+    const float way = distance > growth ? std::clamp(last / (distance - growth), 0.0f, 1.0f) : 1.0f;
+    return box.may_meet(from, along, way * distance, reach + way * growth);
+}
+
+glm::vec3 GroupedLight::light_of(const Group& group, std::size_t i) const
+{
+    glm::vec3 sum(0.0f);
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return sum;
+    for (const std::uint32_t s : group.senders)
+        sum += group.is_shared() ? senders_[s].factor * light_of(senders_[s], i)
+                                 : light_of(senders_[s], i);
+    return sum;
+}
+
+glm::vec3 GroupedLight::light_of(const Sender& sender, std::size_t i) const
+{
+    const std::uint32_t own =
+        PathSamples::hash(PathSamples::hash(options_.seed, std::uint32_t(i)),
+                          PathSamples::hash(std::uint32_t(sender.part), sender.index));
+    if (sender.sources.size() > kMostAlone)
+        return by_many(sender, own, i);
+    glm::vec3 sum(0.0f);
+    for (std::uint32_t n = 0; n < sender.sources.size(); ++n)
+        sum += by_one(sender.sources[n], PathSamples::hash(own, n), i);
+    return sum;
+}
+
+/// Rays to all sources start at the same points, so that light from all around adds up to all.
+RayStart GroupedLight::start_of(std::size_t i, std::uint32_t k) const
+{
+    const PathSamples samples(PathSamples::hash(options_.seed, std::uint32_t(i)), k);
+    return place_.starts.start(i, samples.stratified(kStartPair));
+}
+
+glm::vec3 GroupedLight::passing(const RayStart& start, const SourceSample& sample,
+                                std::uint32_t seed) const
+{
+    if (sample.irradiance == glm::vec3(0.0f))
+        return glm::vec3(0.0f);
+    const RaySpan ray = ray_towards(sample, start, place_.lift, seed);
+    return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
+}
+
+/// A few rays, and many where these see a part of the source.
+glm::vec3 GroupedLight::by_one(std::uint32_t source, std::uint32_t stream, std::size_t i) const
+{
+    FoundLight found;
+    for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
+        if (k == options_.few_rays && (found.free == 0 || found.hidden == 0))
+            break;
+        const PathSamples samples(stream, k);
+        const RayStart start = start_of(i, k);
+        const SourceSample sample =
+            place_.sources.sample(source, start, samples.stratified(kSourcePair));
+        found.add(sample, passing(start, sample, samples.bits(kSourcePair)));
+    }
+    return found.light();
+}
+
+/// Each ray goes to a source that is chosen by what it may send.
+glm::vec3 GroupedLight::by_many(const Sender& sender, std::uint32_t stream, std::size_t i) const
+{
+    std::vector<float> running(sender.sources.size());
+    float total = 0.0f;
+    for (std::size_t n = 0; n < running.size(); ++n)
+        running[n] = total += place_.sources.guess(sender.sources[n], place_.world[i].centre,
+                                                   place_.lumels.lumels[i].size);
+    glm::vec3 sum(0.0f);
+    for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
+        const PathSamples samples(stream, k);
+        const RayStart start = start_of(i, k);
+        const float mark = samples.stratified(kChoicePair).x * total;
+        const auto n = std::size_t(std::upper_bound(running.begin(), running.end() - 1, mark) -
+                                   running.begin());
+        const float own = running[n] - (n > 0 ? running[n - 1] : 0.0f);
+        if (!(own > 0.0f))
+            continue;
+        const SourceSample sample =
+            place_.sources.sample(sender.sources[n], start, samples.stratified(kSourcePair));
+        sum +=
+            passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
+    }
+    return sum / float(options_.many_rays);
+}
+
+const std::vector<glm::vec3>& GroupedLight::sum()
+{
+    if (summed_)
+        return sum_;
+    sum_.assign(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    for (const Group& group : groups_) {
+        const glm::vec3 factor =
+            group.is_shared() ? glm::vec3(1.0f) : senders_[group.senders.front()].factor;
+        for (std::size_t i = 0; i < sum_.size(); ++i)
+            sum_[i] += factor * group.light[i];
+    }
+    summed_ = true;
+    return sum_;
+}
+
+std::uint64_t GroupedLight::bytes() const
+{
+    std::uint64_t bytes = sum_.size() * sizeof(glm::vec3);
+    for (const Group& group : groups_)
+        bytes += group.light.size() * sizeof(glm::vec3);
+    return bytes;
+}
+
+}  // namespace lumel

@@ -1,0 +1,80 @@
+#pragma once
+// Direct light, kept apart by what sends it.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "links/found_light.h"
+#include "live/live_place.h"
+
+namespace lumel {
+
+struct GroupedLightOptions {
+    std::uint32_t few_rays = 4;    ///< from each lumel to each source; powers of two
+    std::uint32_t many_rays = 16;  ///< where those see a part of it
+    /// That light may take [bytes]. Senders beyond it share one group: to dim one of them, that is
+    /// found again.
+    std::uint64_t most_bytes = std::uint64_t(1) << 30;
+    std::uint32_t seed = 0;
+};
+
+/// The light that each lamp, each emissive material and the bright part of the sky send to each
+/// lumel. What a lumel receives of a group depends on itself and the group alone.
+class GroupedLight {
+public:
+    /// Finds it. What is given must outlive it.
+    GroupedLight(const LivePlace& place, const GroupedLightOptions& options);
+
+    /// All that a sender sends is `factor` times what the scene says.
+    void set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
+    /// A light of the scene has moved, and the sources know.
+    void find_again(LightSources::Part part, std::uint32_t index);
+    /// A thing has moved from a box, and the sources know: finds again what changes. Light is then
+    /// as if all had been found. Returns for how many lumels one group was found again, in all.
+    std::uint64_t follow(std::uint32_t thing, const Box& before);
+
+    /// Σ over groups [N] [lx].
+    const std::vector<glm::vec3>& sum();
+    std::size_t groups() const { return groups_.size(); }
+    std::uint64_t bytes() const;
+
+private:
+    struct Sender {
+        LightSources::Part part;
+        std::uint32_t index;
+        glm::vec3 factor{1.0f};
+        std::vector<std::uint32_t> sources;
+    };
+    struct Group {
+        std::vector<std::uint32_t> senders;
+        std::vector<glm::vec3>
+            light;  ///< [N] [lx] of the one sender by factor 1, of several by theirs
+
+        bool is_shared() const { return senders.size() > 1; }
+    };
+
+    void list_senders();
+    void list_sources();
+    std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
+    void find(Group& group);
+    glm::vec3 light_of(const Group& group, std::size_t lumel) const;
+    glm::vec3 light_of(const Sender& sender, std::size_t lumel) const;
+    glm::vec3 by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
+    glm::vec3 by_many(const Sender& sender, std::uint32_t stream, std::size_t lumel) const;
+    RayStart start_of(std::size_t lumel, std::uint32_t ray) const;
+    glm::vec3 passing(const RayStart& start, const SourceSample& sample, std::uint32_t seed) const;
+    bool is_moved(const Group& group, std::uint32_t thing) const;
+    bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
+    bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;
+
+    const LivePlace place_;
+    const GroupedLightOptions options_;
+    std::vector<Sender> senders_;
+    std::vector<Group> groups_;
+    std::vector<glm::vec3> sum_;  ///< [N] [lx]
+    bool summed_ = false;
+};
+
+}  // namespace lumel

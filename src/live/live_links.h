@@ -1,0 +1,123 @@
+#pragma once
+// A lit scene that is edited while it is seen: light over links that are kept.
+
+#include <string>
+#include <vector>
+
+#include "live/grouped_light.h"
+#include "live/lumel_links.h"
+#include "live/lumel_sweeps.h"
+#include "live/paint.h"
+
+namespace lumel {
+
+struct LiveLinksOptions {
+    std::uint32_t rays = 64;  ///< of a lumel: 4, 16, 64 or 256
+    GroupedLightOptions light;
+    /// Names of what may move: of all instances of that name.
+    std::vector<std::string> things;
+    std::uint32_t seed = 0;
+    /// Light still to come, as a part of all and of dark lumels' own, to rest at.
+    double residual = 2e-4;
+};
+
+/// A scene with its lumels.
+struct LumelScene {
+    Scene scene;
+    Atlas atlas;
+    Lumels lumels;
+};
+
+/// Lays a scene out. What lies under or in what stays is buried. Throws Error.
+LumelScene lay_out(Scene scene, const AtlasOptions& options,
+                   const std::vector<std::string>& things);
+
+/// What a move has found again.
+struct Moved {
+    Retraced links;
+    double direct = 0.0;  ///< share of direct light: of lumels, each for each group
+};
+
+struct LiveLinksState {
+    /// Light still to come, as far as the last sweeps tell: of all lumels by their mean, and of
+    /// dark ones by theirs.
+    double residual = 1.0, dark_residual = 1.0;
+    int sweeps = 0;  ///< since the last edit
+    bool at_rest = false;
+};
+
+/// Every lumel has traced its rays once, and what they met is kept. So a lamp that is dimmed or a
+/// wall that is painted takes no ray: light that arrives straight from each sender is kept apart,
+/// and a few sweeps over the links bring all bounces. When a thing moves only the rays that it
+/// starts, ends or stops are traced again.
+///
+/// At rest the light is that of a scene that is solved anew with the same seed: links and direct
+/// light in every bit, what bounces within the residual. Works on the host; not safe for use from
+/// several threads. Closed rooms of albedo 0.99 take hundreds of sweeps.
+class LiveLinks {
+public:
+    /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
+    /// does not have, for scenes of which nothing stays, and for coloured glass.
+    LiveLinks(LumelScene laid_out, const LiveLinksOptions& options);
+
+    /// What lights of that name, or surfaces of a material of that name, send is `factor` times
+    /// their value in the scene. Throws Error{input} if there is none, or a factor is negative.
+    void set_lamp(const std::string& name, const glm::vec3& factor);
+    /// The same of the sky.
+    void set_sky(const glm::vec3& factor);
+    /// A material reflects with this base colour, 0 to 1, times its texture. The first time for
+    /// each material takes longer. Throws Error{input} if there is no such material.
+    void set_albedo(const std::string& material, const glm::vec3& colour);
+    /// Lights of that name shine from elsewhere (light to world).
+    void move_lamp(const std::string& name, const glm::mat4& transform);
+    /// A thing stands where `motion` takes it from its place in the scene (world to world).
+    /// Throws Error{input} if it is no thing of the options, or would be stretched.
+    Moved move(const std::string& thing, const glm::mat4& motion);
+
+    /// Sweeps for about so many milliseconds, or until at rest; a part of a sweep at least.
+    LiveLinksState advance(double budget_ms);
+    /// Until at rest.
+    LiveLinksState settle();
+
+    const LiveLinksState& state() const { return state_; }
+    /// H [N] [lx]
+    std::vector<glm::vec3> irradiance() const;
+
+    const Scene& scene() const { return laid_out_.scene; }
+    const Atlas& atlas() const { return laid_out_.atlas; }
+    const Lumels& lumels() const { return laid_out_.lumels; }
+    const LumelLinks& links() const { return links_; }
+    /// Memory that links and light take, without what the scene and its rays do.
+    std::uint64_t bytes() const;
+    /// D [N] [lx], what rays bring from the sky included.
+    std::vector<glm::vec3> direct();
+
+private:
+    using Part = LightSources::Part;
+
+    LivePlace place() const;
+    std::uint32_t thing(const std::string& name) const;
+    void put(std::uint32_t thing, const glm::mat4& motion);
+    void begin();
+    bool is_at_rest();
+
+    LiveLinksOptions options_;
+    LumelScene laid_out_;
+    std::vector<glm::mat4> given_;  ///< [instances] transforms of the scene that was given
+    ThingRays rays_;
+    Surfaces surfaces_;
+    WorldLumels world_;
+    RayStarts starts_;
+    LightSources sources_;
+    std::vector<std::vector<std::uint32_t>> lumels_of_;  ///< [things] lumels on each
+    LumelLinks links_;
+    GroupedLight light_;
+    LumelSweeps sweeps_;
+    Paint paint_;
+    glm::vec3 sky_factor_{1.0f};
+    bool edited_ = true;  ///< since the last sweep
+    SweepChange before_;  ///< of the sweep before the last
+    LiveLinksState state_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,73 @@
+#pragma once
+// The lumel that each ray from a lumel meets, kept while things move.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "links/near_lumels.h"
+#include "live/live_place.h"
+
+namespace lumel {
+
+/// Rays of links that a move has traced again.
+struct Retraced {
+    std::uint64_t started = 0;  ///< on the thing
+    std::uint64_t ended = 0;    ///< on it before
+    std::uint64_t crossed = 0;  ///< met it in its new place
+
+    std::uint64_t all() const { return started + ended + crossed; }
+};
+
+/// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
+/// over (sin² θ, φ). A ray depends on its lumel and its number alone, so that it can be made again.
+class LumelLinks {
+public:
+    /// Traces all of them. What is given must outlive it. side: a power of two.
+    LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed);
+
+    /// A thing has moved: traces again what starts on it, ended on it, or meets it now. Links are
+    /// then as if all had been traced.
+    Retraced follow(std::uint32_t thing);
+
+    std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
+    /// What the rays of a lumel have met [side²]: a lumel or one of the ends below.
+    std::span<const std::uint32_t> of(std::size_t lumel) const
+    {
+        return {links_.data() + lumel * rays(), rays()};
+    }
+    std::uint32_t sky() const { return lumels_; }
+    /// Nothing that reflects, of what stays or of a thing.
+    std::uint32_t lost() const { return lumels_ + 1; }
+    std::uint32_t lost_on(std::uint32_t thing) const { return lumels_ + 2 + thing; }
+    /// All of them: lumels and ends.
+    std::size_t ends() const { return on_thing_.size(); }
+
+    std::uint64_t bytes() const
+    {
+        return (links_.size() + on_thing_.size()) * sizeof(std::uint32_t) +
+               sky_light_.size() * sizeof(glm::vec3);
+    }
+
+    /// What the rays of a lumel bring from the sky, without the bright parts that are a source
+    /// [lx].
+    const std::vector<glm::vec3>& sky_light() const { return sky_light_; }
+
+private:
+    class Rays;
+
+    std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
+    std::uint32_t end_at(const RayHit& hit) const;
+    void trace(std::size_t lumel);
+    Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
+    glm::vec3 light_of_sky(const Rays& rays, std::size_t lumel) const;
+
+    const LivePlace place_;
+    NearLumels near_;
+    std::uint32_t side_, seed_, lumels_;
+    std::vector<std::uint32_t> links_;     ///< [N][side²]
+    std::vector<std::uint32_t> on_thing_;  ///< [ends] a thing, or ThingRays::kStays
+    std::vector<glm::vec3> sky_light_;     ///< [N]
+};
+
+}  // namespace lumel

@@ -1,0 +1,81 @@
+#include "live/lumel_sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+/// Lumels between these shares of the mean are dark; darker ones are black to who looks.
+constexpr double kDarkest = 0.005, kDark = 0.3;
+
+double all_channels(const glm::vec4& light)
+{
+    return double(light.x + light.y + light.z);
+}
+
+}  // namespace
+
+LumelSweeps::LumelSweeps(const LumelLinks& links)
+    : links_(links),
+      direct_(links.sky()),
+      albedo_(direct_.size()),
+      received_(direct_.size()),
+      sent_(links.ends())
+{
+}
+
+double LumelSweeps::Sums::relative() const
+{
+    return light > 0.0 ? std::sqrt(squares * count) / light : 0.0;
+}
+
+void LumelSweeps::begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo)
+{
+    mean_ = 0.0;
+    for (std::size_t i = 0; i < direct_.size(); ++i) {
+        direct_[i] = glm::vec4(direct[i], 0.0f);
+        albedo_[i] = glm::vec4(albedo[i], 0.0f);
+        sent_[i] = albedo_[i] * (direct_[i] + received_[i]);
+        mean_ += all_channels(sent_[i]);
+    }
+    mean_ /= double(std::max<std::size_t>(direct_.size(), 1));
+    all_ = dark_ = {};
+    change_ = {};
+    next_ = 0;
+    sweeps_ = 0;
+}
+
+bool LumelSweeps::step(std::size_t lumels)
+{
+    const float share = 1.0f / float(links_.rays());
+    const std::size_t end = std::min(next_ + lumels, direct_.size());
+    for (; next_ < end; ++next_) {
+        const std::span<const std::uint32_t> links = links_.of(next_);
+        glm::vec4 sum(0.0f);
+        for (std::size_t k = 0; k < links.size(); k += 2)
+            sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs wait less for each other
+        received_[next_] = share * sum;
+        const glm::vec4 now = albedo_[next_] * (direct_[next_] + received_[next_]);
+        const double light = all_channels(now), change = light - all_channels(sent_[next_]);
+        sent_[next_] = now;
+        all_.add(light, change);
+        if (light > kDarkest * mean_ && light < kDark * mean_)
+            dark_.add(light, change);
+    }
+    if (next_ < direct_.size())
+        return false;
+    change_ = {all_.relative(), dark_.relative()};
+    mean_ = all_.light / std::max(all_.count, 1.0);
+    all_ = dark_ = {};
+    next_ = 0;
+    ++sweeps_;
+    return true;
+}
+
+std::uint64_t LumelSweeps::bytes() const
+{
+    return (direct_.size() + albedo_.size() + received_.size() + sent_.size()) * sizeof(glm::vec4);
+}
+
+}  // namespace lumel

@@ -1,0 +1,67 @@
+#pragma once
+// All bounces of light over the links of lumels, a part of a sweep at a time.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "live/lumel_links.h"
+
+namespace lumel {
+
+/// What a sweep changed of the light that lumels send: root of the mean square, by their mean.
+struct SweepChange {
+    double all = 0.0;
+    double dark = 0.0;  ///< the same of lumels between 0.5 and 30 % of the mean of all
+};
+
+/// Solves H = D + X, X_i = 1/n Σ_k B[link_ik], B = ρ H by forward Gauss-Seidel sweeps in place:
+/// links that end in no lumel find B = 0. One thread, so that the same edits give the same bytes.
+class LumelSweeps {
+public:
+    /// The links must outlive it.
+    explicit LumelSweeps(const LumelLinks& links);
+
+    /// D [N] [lx] or ρ [N] are others now: begins from X as it is.
+    void begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo);
+    /// Sweeps on, over `lumels` of them at most. True where a sweep ends.
+    bool step(std::size_t lumels);
+
+    /// Of the last whole sweep.
+    const SweepChange& change() const { return change_; }
+    /// Sweeps since begin().
+    int sweeps() const { return sweeps_; }
+    /// At a lumel [lx].
+    glm::vec3 irradiance(std::size_t lumel) const
+    {
+        return glm::vec3(direct_[lumel] + received_[lumel]);
+    }
+    std::uint64_t bytes() const;
+
+private:
+    /// Of light that lumels send, all channels together.
+    struct Sums {
+        double light = 0.0, squares = 0.0, count = 0.0;
+
+        void add(double sent, double change)
+        {
+            light += sent;
+            squares += change * change;
+            count += 1.0;
+        }
+        double relative() const;
+    };
+
+    const LumelLinks& links_;
+    // Padded, so that each is one aligned load.
+    std::vector<glm::vec4> direct_, albedo_, received_;  ///< [N]
+    std::vector<glm::vec4> sent_;                        ///< [ends] B
+    std::size_t next_ = 0;                               ///< lumel of this sweep
+    double mean_ = 0.0;                                  ///< B of all channels together
+    Sums all_, dark_;                                    ///< of this sweep so far
+    SweepChange change_;
+    int sweeps_ = 0;
+};
+
+}  // namespace lumel

@@ -1,0 +1,100 @@
+#include "live/thing_rays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumel {
+namespace {
+
+/// Directions have no smaller parts, so that their inverses are finite.
+constexpr float kLeastPart = 1e-20f;
+
+std::vector<std::uint32_t> things_by_instance(const Scene& scene,
+                                              const std::vector<std::vector<std::uint32_t>>& things)
+{
+    std::vector<std::uint32_t> result(scene.instances.size(), ThingRays::kStays);
+    for (std::uint32_t t = 0; t < things.size(); ++t)
+        for (const std::uint32_t instance : things[t])
+            result[instance] = t;
+    return result;
+}
+
+std::vector<std::uint32_t> those_that_stay(const std::vector<std::uint32_t>& thing_of)
+{
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < thing_of.size(); ++i)
+        if (thing_of[i] == ThingRays::kStays)
+            result.push_back(i);
+    return result;
+}
+
+}  // namespace
+
+bool Box::may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
+                   float margin) const
+{
+    float enter = 0.0f, leave = far;
+    for (int c = 0; c < 3; ++c) {
+        const float part = std::abs(direction[c]) > kLeastPart ? direction[c] : kLeastPart;
+        const float a = (low[c] - margin - origin[c]) / part;
+        const float b = (high[c] + margin - origin[c]) / part;
+        enter = std::max(enter, std::min(a, b));
+        leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+}
+
+ThingRays::ThingRays(const Scene& scene, std::vector<std::vector<std::uint32_t>> things)
+    : scene_(&scene),
+      things_(std::move(things)),
+      thing_of_(things_by_instance(scene, things_)),
+      still_(scene, those_that_stay(thing_of_)),
+      lift_(still_.lift())
+{
+    for (const std::vector<std::uint32_t>& instances : things_) {
+        const RayScene& tree = trees_.emplace_back(scene, instances);
+        boxes_.push_back({tree.low(), tree.high()});
+    }
+}
+
+void ThingRays::place(std::size_t thing)
+{
+    trees_[thing] = RayScene(*scene_, things_[thing]);
+    boxes_[thing] = {trees_[thing].low(), trees_[thing].high()};
+}
+
+bool ThingRays::closest(const RaySpan& ray, RayHit& hit) const
+{
+    RaySpan rest = ray;
+    bool any = still_.closest(rest, hit);
+    for (std::size_t t = 0; t < trees_.size(); ++t) {
+        if (any)
+            rest.far = hit.distance;
+        if (may_meet(t, rest))
+            any = trees_[t].closest(rest, hit) || any;
+    }
+    return any;
+}
+
+bool ThingRays::is_clear(const RaySpan& ray) const
+{
+    if (still_.passing(ray) == glm::vec3(0.0f))
+        return false;
+    for (std::size_t t = 0; t < trees_.size(); ++t)
+        if (meets(t, ray))
+            return false;
+    return true;
+}
+
+/// A look at a box costs much less than one at a tree.
+bool ThingRays::may_meet(std::size_t thing, const RaySpan& ray) const
+{
+    return boxes_[thing].may_meet(ray.origin, ray.direction, ray.far, lift_);
+}
+
+bool ThingRays::meets(std::size_t thing, const RaySpan& ray) const
+{
+    return may_meet(thing, ray) && trees_[thing].passing(ray) == glm::vec3(0.0f);
+}
+
+}  // namespace lumel

@@ -1,0 +1,68 @@
+#pragma once
+// Rays through a scene in which things move.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "rays/ray_scene.h"
+
+namespace lumel {
+
+/// A box along the axes [m].
+struct Box {
+    glm::vec3 low{0.0f}, high{0.0f};
+
+    glm::vec3 centre() const { return 0.5f * (low + high); }
+    float radius() const { return 0.5f * glm::distance(low, high); }  ///< of the ball around it
+
+    /// May a ray along `direction` (unit) meet the box, grown by `margin` [m] to all sides, before
+    /// `far` [m]?
+    bool may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
+                  float margin) const;
+};
+
+/// What moves has a tree of its own, what stays has another; the nearest hit counts. So the tree of
+/// the scene is never built again, and what one thing alone does to a ray can be asked.
+class ThingRays {
+public:
+    /// things: the instances of each. The scene must outlive it, unmoved.
+    /// Throws Error{device} if Embree cannot build a tree.
+    ThingRays(const Scene& scene, std::vector<std::vector<std::uint32_t>> things);
+
+    /// Takes a thing's tree from where its instances are now.
+    void place(std::size_t thing);
+
+    /// The first hit along a ray, or false.
+    bool closest(const RaySpan& ray, RayHit& hit) const;
+    /// Does nothing lie along a ray?
+    bool is_clear(const RaySpan& ray) const;
+    /// Does a thing lie along a ray, whatever else does?
+    bool meets(std::size_t thing, const RaySpan& ray) const;
+
+    std::size_t things() const { return trees_.size(); }
+    const std::vector<std::uint32_t>& instances(std::size_t thing) const { return things_[thing]; }
+    const Box& box(std::size_t thing) const { return boxes_[thing]; }
+    /// How far off a surface rays should start, wherever things are [m].
+    float lift() const { return lift_; }
+    const RayScene& still() const { return still_; }
+
+    static constexpr std::uint32_t kStays = ~0u;
+    /// The thing that an instance is part of, or kStays.
+    std::uint32_t thing_of(std::uint32_t instance) const { return thing_of_[instance]; }
+
+private:
+    bool may_meet(std::size_t thing, const RaySpan& ray) const;
+
+    const Scene* scene_;
+    std::vector<std::vector<std::uint32_t>> things_;
+    std::vector<std::uint32_t> thing_of_;  ///< [instances]
+    RayScene still_;
+    float lift_;                   ///< [m]
+    std::vector<RayScene> trees_;  ///< [things]
+    std::vector<Box> boxes_;       ///< [things] around them
+};
+
+}  // namespace lumel

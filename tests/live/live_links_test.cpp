@@ -1,0 +1,339 @@
+// A scene that was edited is lit as one that always was so.
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "../support/source_folder.h"
+#include "core/error.h"
+#include "live/direction_cells.h"
+#include "live/live_links.h"
+
+namespace lumel {
+namespace {
+
+using Lights = std::vector<glm::vec3>;
+
+constexpr int kSide = 64;  // of the atlas [texels]
+constexpr float kPi = 3.14159265358979f;
+const std::string kBlock = "short block", kLight = "light";
+
+Scene read(const std::string& name)
+{
+    return read_gltf(support::source_path("scenes/" + name));
+}
+
+/// The Cornell box, open to a sky with a bright part and to a sun, with a lamp in it.
+Scene open_box()
+{
+    Scene scene = read("cornell-box.gltf");
+    scene.sky = {
+        .width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
+    scene.sky.radiance[3 * 16 + 4] = glm::vec3(3000.0f, 2000.0f, 1000.0f);  // low in the open side
+    PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.02f};
+    lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.15f, 0.4f, 0.3f));
+    scene.lights.push_back(lamp);
+    PunctualLight sun{.kind = PunctualLight::Kind::directional, .name = "sun", .intensity = 300.0f};
+    sun.angle = 0.02f;
+    sun.transform = glm::rotate(glm::mat4(1.0f), kPi - 0.5f, glm::vec3(0.8f, -0.6f, 0.0f));
+    scene.lights.push_back(sun);
+    return scene;
+}
+
+LiveLinksOptions options_for(const std::vector<std::string>& things)
+{
+    return {.rays = 16, .things = things};
+}
+
+LumelScene laid_out(const Scene& scene, const std::vector<std::string>& things)
+{
+    return lay_out(scene, {.size = kSide}, things);
+}
+
+/// Each lumel's error, as a part of the mean light [largest].
+double farthest(const Lights& values, const Lights& truth)
+{
+    double mean = 0.0, most = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        mean += double(truth[i].r + truth[i].g + truth[i].b) / (3.0 * double(values.size()));
+        most = std::max(most, double(glm::length(values[i] - truth[i])));
+    }
+    EXPECT_GT(mean, 0.0);
+    return most / mean;
+}
+
+/// RMSE of the lumels between 0.5 and 30 % of the mean, as a part of their own.
+double dark_error(const Lights& values, const Lights& truth)
+{
+    const auto of = [](const glm::vec3& light) { return double(light.r + light.g + light.b); };
+    double mean = 0.0, squares = 0.0, light = 0.0, count = 0.0;
+    for (const glm::vec3& one : truth)
+        mean += of(one) / double(truth.size());
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        if (of(truth[i]) > 0.005 * mean && of(truth[i]) < 0.3 * mean) {
+            squares += std::pow(of(values[i]) - of(truth[i]), 2.0);
+            light += of(truth[i]);
+            count += 1.0;
+        }
+    EXPECT_GT(count, 0.0);
+    return std::sqrt(squares * count) / light;
+}
+
+/// How many links differ, and how many lumels' direct light.
+std::size_t different(LiveLinks& one, LiveLinks& other)
+{
+    std::size_t count = 0;
+    const Lights a = one.direct(), b = other.direct();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        count += a[i] != b[i];
+        for (std::uint32_t k = 0; k < one.links().rays(); ++k)
+            count += one.links().of(i)[k] != other.links().of(i)[k];
+    }
+    return count;
+}
+
+/// Turned about a point, then shifted.
+glm::mat4 motion(const glm::vec3& about, float angle, const glm::vec3& axis, const glm::vec3& shift)
+{
+    const glm::mat4 back = glm::translate(glm::mat4(1.0f), about + shift);
+    return glm::translate(glm::rotate(back, angle, glm::normalize(axis)), -about);
+}
+
+/// The scene that a live one has come to, prepared from nothing on the same lumels.
+LiveLinks anew(const LiveLinks& live, const LiveLinksOptions& options)
+{
+    return {{live.scene(), live.atlas(), live.lumels()}, options};
+}
+
+TEST(LiveLinks, ClosedRoomGlowsByItsLampDimmed)
+{
+    for (const auto& [name, albedo] :
+         {std::pair("furnace-0.5.gltf", 0.5f), {"furnace-0.9.gltf", 0.9f}}) {
+        const Scene scene = read(name);
+        const float sent = kPi * scene.materials[0].emitted.r;
+        LiveLinks live(lay_out(scene, {.size = 32}, {}), options_for({}));
+        for (const float factor : {1.0f, 0.25f, 3.0f}) {
+            live.set_lamp("wall", glm::vec3(factor));
+            EXPECT_TRUE(live.settle().at_rest);
+            double mean = 0.0;
+            const Lights light = live.irradiance();
+            for (const glm::vec3& one : light) {
+                const float glow = one.r * (1.0f - albedo) / (sent * factor);
+                EXPECT_NEAR(glow, 1.0f, 1e-2f) << name;  // the ends of some rays are in a corner
+                mean += double(glow) / double(light.size());
+            }
+            EXPECT_NEAR(mean, 1.0, 1e-3) << name;
+        }
+    }
+}
+
+TEST(LiveLinks, RoomWhoseOnlyLampIsOffIsDark)
+{
+    LiveLinks live(laid_out(read("cornell-box.gltf"), {}), options_for({}));
+    live.settle();
+    live.set_lamp(kLight, glm::vec3(0.0f));
+    live.settle();
+    const Lights off = live.irradiance();
+    live.set_lamp(kLight, glm::vec3(1.0f));
+    live.settle();
+    const Lights on = live.irradiance();
+    double left = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < on.size(); ++i) {
+        left += double(off[i].r + off[i].g + off[i].b);
+        all += double(on[i].r + on[i].g + on[i].b);
+    }
+    EXPECT_LT(left, 1e-3 * all);
+}
+
+TEST(LiveLinks, LightIsTheSumOfWhatEachSenderSends)
+{
+    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    live.settle();
+    const Lights all = live.irradiance();
+    const auto only = [&](const std::string& name) {
+        for (const std::string sender : {"lamp", "sun", "light"})
+            live.set_lamp(sender, glm::vec3(sender == name ? 1.0f : 0.0f));
+        live.set_sky(glm::vec3(name == "sky" ? 1.0f : 0.0f));
+        live.settle();
+        return live.irradiance();
+    };
+    Lights sum(all.size());
+    for (const std::string name : {"lamp", "sun", "light", "sky"}) {
+        const Lights of_one = only(name);
+        double light = 0.0;
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum[i] += of_one[i];
+            light += double(of_one[i].g);
+        }
+        EXPECT_GT(light, 0.0) << name;
+    }
+    EXPECT_LT(farthest(sum, all), 2e-3);
+}
+
+TEST(LiveLinks, EditsEndWhereASolutionFromNothingDoes)
+{
+    const LiveLinksOptions options = options_for({});
+    Scene scene = open_box();
+    LiveLinks live(laid_out(scene, {}), options);
+    live.settle();
+    const glm::mat4 there = glm::translate(glm::mat4(1.0f), glm::vec3(0.4f, 0.45f, 0.1f));
+    const glm::vec3 lamp(0.2f, 0.6f, 1.0f), sky(0.3f, 0.3f, 0.6f), blue(0.1f, 0.2f, 0.7f);
+    live.set_albedo("red", glm::vec3(0.0f));
+    live.set_lamp("lamp", glm::vec3(0.0f));
+    live.advance(0.0);
+    live.set_albedo("red", blue);
+    live.set_lamp("lamp", lamp);
+    live.set_sky(sky);
+    live.move_lamp("lamp", there);
+    EXPECT_TRUE(live.settle().at_rest);
+
+    for (Material& material : scene.materials)
+        if (material.name == "red")
+            material.base_color = glm::vec4(blue, 1.0f);
+    scene.lights[0].color *= lamp;
+    scene.lights[0].transform = there;
+    for (glm::vec3& radiance : scene.sky.radiance)
+        radiance *= sky;
+    LiveLinks fresh(laid_out(scene, {}), options);
+    fresh.settle();
+    EXPECT_LT(farthest(live.irradiance(), fresh.irradiance()), 1e-3);
+    EXPECT_LT(dark_error(live.irradiance(), fresh.irradiance()), 1e-3);
+}
+
+TEST(LiveLinks, MovedAtRandomLinksAndDirectLightAreThoseOfTheLastPlace)
+{
+    const LiveLinksOptions options = options_for({kBlock, kLight});
+    LiveLinks live(laid_out(open_box(), options.things), options);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> any(-1.0f, 1.0f);
+    const auto vector = [&](float size) {
+        return size * glm::vec3(any(random), any(random), any(random));
+    };
+    std::uint64_t retraced = 0;
+    for (int k = 0; k < 20; ++k) {
+        const std::string& thing = k % 4 == 2 ? kLight : kBlock;
+        // Through walls too, and out of the box.
+        retraced += live.move(thing, motion(glm::vec3(0.2f), kPi * any(random), vector(1.0f),
+                                            vector(k % 5 == 4 ? 0.8f : 0.2f)))
+                        .links.all();
+        live.advance(0.0);
+    }
+    EXPECT_LT(retraced, 20 * live.lumels().lumels.size() * options.rays / 3);
+    LiveLinks fresh = anew(live, options);
+    EXPECT_EQ(different(live, fresh), 0u);
+    live.settle();
+    fresh.settle();
+    EXPECT_LT(farthest(live.irradiance(), fresh.irradiance()), 1e-3);
+}
+
+TEST(LiveLinks, ShadowsOfABoxAlongTheAxesMoveToTheirEdges)
+{
+    const std::string box = "box";
+    const LiveLinksOptions options = options_for({box});
+    Scene scene = read("moving-small-lamp.gltf");
+    PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.1f};
+    lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.6f, 1.8f, 0.6f));
+    scene.lights.push_back(lamp);
+    scene.instances.erase(scene.instances.begin() + find_instance(scene, "wall -z"));
+    PunctualLight sun{.kind = PunctualLight::Kind::directional, .name = "sun", .angle = 0.05f};
+    sun.transform[2] = glm::vec4(glm::normalize(glm::vec3(0.1f, 0.3f, -1.0f)), 0.0f);
+    scene.lights.push_back(sun);
+    LiveLinks live(laid_out(scene, options.things), options);
+    for (const glm::vec3& shift :
+         {glm::vec3(0.1f, 0.0f, 0.0f), glm::vec3(0.0f, 0.3f, 0.2f), glm::vec3(-0.2f, 0.1f, 0.1f)}) {
+        live.move(box, glm::translate(glm::mat4(1.0f), shift));
+        LiveLinks fresh = anew(live, options);
+        EXPECT_EQ(different(live, fresh), 0u);
+    }
+}
+
+TEST(LiveLinks, MovedBackNothingIsDifferent)
+{
+    const LiveLinksOptions options = options_for({kBlock});
+    LiveLinks live(laid_out(open_box(), options.things), options), still = anew(live, options);
+    live.move(kBlock,
+              motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f, 0.0f, 0.1f)));
+    EXPECT_GT(different(live, still), 0u);
+    live.move(kBlock, glm::mat4(1.0f));
+    EXPECT_EQ(different(live, still), 0u);
+}
+
+TEST(LiveLinks, SendersThatShareAGroupAreDimmedTheSame)
+{
+    LiveLinksOptions options = options_for({}), narrow = options;
+    narrow.light.most_bytes = 1;
+    LiveLinks apart(laid_out(open_box(), {}), options), shared(laid_out(open_box(), {}), narrow);
+    for (LiveLinks* live : {&apart, &shared}) {
+        live->set_lamp("lamp", glm::vec3(0.3f));
+        live->set_lamp("sun", glm::vec3(0.1f, 0.2f, 0.3f));
+        live->set_lamp("lamp", glm::vec3(0.5f));
+    }
+    EXPECT_LT(farthest(shared.direct(), apart.direct()), 1e-5);
+}
+
+TEST(LiveLinks, BudgetEndsACallAndLaterCallsFinish)
+{
+    LiveLinks live(laid_out(read("two-rooms.gltf"), {}), options_for({}));
+    const LiveLinksState first = live.advance(0.0);
+    EXPECT_FALSE(first.at_rest);
+    EXPECT_LE(first.sweeps, 1);
+    int calls = 1;
+    while (!live.advance(0.0).at_rest)
+        ++calls;
+    EXPECT_GT(calls, 3);
+    LiveLinks at_once(laid_out(read("two-rooms.gltf"), {}), options_for({}));
+    at_once.settle();
+    EXPECT_EQ(live.irradiance(), at_once.irradiance());
+}
+
+TEST(LiveLinks, CellsHoldAllDirectionsThatMeetABall)
+{
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> any(-1.0f, 1.0f), unit(0.0f, 1.0f);
+    constexpr std::uint32_t kCellsASide = 8;
+    std::size_t met = 0, listed = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const glm::vec3 centre(any(random), any(random), any(random));
+        const float radius = 0.6f * unit(random) * unit(random);
+        std::vector<char> has(kCellsASide * kCellsASide, 0);
+        cells_towards(centre, radius, kCellsASide).for_each(kCellsASide, [&](std::uint32_t cell) {
+            has[cell] = 1;
+            ++listed;
+        });
+        for (int n = 0; n < 200; ++n) {
+            const glm::vec2 at(unit(random), unit(random));
+            const float r = std::sqrt(at.x), turn = 2.0f * kPi * at.y;
+            const glm::vec3 d(r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0f - at.x));
+            const float along = glm::dot(d, centre);
+            if (along < 0.0f || glm::dot(centre, centre) - along * along > radius * radius)
+                continue;
+            ++met;
+            const auto u = std::uint32_t(at.x * kCellsASide), v = std::uint32_t(at.y * kCellsASide);
+            EXPECT_TRUE(has[v * kCellsASide + u]) << k;
+        }
+    }
+    EXPECT_GT(met, 5000u);
+    EXPECT_LT(listed, 2000u * kCellsASide * kCellsASide / 3);
+}
+
+TEST(LiveLinks, RefusesWhatItCannotDo)
+{
+    const Scene scene = read("cornell-box.gltf");
+    EXPECT_THROW(lay_out(scene, {.size = kSide}, {"no such thing"}), Error);
+    LiveLinksOptions options = options_for({kBlock});
+    options.rays = 50;
+    EXPECT_THROW(LiveLinks(laid_out(scene, {kBlock}), options), Error);
+    LiveLinks live(laid_out(scene, {kBlock}), options_for({kBlock}));
+    EXPECT_THROW(live.set_lamp("no such lamp", glm::vec3(1.0f)), Error);
+    EXPECT_THROW(live.set_lamp(kLight, glm::vec3(-1.0f)), Error);
+    EXPECT_THROW(live.set_sky(glm::vec3(1.0f)), Error);
+    EXPECT_THROW(live.set_albedo("red", glm::vec3(1.5f)), Error);
+    EXPECT_THROW(live.move("tall block", glm::mat4(1.0f)), Error);
+    EXPECT_THROW(live.move(kBlock, glm::scale(glm::mat4(1.0f), glm::vec3(2.0f))), Error);
+}
+
+}  // namespace
+}  // namespace lumel
