@@ -325,6 +325,15 @@ void add_parts(Report& report, const std::string& key, const Results& results, c
     }
 }
 
+/// Of the keys of tables: "" for whole edges, then as table 5.3 has its halves.
+std::string suffix_of(const std::vector<int>& all_pieces, int pieces)
+{
+    const auto place = std::find(all_pieces.begin(), all_pieces.end(), pieces) - all_pieces.begin();
+    constexpr std::array suffixes{"", "-first", "-second"};
+    return place < std::ptrdiff_t(suffixes.size()) ? suffixes[std::size_t(place)]
+                                                   : fmt::format("-{}", pieces);
+}
+
 std::vector<ThesisScene> scenes_of(const DynamicSettings& settings)
 {
     std::vector<ThesisScene> scenes;
@@ -351,7 +360,7 @@ void follow_moves(const DynamicSettings& settings, Report& report)
     const auto rest = by_processor ? &Update::whole_cpu_ms : &Update::whole_ms;
     std::vector<Results> whole;  // with edges in one piece
     for (const int pieces : all_pieces) {
-        const std::string suffix = pieces > 1 ? fmt::format("-{}", pieces) : "";
+        const std::string suffix = suffix_of(all_pieces, pieces);
         std::vector<Results> all;
         for (const ThesisScene& scene : scenes_of(settings)) {
             all.push_back(measure(device, scene, settings, pieces));

@@ -54,7 +54,7 @@ constexpr Run kRuns[] = {
      "same directions, so they are those of stochastic depths alone.",
      "directions --size 128 --map-side 512 --directions 256 --width 240 -o {out}",
      "directions -o {out}",
-     "directions --size 16 --map-side 64 --directions 4 --width 16 -o {out}"},
+     "directions --size 32 --map-side 64 --directions 4 --width 16 -o {out}"},
     {"moves", "A box that turns",
      "An update, from the move until 0.2 % of all light is unshot, and of its "
      "redistribution alone; a table of errors for either state. Errors are of the lumels' "
@@ -78,7 +78,7 @@ constexpr Run kRuns[] = {
      "--reference-spp 0 --pieces 14",
      "dynamic --hemicube 64 --no-gather --reference-spp 0",
      "dynamic --scenes large,low --size 16 --low-size 16 --hemicube 16 --steps 1 --no-gather "
-     "--reference-spp 0 --residual 0.1"},
+     "--reference-spp 0 --residual 0.1 --pieces 2,3"},
     {"drift", "Many moves", "Error at rest after the moves of a row.",
      "drift --size 24 --hemicube 32 --moves 100", "drift --size 24 --hemicube 32 --moves 1000",
      "drift --size 16 --hemicube 16 --residual 0.1 --moves 2"},
