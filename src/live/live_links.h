@@ -59,6 +59,8 @@ public:
     /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
     /// does not have, for scenes of which nothing stays, and for coloured glass.
     LiveLinks(LumelScene laid_out, const LiveLinksOptions& options);
+    LiveLinks(const LiveLinks&) = delete;
+    LiveLinks& operator=(const LiveLinks&) = delete;
 
     /// What lights of that name, or surfaces of a material of that name, send is `factor` times
     /// their value in the scene. Throws Error{input} if there is none, or a factor is negative.
