@@ -226,7 +226,8 @@ RelightSession::Factors RelightSession::factors_of(const LightState& state) cons
 std::vector<glm::vec3> RelightSession::irradiance()
 {
     for (const auto& [source, place] : to_move_) {
-        std::erase_if(now_.moved, [&](const Moved& before) { return before.source == source; });
+        std::erase_if(now_.moved,
+                      [of = source](const Moved& before) { return before.source == of; });
         now_.moved.push_back(moved(source, place));
     }
     to_move_.clear();
