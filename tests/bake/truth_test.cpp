@@ -62,8 +62,11 @@ Glow furnace_glow(const std::string& name, double truth, double tolerance, Solve
 {
     const bool gathers = std::holds_alternative<GatherOptions>(options.method);
     const Prepared furnace(support::scene_path(name), AtlasOptions{.size = gathers ? 32 : 64});
+    // Every direction lights every lumel.
+    const std::uint64_t shooters =
+        std::holds_alternative<DirectionsOptions>(options.method) ? 4096 : 16384;
     const Solved solved =
-        support::solve_scene(furnace, with_shots(options, 16384, furnace.lumels, {40}));
+        support::solve_scene(furnace, with_shots(options, shooters, furnace.lumels, {40}));
     Glow glow;
     double area = 0.0, within = 0.0, count = 0.0;
     for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
