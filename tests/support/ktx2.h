@@ -25,6 +25,20 @@ inline std::uint32_t word_at(std::span<const std::uint8_t> file, std::size_t off
     return word;
 }
 
+inline float half_at(std::span<const std::uint8_t> texels, std::size_t offset)
+{
+    std::uint16_t half = 0;
+    std::memcpy(&half, texels.data() + offset, sizeof half);
+    return glm::unpackHalf1x16(half);
+}
+
+inline float shared_exponent_at(std::span<const std::uint8_t> texels, std::size_t offset,
+                                std::size_t channel)
+{
+    const std::uint32_t word = word_at(texels, offset);
+    return std::ldexp(float(word >> (9 * channel) & 511u), int(word >> 27) - 15 - 9);
+}
+
 /// RGB of R16G16B16A16_SFLOAT (97) or E5B9G9R9_UFLOAT_PACK32 (123).
 inline Image decode_ktx2(std::span<const std::uint8_t> file)
 {
@@ -40,14 +54,9 @@ inline Image decode_ktx2(std::span<const std::uint8_t> file)
     if (size != texels.size() || size != word_at(file, 96))
         throw std::runtime_error("texels cannot be unpacked");
     for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t word = word_at(texels, i * texel);
-            std::uint16_t half = 0;
-            std::memcpy(&half, texels.data() + i * texel + 2 * c, sizeof half);
-            image.values[3 * i + c] =
-                format == 97 ? glm::unpackHalf1x16(half)
-                             : std::ldexp(float(word >> (9 * c) & 511u), int(word >> 27) - 15 - 9);
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            image.values[3 * i + c] = format == 97 ? half_at(texels, i * texel + 2 * c)
+                                                   : shared_exponent_at(texels, i * texel, c);
     return image;
 }
 
