@@ -23,8 +23,8 @@ Lumels black(Lumels lumels);
 /// Σ A of lumels that reflect [m²]
 float reflecting_area(const Lumels& lumels);
 
-/// Area of lumels that shine by themselves, of that of all; known: [N] [lx] whose reflection is
-/// among their emission too, or empty.
+/// Share of the area that shines by itself. known: [N] [lx] of light whose reflection the emission
+/// contains too, or empty.
 float emissive_share(const Lumels& lumels, std::span<const glm::vec3> known);
 
 /// Σ A 𝓛(E) [lm]; emission [N] as of emission_of.

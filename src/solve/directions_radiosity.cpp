@@ -6,8 +6,8 @@
 //     E ← ρ (D + what sky and lamps send straight)
 //     H ← D + what [TN11] gathers of E                                          directions.h
 //
-// In the paper directions find all light. Few of them meet a lamp: of one in a box, a
-// five-hundredth of all that a lumel sees, 13,000 directions leave an error of 6 %.
+// In the paper directions find all light. Few of them meet a small lamp: in the Cornell box at 128²
+// 13,000 directions leave an estimated error of 6 %.
 
 #include "solve/directions_radiosity.h"
 
