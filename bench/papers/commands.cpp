@@ -219,6 +219,10 @@ void add_matrix(CLI::App& app, MatrixSettings& settings, Report& report)
         ->check(CLI::Range(0.0, 100.0))
         ->capture_default_str();
     figure->add_option("--forms", settings.forms, "only those whose names have this in them");
+    add_number(figure, "--reference-spp", settings.shared.reference_spp,
+               "paths per lumel to compare a picture with; 0: none", 0);
+    figure->add_option("-o,--out", settings.folder, "folder for pictures");
+    add_number(figure, "--width", settings.width, "of the pictures of the scene [pixels]");
     figure->callback([&settings, &report] { compare_matrix_forms(settings, report); });
 }
 

@@ -116,11 +116,13 @@ struct MatrixSettings {
     std::vector<int> patches{2048};                 ///< n at most, one after the other
     int lights = 16;                                ///< states of light that errors are taken of
     std::vector<double> shares{0, 1, 2, 4, 8, 16};  ///< kept exactly [%]
-    std::string forms;  ///< a part of the names of those to compare, without the other tables
+    std::string forms;   ///< a part of the names of those to compare, without the other tables
+    std::string folder;  ///< for pictures; empty: none are made
+    int width = 256;     ///< of a picture of the scene [pixels]
 };
 
-/// [SF17] figures 1, 2, 7 and 12: distribution of form factors, error and bytes of compressed
-/// matrices.
+/// [SF17] figures 1 to 5, 7 to 10, 12 and 13: distribution of form factors, error and bytes of
+/// compressed matrices, pictures of the matrix and of what it lights.
 void compare_matrix_forms(const MatrixSettings& settings, Report& report);
 
 struct MatrixSpeedSettings {

@@ -1,5 +1,5 @@
-// [SF17] figures 1, 2, 7 and 12: how form factors are distributed, and what compression costs;
-// beyond the paper, error against bytes of every form.
+// [SF17] figures 1 to 5, 7 to 10, 12 and 13: how form factors are distributed, and what compression
+// costs; beyond the paper, error against bytes of every form.
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/papers/matrix_case.h"
+#include "bench/papers/matrix_pictures.h"
 #include "core/usage.h"
 #include "matrix/compressed.h"
 
@@ -230,8 +231,14 @@ void compare_matrix_forms(const MatrixSettings& settings, Report& report)
         if (!settings.forms.empty())
             continue;
         add_distribution(report, matrix_case);
+        add_logarithms(report, matrix_case);
         add_reorderings(report, matrix_case);
         add_shares(report, matrix_case, settings.shares);
+        if (settings.folder.empty())
+            continue;
+        draw_matrix(report, matrix_case, settings.folder);
+        draw_beside_paths(device, settings.shared, std::uint32_t(patches), settings.width,
+                          settings.folder, report);
     }
 }
 

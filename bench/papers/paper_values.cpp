@@ -228,9 +228,7 @@ constexpr NotReproduced kNotReproduced[] = {
     {"[Hoef13]", "Section 5.3.1", "cost of each hemicube and pass", "time by part is measured, cost of one hemicube is not"},
     {"[Hoef13]", "Table 5.4", "other techniques", "times of other programs, which the thesis quotes too"},
     {"[Hoef13]", "Section 5.1", "about 10,000 lumels in three scenes", "a quarter of them here; a full run has as many"},
-    {"[SF17]", "Figures 3, 4", "distribution after normalization and logarithm", "not made"},
-    {"[SF17]", "Figures 5, 8 to 10", "pictures of the matrix and of its errors", "not made"},
-    {"[SF17]", "Figures 13, 14", "pictures beside path tracing (17 ms against 5 minutes) and light propagation volumes", "not made; agreement with paths is in docs/papers.md"},
+    {"[SF17]", "Figures 13, 14", "light propagation volumes of another engine", "our picture is beside path tracing only"},
     // clang-format on
 };
 

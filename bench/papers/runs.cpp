@@ -85,8 +85,9 @@ constexpr Run kRuns[] = {
     {"matrix", "Form-factor matrices",
      "Bytes of the file. Errors of indirect light over patches by their area against the matrix "
      "before it was compressed.",
-     "matrix --size 64 --patches 1024", "matrix",
-     "matrix --size 16 --patches 64 --lights 2 --hemicube 32"},
+     "matrix --size 64 --patches 1024 --reference-spp 2048 -o {out}", "matrix -o {out}",
+     "matrix --size 16 --patches 64 --lights 2 --hemicube 32 --reference-spp 16 --width 16 "
+     "-o {out}"},
     {"matrix-speed", "One multiply against many bounces",
      "The multiply alone, for three colours at once, the fastest of three stretches. "
      "Naive radiosity reads the form factors, as floats without colours, once for each of 8 "

@@ -4,33 +4,21 @@
 #include <cmath>
 #include <utility>
 
-#include <glm/glm.hpp>
-
+#include "matrix/bc1_colors.h"
 #include "matrix/block_codes.h"
 
 namespace lumel {
+
+using namespace bc1;
+
 namespace {
 
-constexpr std::array<int, 3> kBits = {5, 6, 5};
 constexpr int kRefinements = 3;       // more change little
 constexpr int kAxisIterations = 8;    // of the power method; blocks are nearly lines
 constexpr float kFullTexel = 255.0f;  // a channel's largest
 
-using Coded = std::array<int, 3>;  // a colour of 5, 6, 5 bits
-
 /// Share of the first colour in what an index names.
 constexpr std::array<float, 4> kFirstShare = {1.0f, 0.0f, 2.0f / 3.0f, 1.0f / 3.0f};
-
-/// The hardware repeats the upper bits below the last one.
-float expand(int code, int bits)
-{
-    return float(code << (8 - bits) | code >> (2 * bits - 8));
-}
-
-glm::vec3 expand(const Coded& code)
-{
-    return {expand(code[0], kBits[0]), expand(code[1], kBits[1]), expand(code[2], kBits[2])};
-}
 
 Coded quantise(const glm::vec3& color)
 {
@@ -45,11 +33,6 @@ Coded quantise(const glm::vec3& color)
 glm::vec3 texel(const ColorBlock& texels, std::size_t i)
 {
     return {texels[i][0], texels[i][1], texels[i][2]};
-}
-
-std::uint32_t pack(const Coded& code)
-{
-    return std::uint32_t(code[0] << 11 | code[1] << 5 | code[2]);
 }
 
 struct Choice {
@@ -137,7 +120,7 @@ std::pair<Coded, Coded> single_color(const glm::vec3& color)
         float least = INFINITY;
         for (int a = std::max(near - 3, 0); a <= std::min(near + 3, most); ++a)
             for (int b = std::max(near - 3, 0); b <= std::min(near + 3, most); ++b) {
-                const float mixed = (2.0f * expand(a, kBits[c]) + expand(b, kBits[c])) / 3.0f;
+                const float mixed = float(2 * expand(a, kBits[c]) + expand(b, kBits[c])) / 3.0f;
                 if (std::abs(mixed - color[c]) < least) {
                     least = std::abs(mixed - color[c]);
                     best.first[c] = a;
@@ -158,11 +141,6 @@ BlockWords words_of(const Choice& choice)
     if (swapped)
         std::swap(first, second);
     return {first | second << 16, indices};
-}
-
-Coded unpack(std::uint32_t code)
-{
-    return {int(code >> 11 & 31u), int(code >> 5 & 63u), int(code & 31u)};
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ void encode_logarithms(CodedMatrix& coded, const ColorMatrix& matrix, const Codi
         coded.largest[c] = largest_of(rest.channel[c].values);
     LogImage image = log_image(rest, coded.largest, options.offset);
     reorder(coded, image, options.reordering);
-    coded.words = to_words(image, options.code);
+    coded.words = to_words(image, coded.largest, options.offset, options.code);
     if (!options.mend)
         return;
     const ColorMatrix stored = decode_rest(coded);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "matrix/bc1_logarithms.h"
 #include "matrix/block_codes.h"
 #include "matrix/log_code.shared.h"
 
@@ -41,7 +42,7 @@ std::size_t place(std::uint32_t side, std::size_t row, std::size_t column, std::
     return (row + texel / kBlockSide) * side + column + texel % kBlockSide;
 }
 
-void store_bc1(Words& words, const LogImage& image)
+void store_bc1(Words& words, const LogImage& image, const LogarithmsInBc1& encoder)
 {
     words[0].resize(image.channel[0].size() / 8);
     for_blocks(image.side, [&](std::size_t row, std::size_t column, std::size_t at) {
@@ -49,7 +50,7 @@ void store_bc1(Words& words, const LogImage& image)
         for (std::size_t i = 0; i < kBlockTexels; ++i)
             for (std::size_t c = 0; c < 3; ++c)
                 block[i][c] = image.channel[c][place(image.side, row, column, i)];
-        const BlockWords found = encode_bc1(block);
+        const BlockWords found = encoder.encode(block);
         std::copy(found.begin(), found.end(), words[0].begin() + std::ptrdiff_t(at));
     });
 }
@@ -132,11 +133,11 @@ LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
     return result;
 }
 
-Words to_words(const LogImage& image, Code code)
+Words to_words(const LogImage& image, const std::array<float, 3>& largest, float offset, Code code)
 {
     Words words;
     if (code == Code::bc1)
-        store_bc1(words, image);
+        store_bc1(words, image, LogarithmsInBc1(offset, largest));
     else if (code == Code::bc4)
         store_bc4(words, image);
     else

@@ -27,7 +27,9 @@ LogImage reordered(const LogImage& image, std::span<const std::uint32_t> rows,
                    std::span<const std::uint32_t> columns);
 
 /// Words of a matrix in one of the codes log8, bc1 and bc4; and back, as near as they are.
-std::array<std::vector<std::uint32_t>, 3> to_words(const LogImage& image, Code code);
+/// largest, offset: as log_image() was given them.
+std::array<std::vector<std::uint32_t>, 3>
+to_words(const LogImage& image, const std::array<float, 3>& largest, float offset, Code code);
 LogImage from_words(const std::array<std::vector<std::uint32_t>, 3>& words, std::uint32_t side,
                     Code code);
 
