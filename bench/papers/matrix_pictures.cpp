@@ -22,20 +22,17 @@ namespace lumel::bench {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr float kWhite = 255.0f;         // the largest code
-constexpr double kPapersOffset = 25.0;   // that the paper adds to logarithms
-constexpr double kBinWidth = 2.5;        // of natural logarithms, a tenth of the offset
-constexpr int kBins = 12;                // down to −30, where the paper's figure 3 begins
-constexpr std::uint32_t kMostSide = 512; // of a picture of a matrix [pixels]
-constexpr double kMatrixError = 0.01;    // stated, of direct light, which the matrix is given
-constexpr float kEnlarged = 5.0f;        // differences are, to be seen
+constexpr float kWhite = 255.0f;          // the largest code
+constexpr double kPapersOffset = 25.0;    // that the paper adds to logarithms
+constexpr double kBinWidth = 2.5;         // of natural logarithms, a tenth of the offset
+constexpr int kBins = 12;                 // down to −30, where the paper's figure 3 begins
+constexpr std::uint32_t kMostSide = 512;  // of a picture of a matrix [pixels]
+constexpr double kMatrixError = 0.01;     // stated, of direct light, which the matrix is given
+constexpr float kEnlarged = 5.0f;         // differences are, to be seen
 
 CodingOptions papers_settings(Code code, Reordering order)
 {
-    return {.code = code,
-            .offset = float(kPapersOffset),
-            .reordering = order,
-            .mend = false};
+    return {.code = code, .offset = float(kPapersOffset), .reordering = order, .mend = false};
 }
 
 /// Means of squares of texels, so that a picture is at most kMostSide wide.
@@ -91,12 +88,9 @@ Solved solve_by_matrix(const gpu::Device& device, const Settings& settings, cons
     const NearField near = near_field_for(world.scene, world.rays, world.lumels, options);
     const World resident(device, world.scene, world.lumels);
     const HostScene host{world.scene, world.rays, world.atlas};
-    const auto solver = make_solver({.device = device,
-                                     .world = &resident,
-                                     .lumels = world.lumels,
-                                     .near = near,
-                                     .host = &host},
-                                    options);
+    const auto solver = make_solver(
+        {.device = device, .world = &resident, .lumels = world.lumels, .near = near, .host = &host},
+        options);
     solve(*solver, options);
     Image map = finish_map(world.scene, world.atlas, world.lumels, solver->irradiance());
     watch.stop();
@@ -190,8 +184,7 @@ void draw_beside_paths(const gpu::Device& device, const Settings& settings, std:
     const Image by_paths = render_preview(device, world.scene, world.atlas, *truth, view, width);
     const float exposure = choose_exposure(by_paths);
     const std::string path = folder + "/matrix-and-paths.png";
-    write_png(path,
-              contact_sheet({{tone_map(by_matrix, exposure), tone_map(by_paths, exposure)}}));
+    write_png(path, contact_sheet({{tone_map(by_matrix, exposure), tone_map(by_paths, exposure)}}));
     report.picture(path, "Left by the matrix, right by path tracing");
 }
 

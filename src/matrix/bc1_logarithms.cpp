@@ -16,8 +16,8 @@ using namespace bc1;
 
 namespace {
 
-constexpr int kSixths = 6;          // mixtures are thirds and halves of two codes
-constexpr int kMostRounds = 8;      // each tries every channel of both ends
+constexpr int kSixths = 6;      // mixtures are thirds and halves of two codes
+constexpr int kMostRounds = 8;  // each tries every channel of both ends
 
 bool is_zero(const std::array<float, 3>& code)
 {
@@ -33,7 +33,9 @@ struct LogarithmsInBc1::Ends {
 };
 
 LogarithmsInBc1::LogarithmsInBc1(float offset, const std::array<float, 3>& largest)
-    : step_(offset / kLogCodes), offset_(offset), scale_(largest)
+    : step_(offset / kLogCodes),
+      offset_(offset),
+      scale_(largest)
 {
     const float most = *std::max_element(scale_.begin(), scale_.end());
     for (float& scale : scale_)

@@ -56,7 +56,7 @@ void main()
         far[i] = vec3(0.0);
         irradiance[i] = vec3(0.0);
     }
-    terms = add_over_group(terms);
+    terms = add_over_group(terms, 2u);
     if (gl_LocalInvocationID.x == 0u)
         parts[gl_WorkGroupID.x] = terms;
 }

@@ -32,7 +32,7 @@ void main()
             terms.column[1] = vec4(dot(d, d), h.r + h.g + h.b, 1.0, 0.0);
         }
     }
-    const Terms sum = add_over_group(terms);
+    const Terms sum = add_over_group(terms, 2u);
     if (gl_LocalInvocationID.x == 0u)
         parts[gl_WorkGroupID.x] = sum;
 }

@@ -24,7 +24,7 @@ void main()
         terms.column[0] = area * vec4(abs(luminance(unshot_of(i))), luminance(arrived),
                                       luminance(surface[i].rgb * arrived), 1.0);
     }
-    const Terms sum = add_over_group(terms);
+    const Terms sum = add_over_group(terms, 1u);
     if (gl_LocalInvocationID.x == 0u)
         parts[gl_WorkGroupID.x] = sum;
 }
