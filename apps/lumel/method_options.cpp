@@ -1,5 +1,7 @@
 #include "method_options.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -23,13 +25,26 @@ std::string default_of(const MethodInfo& method, const std::string& option)
     return method.option(option)->get(method.defaults());
 }
 
+bool among(const std::vector<std::string_view>& names, std::string_view name)
+{
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// "links|stochastic|…"
-std::string names_of_methods()
+std::string names_of_methods(const std::vector<std::string_view>& ids)
 {
     std::string list;
-    for (const MethodInfo& method : methods())
-        list += (list.empty() ? "" : "|") + std::string(method.id);
+    for (const std::string_view id : ids)
+        list += (list.empty() ? "" : "|") + std::string(id);
     return list;
+}
+
+std::vector<std::string_view> all_methods()
+{
+    std::vector<std::string_view> ids;
+    for (const MethodInfo& method : methods())
+        ids.push_back(method.id);
+    return ids;
 }
 
 /// The default of the first reader, and those of others that differ.
@@ -47,15 +62,22 @@ std::string defaults_of(const SharedOption& shared)
 
 }  // namespace
 
-void add_methods(CLI::App& app, GivenMethod& given)
+void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& some,
+                 const std::vector<std::string_view>& without)
 {
+    const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
     app.option_defaults()->group(kMethodGroup);
     app.add_option("--solver", given.id, "Method, see lumel methods")
-        ->type_name(names_of_methods())
+        ->type_name(names_of_methods(ids))
+        ->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())))
         ->capture_default_str();
-    for (const SharedOption& shared : options_of_methods()) {
+    for (SharedOption shared : options_of_methods()) {
+        std::erase_if(shared.readers,
+                      [&](const MethodInfo* reader) { return !among(ids, reader->id); });
+        if (shared.readers.empty() || among(without, shared.info->name))
+            continue;
         std::string note;
-        if (shared.readers.size() < methods().size()) {
+        if (shared.readers.size() < ids.size()) {
             for (const MethodInfo* reader : shared.readers)
                 note += (note.empty() ? " (only " : ", ") + std::string(reader->id);
             note += ")";

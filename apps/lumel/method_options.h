@@ -1,6 +1,9 @@
 #pragma once
 // The options of methods on the command line, as the table of methods describes them.
 
+#include <string_view>
+#include <vector>
+
 #include "solve/methods.h"
 
 namespace CLI {
@@ -12,8 +15,10 @@ namespace lumel {
 /// The title that --help and docs/options.md put above these options.
 inline constexpr const char* kMethodGroup = "Method";
 
-/// --solver, and the options of all methods.
-void add_methods(CLI::App& app, GivenMethod& given);
+/// --solver, and the options of all methods; or of those that `ids` names, but for the options
+/// `without`, which the command sets itself.
+void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& ids = {},
+                 const std::vector<std::string_view>& without = {});
 
 /// The options of the one method that `given` names.
 void add_one_method(CLI::App& app, GivenMethod& given);

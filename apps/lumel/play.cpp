@@ -17,7 +17,9 @@ int run(const PlayArguments& arguments)
                                       summary.seconds),
                           summary.interrupted};
     };
-    return do_long_work(arguments.talk, arguments.options.solver.views.batch, work);
+    const int batch =
+        std::visit([](const auto& method) { return batch_of(method); }, arguments.options.solver);
+    return do_long_work(arguments.talk, batch, work);
 }
 
 }  // namespace lumel

@@ -17,6 +17,7 @@ constexpr const char* kAnimationGroup = "Animation";
 
 constexpr int kMostFrames = 100'000;
 constexpr int kMostAnimations = 1'000'000;
+constexpr double kLeastLeak = 1e-4, kMostLeak = 0.5;
 constexpr double kMostFps = 1000.0;  // pictures a second
 
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
@@ -38,11 +39,17 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostAnimations));
-    add_choice(
-        app, "--redistribution", options.redistribution, kRedistributions,
-        "How light follows a move: incremental shoots again past the old and the new position, "
-        "as exact as a new solution; cross uses only views from what moves, which is faster "
-        "where that is small");
+    add_choice(app, "--redistribution", options.redistribution, kRedistributions,
+               "With --solver progressive, how light follows a move: incremental shoots again past "
+               "the old and the new position, "
+               "as exact as a new solution; cross uses only views from what moves, which is faster "
+               "where that is small");
+    app.add_option("--leak", options.leak,
+                   "With --solver directions, the share of the running mean that each direction "
+                   "replaces: more follows faster and is noisier")
+        ->type_name("F")
+        ->capture_default_str()
+        ->check(between(kLeastLeak, kMostLeak));
     app.add_option(
            "--budget", options.budget_ms,
            "Milliseconds for the light of each frame; where they are not enough it lags behind")
@@ -51,7 +58,8 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->check(positive());
     app.add_option_function<double>(
            "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-           "Light left to be shot, as a part of all, at which a solution is at rest")
+           "Light left to be shot, as a part of all, at which a solution is at rest; with "
+           "--solver directions, what is left of the light before a change")
         ->type_name("PERCENT")
         ->default_str(fmt::format("{:g}", 100.0 * options.residual))
         ->check(positive());
@@ -68,8 +76,8 @@ Command play_command(CLI::App& program)
 {
     const auto given = std::make_shared<PlayArguments>();
     PlayArguments& play = *given;
-    const auto method = std::make_shared<GivenMethod>(
-        GivenMethod{.id = method_of(MethodOptions(given->options.solver)).id});
+    const auto method =
+        std::make_shared<GivenMethod>(GivenMethod{.id = method_of(ProgressiveOptions{}).id});
     CLI::App& command = *program.add_subcommand(
         "play", "Render a scene's animation and correct the light from frame to frame");
     PlayOptions& options = play.options;
@@ -80,12 +88,18 @@ Command play_command(CLI::App& program)
     add_play_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
-    command.option_defaults()->group(kMethodGroup);
-    add_one_method(command, *method);
+    // Directions follow light by the papers' scheme alone.
+    add_methods(command, *method,
+                {method_of(ProgressiveOptions{}).id, method_of(DirectionsOptions{}).id},
+                {"scheme"});
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
     return {&command, [given, method]() -> Arguments {
-                given->options.solver = std::get<ProgressiveOptions>(method->options());
+                const MethodOptions chosen = method->options();
+                if (const auto* directions = std::get_if<DirectionsOptions>(&chosen))
+                    given->options.solver = *directions;
+                else
+                    given->options.solver = std::get<ProgressiveOptions>(chosen);
                 return *given;
             }};
 }

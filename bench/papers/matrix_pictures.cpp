@@ -26,7 +26,7 @@ constexpr float kWhite = 255.0f;          // the largest code
 constexpr double kPapersOffset = 25.0;    // that the paper adds to logarithms
 constexpr double kBinWidth = 2.5;         // of natural logarithms, a tenth of the offset
 constexpr int kBins = 12;                 // down to −30, where the paper's figure 3 begins
-constexpr std::uint32_t kMostSide = 512;  // of a picture of a matrix [pixels]
+constexpr std::uint32_t kMostSide = 256;  // of a picture of a matrix [pixels]
 constexpr double kMatrixError = 0.01;     // stated, of direct light, which the matrix is given
 constexpr float kEnlarged = 5.0f;         // differences are, to be seen
 
@@ -142,23 +142,21 @@ void add_logarithms(Report& report, const MatrixCase& matrix_case)
 void draw_matrix(Report& report, const MatrixCase& matrix_case, const std::string& folder)
 {
     std::filesystem::create_directories(folder);
-    const auto draw = [&](const char* name, const LogImage& image, std::string caption) {
-        const std::string path = folder + "/" + name;
-        write_png(path, picture_of(image, matrix_case.size()));
-        report.picture(path, std::move(caption));
-    };
     const LogImage before =
         image_of(encode(matrix_case.bounces, papers_settings(Code::log8, Reordering::none)));
     const CodedMatrix coded =
         encode(matrix_case.bounces, papers_settings(Code::bc1, Reordering::rows_and_columns));
     const LogImage after = image_of(coded);
     const LogImage wanted = reordered(before, coded.row_order, coded.column_order);
-    draw("matrix-before.png", before, "[SF17] figure 5: codes of the matrix before reordering");
-    draw("matrix-after.png", after, "Figure 8: out of BC1, after both reorderings");
-    draw("matrix-red.png", difference(after, wanted, 1),
-         "Figure 9: difference of codes in red, times 5");
-    draw("matrix-difference.png", difference(after, wanted, 3),
-         "Figure 10: difference of codes in all channels, times 5");
+    const std::uint32_t n = matrix_case.size();
+    const std::string path = folder + "/matrix.png";
+    write_png(path, contact_sheet({{picture_of(before, n), picture_of(after, n),
+                                    picture_of(difference(after, wanted, 1), n),
+                                    picture_of(difference(after, wanted, 3), n)}}));
+    report.picture(path,
+                   "[SF17] figures 5, 8, 9 and 10: codes of the matrix before reordering, out of "
+                   "BC1 after both reorderings, and how far these are off in red and in all "
+                   "channels, times 5");
 }
 
 void draw_beside_paths(const gpu::Device& device, const Settings& settings, std::uint32_t patches,

@@ -11,7 +11,7 @@ namespace lumel::bench {
 void add_logarithms(Report& report, const MatrixCase& matrix_case);
 
 /// [SF17] figures 5 and 8 to 10: the logarithms before compression, from blocks after both
-/// reorderings, and how far these are off, in red and in all colours. Four PNGs in `folder`.
+/// reorderings, and how far these are off, in red and in all colours. Side by side in `folder`.
 void draw_matrix(Report& report, const MatrixCase& matrix_case, const std::string& folder);
 
 /// [SF17] figure 13: the scene by `--solver matrix` and by paths, from one eye. Throws Error.

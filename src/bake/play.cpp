@@ -132,7 +132,7 @@ LiveOptions live_options(const PlayOptions& options, const std::vector<std::uint
 {
     LiveOptions live;
     live.atlas = options.atlas;
-    live.solver = options.solver;
+    live.solver = std::get<ProgressiveOptions>(options.solver);
     live.movers = movers;
     live.still = movers.empty();
     // Where only lamps change there is nothing to cross.
@@ -141,8 +141,26 @@ LiveOptions live_options(const PlayOptions& options, const std::vector<std::uint
     return live;
 }
 
+LeakyOptions leaky_options(const PlayOptions& options, const std::vector<std::uint32_t>& movers)
+{
+    LeakyOptions leaky;
+    leaky.atlas = options.atlas;
+    leaky.solver = std::get<DirectionsOptions>(options.solver);
+    leaky.leak = options.leak;
+    leaky.movers = movers;
+    leaky.still = movers.empty();
+    leaky.residual = options.residual;
+    return leaky;
+}
+
 /// A scene, how it changes, and the light that follows.
 class Player {
+    template <class Body>
+    auto with_light(const Body& body)
+    {
+        return live_ ? body(*live_) : body(*leaky_);
+    }
+
 public:
     /// `scene`: posed as the first frame.
     Player(const gpu::Device& device, Scene scene, const Animation& animation,
@@ -153,9 +171,13 @@ public:
           movers_(movers),
           lamps_(changing_lamps(scene, animation)),
           shown_(std::move(scene)),
-          live_(device, at_its_brightest(shown_, animation), live_options(options, movers)),
           exposure_(options.exposure)
     {
+        Scene brightest = at_its_brightest(shown_, animation);
+        if (std::holds_alternative<DirectionsOptions>(options.solver))
+            leaky_.emplace(device, std::move(brightest), leaky_options(options, movers));
+        else
+            live_.emplace(device, std::move(brightest), live_options(options, movers));
         if (options.camera < 0 && shown_.cameras.empty())
             chosen_ = choose_view(shown_, RayScene(shown_));
     }
@@ -164,15 +186,7 @@ public:
     std::optional<FrameRow> follow(int frame, Stages& stages)
     {
         const double time = time_of(options_, frame);
-        pose(shown_, *animation_, time);
-        for (const std::uint32_t i : movers_)
-            live_.move(i, shown_.instances[i].transform);
-        for (ChangingLamp& lamp : lamps_) {
-            const glm::vec3 factor = emission_factor(*lamp.material, time);
-            if (factor != lamp.factor)
-                live_.set_emission(lamp.instance, factor);
-            lamp.factor = factor;
-        }
+        change_to(time);
         FrameRow row{.file = frame_name(frame), .seconds = time};
         const std::uint64_t before = hemicubes_;
         while (!row.at_rest) {
@@ -183,7 +197,7 @@ public:
             if (left <= 0.0)
                 break;
             const double slice = std::min(left, kSlice);
-            const LiveState state = live_.update(slice);
+            const LiveState state = with_light([&](auto& light) { return light.update(slice); });
             row.update_ms += state.milliseconds;
             row.residual = state.residual;
             row.at_rest = state.at_rest;
@@ -196,18 +210,45 @@ public:
     /// The picture of the scene as it stands, tone-mapped.
     Image picture()
     {
-        const Image map = finish_map(shown_, live_.atlas(), live_.lumels(), live_.irradiance());
-        Image image = render_preview(*device_, shown_, live_.atlas(), map, view(), options_.width);
+        const Image map = with_light([&](auto& light) {
+            return finish_map(shown_, light.atlas(), light.lumels(), light.irradiance());
+        });
+        Image image = render_preview(*device_, shown_, atlas(), map, view(), options_.width);
         // One exposure for all, or the pictures would flicker.
         if (exposure_ <= 0.0f && bright_end(image) > 0.0f)
             exposure_ = choose_exposure(image);
         return tone_map(image, exposure_);
     }
 
-    const LiveScene& live() const { return live_; }
+    const Atlas& atlas() const { return live_ ? live_->atlas() : leaky_->atlas(); }
     float exposure() const { return exposure_; }
+    /// What became of it, once all is played.
+    Report report(const PlayOptions& options, int height, std::vector<FrameRow> frames,
+                  const Stages& stages)
+    {
+        return with_light([&](auto& light) {
+            return play_report(options,
+                               {light.scene(), light.atlas(), light.lumels(), light.times()},
+                               *device_, height, std::move(frames), stages);
+        });
+    }
 
 private:
+    void change_to(double time)
+    {
+        pose(shown_, *animation_, time);
+        with_light([&](auto& light) {
+            for (const std::uint32_t i : movers_)
+                light.move(i, shown_.instances[i].transform);
+            for (ChangingLamp& lamp : lamps_) {
+                const glm::vec3 factor = emission_factor(*lamp.material, time);
+                if (factor != lamp.factor)
+                    light.set_emission(lamp.instance, factor);
+                lamp.factor = factor;
+            }
+        });
+    }
+
     View view() const
     {
         return chosen_ ? *chosen_
@@ -219,9 +260,10 @@ private:
     PlayOptions options_;
     std::vector<std::uint32_t> movers_;
     std::vector<ChangingLamp> lamps_;
-    Scene shown_;  ///< as the current frame has it
-    LiveScene live_;
-    std::optional<View> chosen_;  ///< where the file has no camera
+    Scene shown_;                      ///< as the current frame has it
+    std::optional<LiveScene> live_;    ///< either this
+    std::optional<LeakyScene> leaky_;  ///< or this
+    std::optional<View> chosen_;       ///< where the file has no camera
     float exposure_;
     std::uint64_t hemicubes_ = 0;
 };
@@ -286,7 +328,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
 
     stages.begin("charts");
     Player player(device, std::move(start), animation, movers, options);
-    for (const std::string& note : player.live().atlas().notes)
+    for (const std::string& note : player.atlas().notes)
         log_info(note);
     stages.begin("playing");
     std::vector<FrameRow> rows;
@@ -310,7 +352,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     stages.end();
     device.check_validation();
     const int written = int(rows.size());
-    Report report = play_report(options, player.live(), device, height, std::move(rows), stages);
+    Report report = player.report(options, height, std::move(rows), stages);
     for (const FrameRow& row : report.frames)
         report.files.push_back(row.file);
     if (filmed)

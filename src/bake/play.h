@@ -3,18 +3,22 @@
 
 #include <cstddef>
 #include <string>
+#include <variant>
 
 #include "bake/bake.h"
+#include "live/leaky_scene.h"
 #include "live/live_scene.h"
 
 namespace lumel {
 
 struct PlayOptions {
     AtlasOptions atlas;
-    ProgressiveOptions solver;
+    /// Progressive radiosity is corrected after a move; directions are a leaky mean, which follows.
+    std::variant<ProgressiveOptions, DirectionsOptions> solver;
+    double leak = LeakyOptions{}.leak;  ///< with DirectionsOptions
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     Redistribution redistribution = Redistribution::incremental;
-    double residual = LiveOptions{}.residual;  ///< light still to be shot, as a part of all
+    double residual = LiveOptions{}.residual;  ///< as LiveOptions and LeakyOptions have it
     std::size_t animation = 0;                 ///< index into the file's animations
     int frames = 0;                            ///< 0: the animation's length
     double fps = 24.0;                         ///< [1/s]

@@ -231,22 +231,26 @@ Report picture_report(const RenderOptions& options, const Prepared& prepared,
     return report;
 }
 
-Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,
+Report play_report(const PlayOptions& options, const Played& played, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages)
 {
-    Report report = report_on(live.scene(), {});
-    add_usage(report, live.scene(), stages);
-    add_sizes(report, live.scene(), live.atlas(), live.lumels());
+    Report report = report_on(played.scene, {});
+    add_usage(report, played.scene, stages);
+    add_sizes(report, played.scene, played.atlas, played.lumels);
     add_device(report, device);
-    const bool crosses = options.redistribution == Redistribution::cross;
-    report.settings = {{"redistribution", crosses ? "cross" : "incremental"},
-                       {"animation", options.animation},
+    report.settings = {{"animation", options.animation},
                        {"frames", options.frames},
                        {"fps", options.fps},
                        {"budget", options.budget_ms},
                        {"residual", options.residual}};
+    if (std::holds_alternative<DirectionsOptions>(options.solver))
+        report.settings["leak"] = options.leak;
+    else
+        report.settings["redistribution"] =
+            options.redistribution == Redistribution::cross ? "cross" : "incremental";
     report.settings.update(atlas_settings(options.atlas));
-    report.solver = solver_settings({.method = options.solver});
+    report.solver = std::visit(
+        [](const auto& method) { return solver_settings({.method = method}); }, options.solver);
     for (const FrameRow& frame : frames)
         report.shots += frame.hemicubes;
     report.frames = std::move(frames);
@@ -254,7 +258,7 @@ Report play_report(const PlayOptions& options, const LiveScene& live, const gpu:
     report.exposure = options.exposure;
     report.picture_width = options.width;
     report.picture_height = height;
-    add_times(report, "", live.times());
+    add_times(report, "", played.times);
     return report;
 }
 

@@ -37,8 +37,16 @@ Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
 
+/// What was played.
+struct Played {
+    const Scene& scene;
+    const Atlas& atlas;
+    const Lumels& lumels;
+    const gpu::StageTimes& times;
+};
+
 /// The facts of a film. height: of the pictures [pixels].
-Report play_report(const PlayOptions& options, const LiveScene& live, const gpu::Device& device,
+Report play_report(const PlayOptions& options, const Played& played, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages);
 
 /// The facts of a path-traced picture. options.height: as the picture is.

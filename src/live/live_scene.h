@@ -12,6 +12,7 @@
 #include "live/incremental.h"
 #include "live/live.show.comp.h"
 #include "live/live_lamps.h"
+#include "live/live_state.h"
 
 namespace lumel {
 
@@ -31,15 +32,6 @@ struct LiveOptions {
     /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at
-};
-
-/// Where a LiveScene stands.
-struct LiveState {
-    double residual = 1.0;        ///< light still to be shot, as a part of all
-    bool under_way = false;       ///< a move is being redistributed
-    bool at_rest = false;         ///< update() has nothing left to do
-    std::uint64_t hemicubes = 0;  ///< so far
-    double milliseconds = 0.0;    ///< that the last update() took
 };
 
 /// Not safe for use from several threads.

@@ -239,6 +239,7 @@ void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
     pacer.finish();
     const std::vector<glm::vec3> emission = emission_of(lumels);
     emission_.upload(emission);
+    surface_.upload(surfaces_of(lumels));
     emitted_power_ = emitted_power(lumels, emission);
     advance(pacer);
 }

@@ -53,8 +53,8 @@ public:
     /// Ends a batch: so many shots went into direct() and into indirect(). Returns true if X is
     /// new.
     bool finish_batch(gpu::Pacer& pacer, std::uint32_t emission_shots, std::uint32_t source_shots);
-    /// E is that of `lumels` from now on. Waits for the device. Throws Error{input} unless the sums
-    /// are leaky: others would keep the light of before.
+    /// E, ρ and A are those of `lumels` from now on. Waits for the device. Throws Error{input}
+    /// unless the sums are leaky: others would keep the light of before.
     void relight(gpu::Pacer& pacer, const Lumels& lumels);
     /// H [N] [lx] so far. Waits for the device.
     std::vector<glm::vec3> irradiance(gpu::Pacer& pacer);

@@ -27,8 +27,8 @@ public:
     static std::uint64_t device_bytes(const SolveSize& size, const DirectionsOptions& options);
 
     void step() override;
-    /// From now on lumels emit as in `lumels`, and the sky is as it is now. For options with a
-    /// leak. Waits for the device. Throws Error{input} without one.
+    /// From now on lumels emit and reflect as in `lumels`, and the sky is as it is now. For options
+    /// with a leak. Waits for the device. Throws Error{input} without one.
     void relight(const Lumels& lumels);
     SolverState state() const override { return iteration_.state(); }
     std::vector<glm::vec3> irradiance() override;

@@ -147,6 +147,12 @@ void World::place(std::span<const glm::mat4> transforms)
     commands.run();
 }
 
+void World::widen(const glm::vec3& low, const glm::vec3& high)
+{
+    low_ = glm::min(low_, low);
+    high_ = glm::max(high_, high);
+}
+
 std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)
 {
     // Lumels, pieces and vertices in their instance's frame and in the world's.
