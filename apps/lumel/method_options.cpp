@@ -67,10 +67,11 @@ void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::strin
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
     app.option_defaults()->group(kMethodGroup);
-    app.add_option("--solver", given.id, "Method, see lumel methods")
-        ->type_name(names_of_methods(ids))
-        ->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())))
-        ->capture_default_str();
+    CLI::Option* solver = app.add_option("--solver", given.id, "Method, see lumel methods")
+                              ->type_name(names_of_methods(ids))
+                              ->capture_default_str();
+    if (!some.empty())
+        solver->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())));
     for (SharedOption shared : options_of_methods()) {
         std::erase_if(shared.readers,
                       [&](const MethodInfo* reader) { return !among(ids, reader->id); });

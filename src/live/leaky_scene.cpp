@@ -13,8 +13,7 @@ namespace {
 
 std::vector<char> flags_of(const Scene& scene, const LeakyOptions& options)
 {
-    std::vector<char> flags(scene.instances.size(),
-                            char(!options.still && options.movers.empty()));
+    std::vector<char> flags(scene.instances.size(), char(!options.still && options.movers.empty()));
     for (const std::uint32_t instance : options.movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, "instance " + std::to_string(instance),
