@@ -150,11 +150,17 @@ void add_directions(CLI::App& app, DirectionsSettings& settings, Report& report)
     settings.shared.given.values["slabs"] = "1";  // as the paper
     add_given(figure, settings.shared, "slabs");
     add_given(figure, settings.shared, "lookups");
-    figure->add_option("--scenes", settings.scenes, "some of cubes, balls, sky, lamp, landscape")
+    figure
+        ->add_option("--scenes", settings.scenes,
+                     "some of cubes, balls, sky, lamp, landscape, sponza")
         ->delimiter(',')
-        ->check(CLI::IsMember({"cubes", "balls", "sky", "lamp", "landscape"}));
+        ->check(CLI::IsMember({"cubes", "balls", "sky", "lamp", "landscape", "sponza"}));
     add_number(figure, "--directions", settings.directions, "for each scene; 0: as the paper", 0);
     figure->add_option("--sky", settings.sky, "file; else a clear sky");
+    figure->add_option(
+        "--sponza", settings.sponza,
+        "glTF file of one more scene, with 5 x 5 lookups and a lightmap of twice the "
+        "side");
     figure->add_option("-o,--out", settings.folder, "folder for the picture");
     add_number(figure, "--width", settings.width, "width of each scene's picture [pixels]");
     figure->callback([&settings, &report] { show_directions(settings, report); });

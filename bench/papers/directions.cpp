@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/cut.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
@@ -34,23 +35,36 @@ enum class Light { sky, own };
 
 /// A scene of the figure.
 struct Example {
-    const char* key;  ///< on the command line
-    const char* name;
-    const char* path;  ///< empty: the landscape
+    std::string key;  ///< on the command line
+    std::string name;
+    std::string path;  ///< empty: the landscape
     int directions;
     Light light;
+    int pieces = 1;   ///< that triangle edges are cut into, for the paper's number of triangles
+    int lookups = 0;  ///< wide and high; 0: as the settings have it
+    int finer = 1;    ///< sides of the lightmap, as multiples of the others'
 };
 
-constexpr Example kExamples[] = {
-    {"cubes", "four cubes", "scenes/four-cubes.gltf", 5120, Light::sky},
-    {"balls", "three balls", "scenes/three-balls.gltf", 5120, Light::sky},
-    {"sky", "Cornell box under a sky", "scenes/cornell-box.gltf", 4068, Light::sky},
-    {"lamp", "Cornell box with its lamp", "scenes/cornell-box.gltf", 42624, Light::own},
-    {"landscape", "landscape", "", 3764, Light::sky}};
+/// The Cornell box has 1102 triangles in the paper, here 1152.
+std::vector<Example> examples(const DirectionsSettings& settings)
+{
+    const std::string box = "scenes/cornell-box.gltf";
+    std::vector<Example> all = {
+        {"cubes", "four cubes", "scenes/four-cubes.gltf", 5120, Light::sky},
+        {"balls", "three balls", "scenes/three-balls.gltf", 5120, Light::sky},
+        {"sky", "Cornell box under a sky", box, 4068, Light::sky, 6},
+        {"lamp", "Cornell box with its lamp", box, 42624, Light::own, 6},
+        {"landscape", "landscape", "", 3764, Light::sky}};
+    if (!settings.sponza.empty())
+        all.push_back({"sponza", "Sponza", settings.sponza, 5604, Light::sky, 1, 5, 2});
+    return all;
+}
 
 Scene scene_of(const Example& example, const std::string& sky_file)
 {
-    Scene scene = *example.path ? read_gltf(example.path) : landscape(kLandscapeCells);
+    Scene scene = example.path.empty() ? landscape(kLandscapeCells) : read_gltf(example.path);
+    if (example.pieces > 1)
+        scene = cut(std::move(scene), example.pieces);
     if (example.light == Light::sky) {
         for (Material& material : scene.materials)
             material.emitted = glm::vec3(0.0f);
@@ -90,6 +104,7 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 {
     auto directions = options_of<DirectionsOptions>(settings.shared);
     directions.layers = Layers::stochastic;
+    directions.lookups = example.lookups > 0 ? example.lookups : directions.lookups;
     SolverOptions options = papers_iteration(directions);
     options.max_shots =
         std::uint64_t(settings.directions > 0 ? settings.directions : example.directions);
@@ -130,7 +145,7 @@ void add_row(Report& report, const Example& example, const Prepared& world,
 bool is_wanted(const DirectionsSettings& settings, const Example& example)
 {
     return settings.scenes.empty() ||
-           std::count(settings.scenes.begin(), settings.scenes.end(), std::string(example.key)) > 0;
+           std::count(settings.scenes.begin(), settings.scenes.end(), example.key) > 0;
 }
 
 /// Returns the picture, if one is to be made.
@@ -138,7 +153,7 @@ std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& d
                         const Example& example, Report& report)
 {
     const Prepared world(scene_of(example, settings.sky),
-                         AtlasOptions{.size = settings.shared.size});
+                         AtlasOptions{.size = settings.shared.size * example.finer});
     const SolverOptions options = options_for(settings, example);
     const Gathered gathered = gather(device, world, options);
     add_row(report, example, world, gathered, error_of_layers(device, world, options, gathered));
@@ -162,7 +177,7 @@ void show_directions(const DirectionsSettings& settings, Report& report)
                  {"scene", "triangles", "lumels", "directions", "wall ms per direction", "cpu ms",
                   "draw", "gather", "RMSE against list, %", "bias, %"});
     std::vector<std::vector<Image>> rows(1);
-    for (const Example& example : kExamples) {
+    for (const Example& example : examples(settings)) {
         if (!is_wanted(settings, example))
             continue;
         if (rows.back().size() == kPicturesInRow)

@@ -79,6 +79,7 @@ struct DirectionsSettings {
     int directions = 0;               ///< for each scene; 0: as many as the paper
     std::vector<std::string> scenes;  ///< keys of the table in directions.cpp; empty: all
     std::string sky;                  ///< file; empty: a clear sky
+    std::string sponza;               ///< file of one more scene; empty: it is left out
     std::string folder;               ///< for the picture; empty: none is made
     int width = 320;                  ///< of each scene's picture [pixels]
 };
