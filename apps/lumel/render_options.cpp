@@ -47,10 +47,11 @@ Command render_command(CLI::App& program)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostShots));
-    command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kMostRays));
+    CLI::Option* lobe_rays =
+        command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
+            ->type_name("N")
+            ->capture_default_str()
+            ->check(whole(0, kMostRays));
     command
         .add_option("--paths", options.paths,
                     "Trace this many paths per pixel on the processor instead, to compare with")
@@ -65,8 +66,11 @@ Command render_command(CLI::App& program)
     add_device_option(command, options.bake.device);
     add_dump_option(command, options.bake.dump);
     add_talk_options(command, render.talk);
-    return {&command, [given, method]() -> Arguments {
+    return {&command, [given, method, lobe_rays]() -> Arguments {
                 given->options.bake.solver.method = method->options();
+                if (lobe_rays->count() > 0 && is_papers(given->options.bake.solver.method))
+                    throw Error(ErrorKind::input, "--lobe-rays",
+                                "does nothing with --scheme paper, which has no rays");
                 check_limits(given->options.bake.solver);
                 return *given;
             }};

@@ -14,6 +14,7 @@
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "picture/lobe_rays.h"
+#include "picture/lumel_sight.h"
 #include "picture/picture.h"
 #include "preview/view.h"
 #include "record/origin.h"
@@ -39,6 +40,9 @@ void check(const std::string& path, const RenderOptions& options)
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
+    if (options.shots > 0 && is_papers(options.bake.solver.method))
+        throw Error(ErrorKind::input, "--eye-shots",
+                    "does nothing with --scheme paper, whose --shots light the picture too");
     if (options.paths > 0 && !options.bake.dump.empty())
         throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
     const OutputFile can_be_written(path);
@@ -117,6 +121,17 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     return reflected;
 }
 
+/// As published: the texture C that the eye's image was accumulated in, of every lumel.
+std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const LumelSight& sight,
+                                           const Seen& seen, const Prepared& prepared)
+{
+    const SideMaps texture =
+        finish_sides(prepared.scene, prepared.atlas, prepared.lumels,
+                     by_lumel(sight, solver.eye_radiance(), prepared.lumels.lumels.size()));
+    return look_up(seen, prepared.scene, prepared.atlas, prepared.lumels, texture.front,
+                   texture.back);
+}
+
 /// A picture whose colours are not multiplied by alpha, as PNG has them.
 Image unmultiplied(Image image)
 {
@@ -175,12 +190,20 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const View view = view_for(prepared.scene, prepared.rays, options);
     check_size(device, options);
     DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
-    const std::optional<Lumels> lumels = shining(prepared.lumels, lamps.irradiance);
+    const bool papers = is_papers(options.bake.solver.method);
     // Without rays shooters do it all.
     const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
+    const std::optional<Lumels> lumels =
+        shining(prepared.lumels, lamps.irradiance, particles ? Lobes::carried : Lobes::diffuse);
     GlossyIllumination solver(device, *setting.world, lumels ? *lumels : prepared.lumels,
                               setting.near, std::get<GlossyOptions>(options.bake.solver.method),
                               lamps.irradiance, particles);
+    LumelSight sight;
+    if (papers) {
+        sight = see_lumels(view, WorldLumels(prepared.scene, prepared.rays, prepared.lumels),
+                           prepared.lumels);
+        solver.accumulate_at(sight.points);
+    }
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
@@ -197,8 +220,9 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const Seen seen =
         look(view, options.width, options.height, options.sets, prepared.rays, surfaces,
              prepared.scene.sky, [&](double fraction) { return stages.progress(fraction); });
-    Image image =
-        compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
+    Image image = compose(seen, lit,
+                          papers ? look_up_accumulated(solver, sight, seen, prepared)
+                                 : reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
     device.check_validation();
     const Results results{.shots = solver.state().shots,

@@ -17,6 +17,7 @@ struct RenderOptions {
     int width = 1280;         ///< [pixels]
     int height = 0;           ///< [pixels]; 0: by the camera's aspect
     std::uint32_t sets = 16;  ///< places looked at within a pixel
+    // Of no account with Scheme::paper, whose solution lights the eye's image of each lumel:
     std::uint64_t shots = 0;  ///< shooters for the eye, after those of the solution
     std::uint32_t rays = 4;   ///< along the lobe at each place
     int paths = 0;            ///< > 0: path traced on the CPU instead, with this number per pixel

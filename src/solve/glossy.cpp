@@ -2,6 +2,7 @@
 //
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
 //           GPU. 2005.
+//   [VG95]  E. Veach, L. Guibas. Optimally Combining Sampling Techniques. 1995.
 //   [NNS99] The reflectance model; see phong.h.
 //
 // A lumel stores no directional light, only the actual irradiance of the last iteration and, common
@@ -17,20 +18,23 @@
 //
 // where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
 //
-// `Scheme::paper` with K = 1 is the paper's iteration, but for the points, which move over
-// receivers and shooters instead of standing at their centres, and a first part that is not
-// averaged.
+// `Scheme::paper` with K = 1 is the paper's iteration: all iterations are averaged, and merged
+// texels shoot from their common centre. Two things are its own: receiving points move over
+// lumels, unless SampleRule::centre has them stand still, and shooters are drawn by power or by
+// emission, weighted. The paper names multiple importance sampling (figure 1), but not of what.
 //
 // Other differences from the paper:
 // - K shooters per iteration.
 // - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone. Without
 //   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
 //   wide, K but at most 64 where they are narrow.
-// - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
+// - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel
+//   (not with Scheme::paper).
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
-//   diffusely; lobes between them go through the same form factors. In the paper all pairs have
-//   the disc term of Eq. (8) instead.
-// - The average forgets the first iterations, in which light had not yet spread.
+//   diffusely; lobes between them go through the same form factors. With Scheme::paper all pairs
+//   have the disc term of Eq. (8) instead.
+// - The average forgets the first iterations, in which light had not yet spread (not with
+//   Scheme::paper).
 // - Frames of a moved eye or a changed light draw by mean power, all from one beginning.
 
 #include "solve/glossy.h"
@@ -51,6 +55,8 @@ constexpr std::uint64_t kRestarts[] = {8, 32};
 constexpr std::uint64_t kFirstStated = 2;
 /// Shooters for which each lumel has one particle: then both take about as long.
 constexpr std::size_t kShootersPerParticle = 8;
+/// Share of the paper's shooters that are drawn by emission alone.
+constexpr float kEmissionShare = 0.5f;
 /// Share of a frame's shooters spread by area: light may reach what was dark before.
 constexpr float kFrameByArea = 0.1f;
 
@@ -72,9 +78,11 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(std::uint32_t(options.views.batch)),
       paper_(options.scheme == Scheme::paper),
+      atlas_width_(std::uint32_t(lumels.width)),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
+      known_(known.begin(), known.end()),
       known_sum_(irradiance_sum(known)),
       device_(&device),
       world_(&world),
@@ -102,6 +110,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       figures_(device, count_),
       near_rows_(device, near, count_),
       power_(device, count_),
+      emission_power_(device, count_),
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
@@ -117,6 +126,7 @@ void GlossyIllumination::begin()
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
         power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+        emission_power_.build(commands, emission_, surface_, 0.0f, 0.0f);
     });
 }
 
@@ -135,14 +145,14 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
                (sizeof(glm::vec4) + sizeof(Gloss) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
            last * sizeof(glm::vec3) + phong_albedo_table().size() * sizeof(float) +
            Figures::device_bytes(count) + NearRows::device_bytes(count, size.near_pairs) +
-           PowerPyramid::device_bytes(count);
+           2 * PowerPyramid::device_bytes(count);
 }
 
 void GlossyIllumination::step()
 {
     take_figures();
-    if (std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
-        std::end(kRestarts))
+    if (!paper_ && std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
+                       std::end(kRestarts))
         restart();
     select();
     carry();
@@ -169,6 +179,20 @@ void GlossyIllumination::restart()
     state_.error = -1.0;
 }
 
+bool GlossyIllumination::has_two_choices() const
+{
+    return paper_ && options_.two_choices && emitted_power_ > 0.0;
+}
+
+/// A half on average, whatever K is: then the choice of each shooter is random.
+std::uint32_t GlossyIllumination::emission_shots() const
+{
+    if (!has_two_choices())
+        return 0;
+    const float coin = PathSamples(PathSamples::hash(options_.seed, next_shot_), 0).random(0).x;
+    return std::uint32_t(kEmissionShare * float(batch_) + coin);
+}
+
 void GlossyIllumination::select()
 {
     const std::size_t now = state_.iterations % 2;
@@ -179,7 +203,12 @@ void GlossyIllumination::select()
                                     .index = next_shot_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u,
-                                    .channels = world_->has_coloured_glass() ? 1u : 0u};
+                                    .channels = world_->has_coloured_glass() ? 1u : 0u,
+                                    .centre = paper_ ? 1u : 0u,
+                                    .merge = paper_ ? options_.merge : 0u,
+                                    .width = atlas_width_,
+                                    .emission_shots = emission_shots(),
+                                    .emission_share = has_two_choices() ? kEmissionShare : 0.0f};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(kernels_.select,
                           {.lumels = world_->lumels(),
@@ -189,6 +218,7 @@ void GlossyIllumination::select()
                            .diffuse = diffuse_,
                            .last = last_,
                            .power = power_.array(),
+                           .emission_power = emission_power_.array(),
                            .before = eyes_[1 - now],
                            .eyes = eyes_[now],
                            .shots = shots_,
@@ -204,8 +234,8 @@ void GlossyIllumination::carry()
     pacer_.finish();
     const std::vector<glm::vec3> exitance = diffuse_.download();
     const std::size_t particles = std::size_t(batch_) * count_ / kShootersPerParticle + 1;
-    const LobeParticles::Carried carried =
-        particles_->carry(exitance, particles, PathSamples::hash(options_.seed, iteration_));
+    const LobeParticles::Carried carried = particles_->carry(
+        exitance, known_, particles, PathSamples::hash(options_.seed, iteration_));
     carried_.upload(carried.irradiance);
     passed_on_.upload(carried.reflected);
 }
@@ -346,6 +376,9 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
     restart();
     if (eye_)
         eye_->restart(pacer_);
+    pacer_.work("power", [&](gpu::Commands& commands) {
+        emission_power_.build(commands, emission_, surface_, 0.0f, 0.0f);
+    });
     draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
 }
 
@@ -390,6 +423,16 @@ void GlossyIllumination::look_at(std::span<const EyePoint> points,
     const std::vector<glm::vec3> emission = emission_.download();
     eye_.emplace(*device_, options_.views.projection, points, brightness, sampling);
     set_emission(emission);
+}
+
+void GlossyIllumination::accumulate_at(std::span<const EyePoint> points)
+{
+    if (points.empty())
+        return;
+    const EyeSampling all{{0, std::uint32_t(points.size())}, 0, 0};
+    eye_.emplace(*device_, options_.views.projection, points, std::vector<float>(count_, 0.0f),
+                 all);
+    eye_->restart(pacer_);
 }
 
 std::vector<glm::vec3> GlossyIllumination::eye_radiance()

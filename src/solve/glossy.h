@@ -31,8 +31,8 @@ struct EnergyBalance {
 /// Shooters drawn by power send diffuse light and the lobes of their last irradiance.
 class GlossyIllumination final : public Solver {
 public:
-    /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
-    /// outlive this.
+    /// known: [N] [lx] of sky and lamps, or empty. particles: carry what lobes send on, that of
+    /// `known` too, instead of the shooters; not with Scheme::paper. Must outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
@@ -68,8 +68,11 @@ public:
     /// the same noise. Waits for the device.
     void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
                  const EyeSampling& sampling);
+    /// Before the first step: every step also adds to the image of an eye what shooters alone make
+    /// these points reflect, the accumulation texture of the paper.
+    void accumulate_at(std::span<const EyePoint> points);
     std::uint32_t batch() const { return batch_; }  ///< K
-    /// [P] reflected by the lobes toward the eye [cd/m²]; empty before look_at. Waits for the
+    /// [P] reflected by the lobes toward the eye [cd/m²]; empty without an eye. Waits for the
     /// device.
     std::vector<glm::vec3> eye_radiance();
 
@@ -94,6 +97,8 @@ private:
     void rewind();
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
+    bool has_two_choices() const;
+    std::uint32_t emission_shots() const;
     void select();
     void carry();
     void receive();
@@ -105,10 +110,12 @@ private:
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;  ///< K
     bool paper_;
+    std::uint32_t atlas_width_;  ///< [texels]
     float near_radius_;
-    float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
-    double emitted_power_;   ///< Σ A 𝓛(E) [lm]
-    double known_sum_;       ///< of light beside what is found here [lx]
+    float reflecting_area_;         ///< Σ A of lumels with albedo > 0 [m²]
+    double emitted_power_;          ///< Σ A 𝓛(E) [lm]
+    std::vector<glm::vec3> known_;  ///< [N] [lx] beside what is found here, or empty
+    double known_sum_;              ///< of that
 
     const gpu::Device* device_;
     const World* world_;
@@ -135,7 +142,8 @@ private:
     std::optional<Held> held_;  ///< from the first frame on
     NearRows near_rows_;
     PowerPyramid power_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    PowerPyramid emission_power_;  ///< used with two choices only
+    gpu::Pacer pacer_;             ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
     std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences

@@ -37,6 +37,21 @@ TEST(Render, WritesThePictureItsNameAsksFor)
     EXPECT_EQ(bytes_of(place.path("b.png")).substr(1, 3), "PNG");
 }
 
+TEST(Render, ByThePapersSchemeTakesNoRaysAndNoShootersForTheEyeAlone)
+{
+    const Workplace place;
+    const std::vector<std::string> papers = {"--scheme", "paper", "--shots", "64", "--error", "1"};
+    EXPECT_EQ(run_lumel(tiny_render(place.path("a.png"), papers)).code, 0);
+    for (const char* option : {"--lobe-rays", "--eye-shots"}) {
+        std::vector<std::string> given = papers;
+        given.insert(given.end(), {option, "16"});
+        const Outcome outcome = run_lumel(tiny_render(place.path("b.png"), given));
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_NE(outcome.err.find(option), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("--scheme paper"), std::string::npos) << outcome.err;
+    }
+}
+
 TEST(Render, PrintsItsReportAsJson)
 {
     const Workplace place;
