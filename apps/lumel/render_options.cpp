@@ -14,6 +14,39 @@ namespace {
 
 constexpr int kMostPlaces = 256;
 constexpr int kMostRays = 4096;
+constexpr int kMostFrames = 100'000;
+constexpr int kMostAnimations = 1'000'000;
+constexpr double kMostFps = 1000.0;   // pictures a second
+constexpr double kMostKept = 1000.0;  // frames
+
+void add_film_options(CLI::App& app, FilmOptions& film)
+{
+    app.option_defaults()->group("Animation");
+    CLI::Option* frames =
+        app.add_option("--frames", film.frames,
+                       "Make so many pictures of the scene's animation, each of which goes on from "
+                       "the light of the one before")
+            ->type_name("N")
+            ->check(whole(1, kMostFrames));
+    app.add_option("--fps", film.fps, "Frames per second of the animation")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(between(1.0 / kMostFps, kMostFps))
+        ->needs(frames);
+    app.add_option("--animation", film.animation, "Animation of the file by its number, from 0")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostAnimations))
+        ->needs(frames);
+    app.add_option("--keep", film.kept,
+                   "What a frame keeps of the average of the one before, in terms of that one's "
+                   "iterations; more is less noise and light that lags behind")
+        ->type_name("F")
+        ->capture_default_str()
+        ->check(between(0.0, kMostKept))
+        ->needs(frames);
+    app.add_flag("--fresh", film.fresh, "Solve each frame from nothing")->needs(frames);
+}
 
 }  // namespace
 
@@ -57,6 +90,7 @@ Command render_command(CLI::App& program)
                     "Trace this many paths per pixel on the processor instead, to compare with")
         ->type_name("N")
         ->check(whole(1, kMostPaths));
+    add_film_options(command, options.film);
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);

@@ -35,7 +35,8 @@
 //   have the disc term of Eq. (8) instead.
 // - The average forgets the first iterations, in which light had not yet spread (not with
 //   Scheme::paper).
-// - Frames of a moved eye or a changed light draw by mean power, all from one beginning.
+// - Frames of a moved eye or a changed light draw by mean power, all from one beginning; those of
+//   a moved scene go on from the mean light of the one before (glossy_frames.cpp).
 
 #include "solve/glossy.h"
 
@@ -57,8 +58,6 @@ constexpr std::uint64_t kFirstStated = 2;
 constexpr std::size_t kShootersPerParticle = 8;
 /// Share of the paper's shooters that are drawn by emission alone.
 constexpr float kEmissionShare = 0.5f;
-/// Share of a frame's shooters spread by area: light may reach what was dark before.
-constexpr float kFrameByArea = 0.1f;
 
 }  // namespace
 
@@ -151,8 +150,9 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
 void GlossyIllumination::step()
 {
     take_figures();
-    if (!paper_ && std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
-                       std::end(kRestarts))
+    if (!paper_ && !goes_on_ &&
+        std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
+            std::end(kRestarts))
         restart();
     select();
     carry();
@@ -160,6 +160,7 @@ void GlossyIllumination::step()
     receive();
     if (eye_)
         eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
+    has_before_ = true;
     ++batches_[iteration_++ % 2];
     ++state_.iterations;
     state_.shots += batch_;
@@ -199,7 +200,7 @@ void GlossyIllumination::select()
     const GlossySelectParams params{.pyramid = power_.layout(),
                                     .count = count_,
                                     .shots = batch_,
-                                    .before = state_.iterations > 0 && !particles_ ? batch_ : 0u,
+                                    .before = has_before_ && !particles_ ? batch_ : 0u,
                                     .index = next_shot_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u,
@@ -305,7 +306,8 @@ void GlossyIllumination::take_figures()
         return;
     const glm::vec4 sums = terms->column[0];
     const double count = 3.0 * double(sums.z);
-    const bool settled = state_.iterations > *std::rbegin(kRestarts) + kFirstStated;
+    const std::uint64_t unsettled = goes_on_ ? 0 : *std::rbegin(kRestarts);
+    const bool settled = state_.iterations > unsettled + kFirstStated;
     if (!(sums.y > 0.0f) || count <= 0.0)
         state_.error = emitted_power_ > 0.0 && !settled ? -1.0 : 0.0;
     else if (settled)
@@ -319,120 +321,11 @@ std::vector<glm::vec3> GlossyIllumination::irradiance()
     return irradiance_.download();
 }
 
-void GlossyIllumination::rewind()
-{
-    const std::size_t before = (state_.iterations + 1) % 2;
-    const bool is_first = !held_;
-    if (is_first)
-        held_.emplace(Held{{*device_, count_},
-                           {*device_, count_},
-                           {*device_, count_},
-                           {*device_, count_},
-                           {*device_, last_.size()},
-                           {*device_, kMostGlossyBatch},
-                           {*device_, view(mean_exitance())}});
-    pacer_.work("rewind", [&](gpu::Commands& commands) {
-        const auto carry = [&](const gpu::Buffer& now, const gpu::Buffer& held) {
-            commands.copy(is_first ? now : held, is_first ? held : now, held.bytes());
-        };
-        carry(emission_.buffer(), held_->emission.buffer());
-        carry(exitance_.buffer(), held_->exitance.buffer());
-        carry(diffuse_.buffer(), held_->diffuse.buffer());
-        carry(near_.buffer(), held_->near.buffer());
-        carry(last_.buffer(), held_->last.buffer());
-        carry(eyes_[before].buffer(), held_->eyes.buffer());
-    });
-    pacer_.finish();
-    figures_.drop();
-    iteration_ = next_shot_ = 0;
-}
-
-void GlossyIllumination::forget_frames()
-{
-    pacer_.finish();
-    held_.reset();
-}
-
-void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
-{
-    if (given.size() != count_)
-        throw Error(ErrorKind::input, "emission", "must be given for every lumel");
-    std::vector<glm::vec3> emission(given.begin(), given.end());
-    for (std::size_t i = 0; i < count_; ++i)
-        if (lumels_->lumels[i].flags & kLumelBuried)
-            emission[i] = glm::vec3(0.0f);
-    emitted_power_ = emitted_power(*lumels_, emission);
-    rewind();
-    const std::vector<glm::vec3> before = emission_.download();
-    emission_.upload(emission);
-    const auto add_change = [&](const gpu::Array<glm::vec3>& from, gpu::Array<glm::vec3>& to) {
-        std::vector<glm::vec3> values = from.download();
-        for (std::size_t i = 0; i < count_; ++i)
-            values[i] = glm::max(values[i] + emission[i] - before[i], glm::vec3(0.0f));
-        to.upload(values);
-    };
-    add_change(exitance_, exitance_);
-    add_change(diffuse_, diffuse_);
-    restart();
-    if (eye_)
-        eye_->restart(pacer_);
-    pacer_.work("power", [&](gpu::Commands& commands) {
-        emission_power_.build(commands, emission_, surface_, 0.0f, 0.0f);
-    });
-    draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
-}
-
 void GlossyIllumination::draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area)
 {
     pacer_.work("power", [&](gpu::Commands& commands) {
         power_.build(commands, exitance, surface_, by_area, reflecting_area_);
     });
-}
-
-std::vector<glm::vec3> GlossyIllumination::mean_exitance()
-{
-    const std::vector<glm::vec3> arriving = irradiance();
-    std::vector<glm::vec3> exitance = emission_.download();
-    // The lobes' albedo counts as 1: what is drawn by need not be exact.
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Gloss& gloss = lumels_->gloss[i];
-        exitance[i] += (particles_ ? gloss.diffuse : gloss.diffuse + gloss.specular) * arriving[i];
-    }
-    return exitance;
-}
-
-std::vector<float> GlossyIllumination::brightness()
-{
-    const std::vector<glm::vec3> exitance =
-        held_ ? held_->mean_exitance.download() : mean_exitance();
-    std::vector<float> brightness(count_, 0.0f);
-    double power = 0.0;
-    for (std::uint32_t j = 0; j < count_; ++j) {
-        brightness[j] = float(luminance(exitance[j]));
-        power += double(brightness[j]) * double(lumels_->lumels[j].area);
-    }
-    for (float& value : brightness)
-        value = power > 0.0 ? float(double(value) / power) : 0.0f;
-    return brightness;
-}
-
-void GlossyIllumination::look_at(std::span<const EyePoint> points,
-                                 std::span<const float> brightness, const EyeSampling& sampling)
-{
-    pacer_.finish();
-    const std::vector<glm::vec3> emission = emission_.download();
-    eye_.emplace(*device_, options_.views.projection, points, brightness, sampling);
-    set_emission(emission);
-}
-
-void GlossyIllumination::accumulate_at(std::span<const EyePoint> points)
-{
-    if (points.empty())
-        return;
-    const EyeSampling all{{0, std::uint32_t(points.size())}, 0, 0};
-    eye_.emplace(*device_, options_.views.projection, points, std::vector<float>(count_, 0.0f),
-                 all);
-    eye_->restart(pacer_);
 }
 
 std::vector<glm::vec3> GlossyIllumination::eye_radiance()

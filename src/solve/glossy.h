@@ -63,6 +63,12 @@ public:
     /// Lets the next frame be the first one. Waits for the device.
     void forget_frames();
 
+    /// Before the first step, of a scene in which things have moved since the frame before, which
+    /// has the same lumels and is wholly solved: the iteration starts from its light, and the
+    /// average from its average, which counts as so many iterations. Without the latter frames with
+    /// the same seed have much of their noise in common. Waits for the device.
+    void go_on_from(GlossyIllumination& before, float kept = 0.0f);
+
     /// A frame for another eye: every step also adds to the image of one that sees these points.
     /// It goes on as any frame does, so that all eyes meet the same shooters and close ones see
     /// the same noise. Waits for the device.
@@ -95,6 +101,7 @@ private:
 
     void begin();
     void rewind();
+    void keep_average_of(const GlossyIllumination& before, float kept);
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     bool has_two_choices() const;
@@ -146,6 +153,8 @@ private:
     gpu::Pacer pacer_;             ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
+    bool has_before_ = false;  ///< last_ holds the light of eyes_ of an iteration before
+    bool goes_on_ = false;     ///< from a frame before: light has spread already
     std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences
     std::array<float, 2> batches_{};               ///< iterations in sums, per half
 };
