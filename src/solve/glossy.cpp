@@ -81,7 +81,6 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
-      known_(known.begin(), known.end()),
       known_sum_(irradiance_sum(known)),
       device_(&device),
       world_(&world),
@@ -101,8 +100,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       diffuse_(device, count_),
       near_(device, count_),
       last_(device, particles_ ? 1 : std::size_t(batch_) * count_),
-      carried_(device, count_),
-      passed_on_(device, count_),
+      carried_(device, particles_, known, count_),
       sums_(device, 2 * count_),
       absorbed_(device, 2 * count_),
       irradiance_(device, count_),
@@ -119,8 +117,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
 void GlossyIllumination::begin()
 {
     pacer_.work("prepare", [&](gpu::Commands& commands) {
-        for (const auto* array :
-             {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_, &passed_on_})
+        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_})
             commands.fill(array->buffer());
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
@@ -131,7 +128,7 @@ void GlossyIllumination::begin()
 
 std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const GlossyOptions& options)
 {
-    constexpr std::uint64_t kVectors = 7, kHalves = 2;  // arrays of vec3 [N] and [2][N]
+    constexpr std::uint64_t kVectors = 5, kHalves = 2;  // arrays of vec3 [N] and [2][N]
     const std::size_t count = size.count();
     const auto batch = std::uint32_t(options.views.batch);
     // Without particles the last irradiance of every shooter is kept.
@@ -144,7 +141,7 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
                (sizeof(glm::vec4) + sizeof(Gloss) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
            last * sizeof(glm::vec3) + phong_albedo_table().size() * sizeof(float) +
            Figures::device_bytes(count) + NearRows::device_bytes(count, size.near_pairs) +
-           2 * PowerPyramid::device_bytes(count);
+           2 * PowerPyramid::device_bytes(count) + CarriedLight::device_bytes(count);
 }
 
 void GlossyIllumination::step()
@@ -230,15 +227,8 @@ void GlossyIllumination::select()
 
 void GlossyIllumination::carry()
 {
-    if (!particles_)
-        return;
-    pacer_.finish();
-    const std::vector<glm::vec3> exitance = diffuse_.download();
     const std::size_t particles = std::size_t(batch_) * count_ / kShootersPerParticle + 1;
-    const LobeParticles::Carried carried = particles_->carry(
-        exitance, known_, particles, PathSamples::hash(options_.seed, iteration_));
-    carried_.upload(carried.irradiance);
-    passed_on_.upload(carried.reflected);
+    carried_.begin(pacer_, diffuse_, particles, options_.seed, iteration_);
 }
 
 void GlossyIllumination::receive()
@@ -279,10 +269,11 @@ void GlossyIllumination::receive()
                                        .exitance = exitance_,
                                        .absorbed = absorbed_,
                                        .diffuse_exitance = diffuse_,
-                                       .carried = carried_,
-                                       .passed_on = passed_on_},
+                                       .carried = carried_.irradiance(),
+                                       .passed_on = carried_.reflected()},
                                       params, last - first);
                 });
+    carried_.end(pacer_, diffuse_);
     if (!held_)
         draw_in_proportion_to(exitance_, 0.0f);
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "gpu/pacer.h"
+#include "lobes/carried_light.h"
 #include "lobes/eye_image.h"
 #include "lobes/lobe_particles.h"
 #include "nearfield/near_rows.h"
@@ -119,10 +120,9 @@ private:
     bool paper_;
     std::uint32_t atlas_width_;  ///< [texels]
     float near_radius_;
-    float reflecting_area_;         ///< Σ A of lumels with albedo > 0 [m²]
-    double emitted_power_;          ///< Σ A 𝓛(E) [lm]
-    std::vector<glm::vec3> known_;  ///< [N] [lx] beside what is found here, or empty
-    double known_sum_;              ///< of that
+    float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
+    double emitted_power_;   ///< Σ A 𝓛(E) [lm]
+    double known_sum_;       ///< of light beside what is found here [lx]
 
     const gpu::Device* device_;
     const World* world_;
@@ -141,8 +141,8 @@ private:
     gpu::Array<glm::vec3> diffuse_;   ///< [N] the part of it that is the same in all directions
     gpu::Array<glm::vec3> near_;      ///< [N] near light of the B before it
     gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
-    gpu::Array<glm::vec3> carried_, passed_on_;  ///< [N] LobeParticles::Carried of this iteration
-    gpu::Array<glm::vec3> sums_, absorbed_;      ///< [2][N] since the last restart
+    CarriedLight carried_;            ///< by particles
+    gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;
     std::optional<EyeImage> eye_;

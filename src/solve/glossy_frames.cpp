@@ -42,6 +42,7 @@ void GlossyIllumination::rewind()
     });
     pacer_.finish();
     figures_.drop();
+    carried_.restart();
     iteration_ = next_shot_ = 0;
 }
 
