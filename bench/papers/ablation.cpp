@@ -245,7 +245,7 @@ void ablate_choices(const AblationSettings& settings, const gpu::Device& device,
             if (!two_choices)
                 by_power = product;
             report.row({merge > 0 ? "2 × 2 texels" : "texels",
-                        two_choices ? "power or emission, weighted" : "power",
+                        two_choices ? "power or area, weighted" : "power",
                         significant(spread.mean(), 4), significant(spread.variance(), 3),
                         fixed(cpu, 3), significant(product, 3),
                         significant(product / by_power, 3)});

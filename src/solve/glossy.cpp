@@ -21,7 +21,7 @@
 // `Scheme::paper` with K = 1 is the paper's iteration: all iterations are averaged, and merged
 // texels shoot from their common centre. Two things are its own: receiving points move over
 // lumels, unless SampleRule::centre has them stand still, and shooters are drawn by power or by
-// emission, weighted. The paper names multiple importance sampling (figure 1), but not of what.
+// area, weighted. The paper names multiple importance sampling (figure 1), but not of what.
 //
 // Other differences from the paper:
 // - K shooters per iteration.
@@ -56,8 +56,9 @@ constexpr std::uint64_t kRestarts[] = {8, 32};
 constexpr std::uint64_t kFirstStated = 2;
 /// Shooters for which each lumel has one particle: then both take about as long.
 constexpr std::size_t kShootersPerParticle = 8;
-/// Share of the paper's shooters that are drawn by emission alone.
-constexpr float kEmissionShare = 0.5f;
+/// Share of the paper's shooters that are drawn by area alone. A half of them, or by emission,
+/// leaves more than twice the variance: p in proportion to power lets all shooters send the same.
+constexpr float kAreaShare = 0.1f;
 
 }  // namespace
 
@@ -107,7 +108,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       figures_(device, count_),
       near_rows_(device, near, count_),
       power_(device, count_),
-      emission_power_(device, count_),
+      area_power_(device, count_),
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
@@ -122,7 +123,7 @@ void GlossyIllumination::begin()
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
         power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
-        emission_power_.build(commands, emission_, surface_, 0.0f, 0.0f);
+        area_power_.build(commands, emission_, surface_, 1.0f, reflecting_area_);
     });
 }
 
@@ -179,16 +180,16 @@ void GlossyIllumination::restart()
 
 bool GlossyIllumination::has_two_choices() const
 {
-    return paper_ && options_.two_choices && emitted_power_ > 0.0;
+    return paper_ && options_.two_choices && emitted_power_ > 0.0 && reflecting_area_ > 0.0f;
 }
 
-/// A half on average, whatever K is: then the choice of each shooter is random.
-std::uint32_t GlossyIllumination::emission_shots() const
+/// On average that share, whatever K is: a fraction of a shooter is one by chance.
+std::uint32_t GlossyIllumination::area_shots() const
 {
     if (!has_two_choices())
         return 0;
     const float coin = PathSamples(PathSamples::hash(options_.seed, next_shot_), 0).random(0).x;
-    return std::uint32_t(kEmissionShare * float(batch_) + coin);
+    return std::uint32_t(kAreaShare * float(batch_) + coin);
 }
 
 void GlossyIllumination::select()
@@ -205,8 +206,8 @@ void GlossyIllumination::select()
                                     .centre = paper_ ? 1u : 0u,
                                     .merge = paper_ ? options_.merge : 0u,
                                     .width = atlas_width_,
-                                    .emission_shots = emission_shots(),
-                                    .emission_share = has_two_choices() ? kEmissionShare : 0.0f};
+                                    .area_shots = area_shots(),
+                                    .area_share = has_two_choices() ? kAreaShare : 0.0f};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(kernels_.select,
                           {.lumels = world_->lumels(),
@@ -216,7 +217,7 @@ void GlossyIllumination::select()
                            .diffuse = diffuse_,
                            .last = last_,
                            .power = power_.array(),
-                           .emission_power = emission_power_.array(),
+                           .area_power = area_power_.array(),
                            .before = eyes_[1 - now],
                            .eyes = eyes_[now],
                            .shots = shots_,

@@ -106,7 +106,7 @@ private:
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
     bool has_two_choices() const;
-    std::uint32_t emission_shots() const;
+    std::uint32_t area_shots() const;
     void select();
     void carry();
     void receive();
@@ -149,8 +149,8 @@ private:
     std::optional<Held> held_;  ///< from the first frame on
     NearRows near_rows_;
     PowerPyramid power_;
-    PowerPyramid emission_power_;  ///< used with two choices only
-    gpu::Pacer pacer_;             ///< after all that its work uses: it waits when it ends
+    PowerPyramid area_power_;  ///< used with two choices only
+    gpu::Pacer pacer_;         ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
     bool has_before_ = false;  ///< last_ holds the light of eyes_ of an iteration before

@@ -13,7 +13,7 @@
 // prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and lobes of
 // the earlier shooters that lit them.
 //
-// Scheme::paper may draw some by emission alone. A shooter that either choice may draw is weighted
+// Scheme::paper may draw some by area alone. A shooter that either choice may draw is weighted
 // by the balance heuristic [VG95], which is to divide by the mean of both probabilities.
 //
 // Merged ([BSS05] section 5), the texels of a square shoot as one from their common centre: the
@@ -25,7 +25,7 @@ layout(scalar) readonly buffer Glosses { Gloss gloss[]; };
 layout(scalar) readonly buffer Diffuse { vec3 diffuse[]; };  // [N] exitance
 layout(scalar) readonly buffer Last { vec3 last[]; };  // [K][N] I of each shooter
 layout(scalar) readonly buffer Power { float power[]; };
-layout(scalar) readonly buffer EmissionPower { float emission_power[]; };
+layout(scalar) readonly buffer AreaPower { float area_power[]; };
 layout(scalar) readonly buffer Before { Eye before[]; };  // [K] earlier shooters
 layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
 layout(scalar) writeonly buffer Shots { GlossyShot shots[]; };
@@ -65,21 +65,21 @@ float probability_of(uint j)
 {
     const uint top = p.pyramid.first[p.pyramid.levels - 1u], leaves = p.pyramid.first[0];
     const uint last_one = last_of_square(j, p.merge, p.count);
-    float by_power = 0.0, by_emission = 0.0;
+    float by_power = 0.0, by_area = 0.0;
     for (uint m = first_of_square(j, p.merge); m <= last_one; ++m)
         if (shoot_as_one(lumels[j], lumels[m], p.merge, p.width)) {
             by_power += power[leaves + m];
-            by_emission += emission_power[leaves + m];
+            by_area += area_power[leaves + m];
         }
-    return (1.0 - p.emission_share) * by_power / power[top] +
-           (p.emission_share > 0.0 ? p.emission_share * by_emission / emission_power[top] : 0.0);
+    return (1.0 - p.area_share) * by_power / power[top] +
+           (p.area_share > 0.0 ? p.area_share * by_area / area_power[top] : 0.0);
 }
 
-Sender draw(vec3 u, bool by_emission)
+Sender draw(vec3 u, bool by_area)
 {
     Drawn drawn;
-    if (by_emission)
-        DRAW_FROM(emission_power, p.pyramid, u.x, drawn)
+    if (by_area)
+        DRAW_FROM(area_power, p.pyramid, u.x, drawn)
     else
         DRAW_FROM(power, p.pyramid, u.x, drawn)
     const uint j = drawn.lumel;
@@ -128,7 +128,7 @@ void main()
     const uint index = p.index + k;
     // Iterations must be independent of each other: each has a sequence of its own.
     const Sender y = draw(draw_point(k, hash(p.index), p.seed, p.random != 0u),
-                          k < p.emission_shots);
+                          k < p.area_shots);
     const Gloss g = gloss[y.lumel];
     const uint random = hash(hash(index ^ hash(p.seed)) + 1u);
     const uint channel = channel_in_turn(index, p.channels != 0u);

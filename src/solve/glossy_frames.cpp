@@ -76,7 +76,7 @@ void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
     if (eye_)
         eye_->restart(pacer_);
     pacer_.work("power", [&](gpu::Commands& commands) {
-        emission_power_.build(commands, emission_, surface_, 0.0f, 0.0f);
+        area_power_.build(commands, emission_, surface_, 1.0f, reflecting_area_);
     });
     draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
 }

@@ -51,7 +51,7 @@ struct GlossyOptions {
     /// With Scheme::paper: squares of 2^merge texels a side shoot as one from their common centre,
     /// as far as they belong to one chart, [BSS05] section 5. 0: each texel alone.
     std::uint32_t merge = 1;
-    /// With Scheme::paper: half the shooters are drawn by emission alone, and all are weighted
+    /// With Scheme::paper: a tenth of the shooters is drawn by area alone, and all are weighted
     /// [VG95]; else all are drawn by power.
     bool two_choices = true;
 };
