@@ -14,6 +14,39 @@ namespace {
 
 constexpr int kMostPlaces = 256;
 constexpr int kMostRays = 4096;
+constexpr int kMostFrames = 100'000;
+constexpr int kMostAnimations = 1'000'000;
+constexpr double kMostFps = 1000.0;   // pictures a second
+constexpr double kMostKept = 1000.0;  // frames
+
+void add_film_options(CLI::App& app, FilmOptions& film)
+{
+    app.option_defaults()->group("Animation");
+    CLI::Option* frames =
+        app.add_option("--frames", film.frames,
+                       "Make so many pictures of the scene's animation, each of which goes on from "
+                       "the light of the one before")
+            ->type_name("N")
+            ->check(whole(1, kMostFrames));
+    app.add_option("--fps", film.fps, "Frames per second of the animation")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(between(1.0 / kMostFps, kMostFps))
+        ->needs(frames);
+    app.add_option("--animation", film.animation, "Animation of the file by its number, from 0")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(whole(0, kMostAnimations))
+        ->needs(frames);
+    app.add_option("--keep", film.kept,
+                   "What a frame keeps of the average of the one before, in terms of that one's "
+                   "iterations; more is less noise and light that lags behind")
+        ->type_name("F")
+        ->capture_default_str()
+        ->check(between(0.0, kMostKept))
+        ->needs(frames);
+    app.add_flag("--fresh", film.fresh, "Solve each frame from nothing")->needs(frames);
+}
 
 }  // namespace
 
@@ -47,15 +80,17 @@ Command render_command(CLI::App& program)
         ->type_name("N")
         ->capture_default_str()
         ->check(whole(0, kMostShots));
-    command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
-        ->type_name("N")
-        ->capture_default_str()
-        ->check(whole(0, kMostRays));
+    CLI::Option* lobe_rays =
+        command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
+            ->type_name("N")
+            ->capture_default_str()
+            ->check(whole(0, kMostRays));
     command
         .add_option("--paths", options.paths,
                     "Trace this many paths per pixel on the processor instead, to compare with")
         ->type_name("N")
         ->check(whole(1, kMostPaths));
+    add_film_options(command, options.film);
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);
     add_atlas_options(command, options.bake.atlas);
@@ -65,8 +100,11 @@ Command render_command(CLI::App& program)
     add_device_option(command, options.bake.device);
     add_dump_option(command, options.bake.dump);
     add_talk_options(command, render.talk);
-    return {&command, [given, method]() -> Arguments {
+    return {&command, [given, method, lobe_rays]() -> Arguments {
                 given->options.bake.solver.method = method->options();
+                if (lobe_rays->count() > 0 && is_papers(given->options.bake.solver.method))
+                    throw Error(ErrorKind::input, "--lobe-rays",
+                                "does nothing with --scheme paper, which has no rays");
                 check_limits(given->options.bake.solver);
                 return *given;
             }};

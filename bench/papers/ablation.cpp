@@ -202,6 +202,57 @@ Spread spread_of_irradiance(const AblationSettings& settings, const gpu::Device&
     return spread;
 }
 
+/// [BSS05] section 5 and figure 1 as the papers' glossy scheme has them: light at every lumel,
+/// between seeds.
+void ablate_choices(const AblationSettings& settings, const gpu::Device& device, Report& report)
+{
+    const Settings shared = glossy(settings.shared);
+    const Prepared world(read_gltf(shared.scene, MaterialModel::glossy),
+                         AtlasOptions{.size = shared.size});
+    const World resident(device, world.scene, world.lumels);
+    report.table(
+        "choices",
+        fmt::format("Merged shooters and two choices of shooter, the papers' glossy scheme: "
+                    "{} lumels, {} iterations, {} seeds",
+                    world.lumels.lumels.size(), settings.iterations, settings.seeds),
+        {"shooters", "drawn by", "mean lx", "variance / mean²", "cpu s", "product",
+         "product / that by power"});
+    for (const std::uint32_t merge : {0u, 1u}) {
+        double by_power = 0.0;
+        for (const bool two_choices : {false, true}) {
+            Spread spread;
+            Stopwatch watch;
+            for (int i = 0; i < settings.seeds; ++i) {
+                auto options = options_of<GlossyOptions>(shared);
+                options.seed += std::uint32_t(i);
+                options.views.batch = 1;
+                options.scheme = Scheme::paper;
+                options.rule = SampleRule::centre;
+                options.merge = merge;
+                options.two_choices = two_choices;
+                GlossyIllumination solver(device, resident, world.lumels,
+                                          no_near_field(world.lumels), options);
+                watch.start();
+                for (int k = 0; k < settings.iterations; ++k)
+                    solver.step();
+                std::vector<double> values;
+                for (const glm::vec3& irradiance : solver.irradiance())
+                    values.push_back(luminance(irradiance));
+                watch.stop();
+                spread.add(values);
+            }
+            const double cpu = watch.cpu / settings.seeds, product = spread.variance() * cpu;
+            if (!two_choices)
+                by_power = product;
+            report.row({merge > 0 ? "2 × 2 texels" : "texels",
+                        two_choices ? "power or area, weighted" : "power",
+                        significant(spread.mean(), 4), significant(spread.variance(), 3),
+                        fixed(cpu, 3), significant(product, 3),
+                        significant(product / by_power, 3)});
+        }
+    }
+}
+
 struct Partial {
     const char* below;
     bool disc;
@@ -250,6 +301,7 @@ void ablate(const AblationSettings& settings, Report& report)
     const gpu::Device device(settings.shared.device);
     report.say(fmt::format("{}, {}", settings.shared.scene, words_of(device)));
     ablate_weighing(settings, device, report);
+    ablate_choices(settings, device, report);
     ablate_disc(settings, device, report);
     device.check_validation();
 }

@@ -109,6 +109,23 @@ void add_ablation(CLI::App& app, AblationSettings& settings, Report& report)
     figure->callback([&settings, &report] { ablate(settings, report); });
 }
 
+void add_frames(CLI::App& app, FramesSettings& settings, Report& report)
+{
+    settings.shared.scene = "scenes/glossy-cornell-box.gltf";
+    settings.shared.size = 48;
+    settings.shared.reference_spp = 1024;
+    CLI::App* figure =
+        add_figure(app, "frames", "Frames that have much in common", settings.shared);
+    add_number(figure, "--size", settings.shared.size, "side of the map [texels]");
+    add_number(figure, "--frames", settings.frames, "of the film", 2);
+    add_number(figure, "--degrees", settings.degrees, "that a thing turns by from frame to frame");
+    figure->add_option("--thing", settings.thing, "name of what turns")->capture_default_str();
+    add_list(figure, "--iterations", settings.iterations, "of a frame");
+    add_number(figure, "--reference-spp", settings.shared.reference_spp,
+               "samples of each half of a frame's reference");
+    figure->callback([&settings, &report] { follow_frames(settings, report); });
+}
+
 void add_layers(CLI::App& app, LayersSettings& settings, Report& report)
 {
     settings.shared.scene = "scenes/planes.gltf";
@@ -252,6 +269,7 @@ void add_figures(CLI::App& app, Figures& figures, Report& report)
     add_selection(app, figures.selection, report);
     add_convergence(app, figures.convergence, report);
     add_ablation(app, figures.ablation, report);
+    add_frames(app, figures.frames, report);
     add_layers(app, figures.layers, report);
     add_leak(app, figures.leak, report);
     add_directions(app, figures.directions, report);

@@ -17,6 +17,7 @@ struct Figures {
     SelectionSettings selection;
     ConvergenceSettings convergence;
     AblationSettings ablation;
+    FramesSettings frames;
     LayersSettings layers;
     LeakSettings leak;
     DirectionsSettings directions;

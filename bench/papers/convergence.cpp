@@ -43,16 +43,16 @@ bool is_glossy(const SolverOptions& options)
     return method_of(options.method).materials == MaterialModel::glossy;
 }
 
-/// The glossy scene from its camera, by a number of iterations before the eye looks and as many
-/// after.
+/// The glossy scene from its camera: of the papers' scheme as the iterations have it, of ours by a
+/// number of iterations before the eye looks and as many after.
 Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options, int iterations)
 {
     options.max_shots = std::uint64_t(iterations) * std::uint64_t(batch_of(options.method));
     options.target_error = 0.0;
     RenderOptions render_options{.width = settings.width,
                                  .sets = std::uint32_t(std::min(iterations, kMostSets)),
-                                 .shots = options.max_shots,
-                                 .rays = is_papers(options.method) ? 0u : kRays};
+                                 .shots = is_papers(options.method) ? 0u : options.max_shots,
+                                 .rays = kRays};
     render_options.bake.atlas.size = settings.shared.size;
     render_options.bake.solver = options;
     render_options.bake.device = settings.shared.device;

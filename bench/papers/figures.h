@@ -53,6 +53,17 @@ struct AblationSettings {
 /// [BSS05] section 5: variance with and without its remedies.
 void ablate(const AblationSettings& settings, Report& report);
 
+struct FramesSettings {
+    Settings shared;
+    std::string thing = "tall block";     ///< that turns
+    int degrees = 3;                      ///< a frame
+    int frames = 5;                       ///< the first of which is not counted
+    std::vector<int> iterations{16, 64};  ///< a frame
+};
+
+/// [BSS05] section 6: frames that begin with the light of the one before, and frames that do not.
+void follow_frames(const FramesSettings& settings, Report& report);
+
 struct LayersSettings {
     Settings shared;
     int directions = 5000;

@@ -26,9 +26,9 @@ constexpr Run kRuns[] = {
      "convergence --size 16 --iterations 1,80 --hemicube 32 --reference-spp 16 --width 16 "
      "-o {out}"},
     {"convergence-glossy", "Error after iterations, glossy",
-     "The same of arriving light in a glossy scene. Both schemes begin their average anew after 8 "
-     "and 32 iterations, so that the rows of 40, 50 and 80 iterations average 8, 18 and 48 of "
-     "them; the papers' scheme has no such restarts.",
+     "The same of arriving light in a glossy scene. The default begins its average anew after 8 "
+     "and 32 iterations, so that its rows of 40, 50 and 80 iterations average 8, 18 and 48 of "
+     "them; the papers' scheme averages all.",
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --size 64 --reference-spp 2048 "
      "--width 160 -o {out}",
      "convergence scenes/glossy-cornell-box.gltf --solver glossy --reference-spp 4096 -o {out}",
@@ -40,6 +40,11 @@ constexpr Run kRuns[] = {
      "ablation --size 64 --seeds 3 --solving-shots 1024 --shots 256", "ablation",
      "ablation --size 16 --seeds 2 --width 16 --solving-shots 64 --shots 32 --rays 2 "
      "--iterations 4 --hemicube 32"},
+    {"frames", "Frames that have much in common",
+     "Error of the map of each frame against paths. Processor time of a frame's iterations; near "
+     "field, rays and upload of the moved scene are the same for all.",
+     "frames --frames 4 --reference-spp 1024", "frames --size 128 --frames 12",
+     "frames --size 16 --hemicube 32 --frames 2 --iterations 2 --reference-spp 4"},
     {"layers", "Stochastic layers",
      "Excess of red over green on the plane on top after all directions, on its lower side, where "
      "light may leak. The distances and albedos of the planes are ours: the paper does not give "

@@ -18,7 +18,8 @@ Lumels dark(Lumels lumels)
 std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
                               std::span<const glm::vec3> known, Stages& stages,
-                              Parts parts = Parts::all, Checkpoint* checkpoint = nullptr)
+                              const LobeParticles* particles, Parts parts = Parts::all,
+                              Checkpoint* checkpoint = nullptr)
 {
     const Prepared& prepared = setting.prepared;
     const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
@@ -30,7 +31,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                                     .lumels = lumels,
                                     .near = setting.near,
                                     .known = known,
-                                    .particles = setting.carriers(),
+                                    .particles = particles,
                                     .host = &host,
                                     .parts = parts},
                                    options);
@@ -46,25 +47,29 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
                                       Checkpoint* checkpoint)
 {
     const Lumels& lumels = setting.prepared.lumels;
+    const LobeParticles* particles = setting.carriers();
     if (method_of(options.solver.method).finds_lights)
-        return run(device, setting, options.solver, {}, {}, stages, options.parts, checkpoint);
+        return run(device, setting, options.solver, {}, {}, stages, particles, options.parts,
+                   checkpoint);
     if (options.parts == Parts::all || finds_emitted(options.solver.method, lumels, {})) {
         std::unique_ptr<Solution> found =
-            run(device, setting, options.solver, shining(lumels, direct), direct, stages,
-                options.parts);
+            run(device, setting, options.solver,
+                shining(lumels, direct, particles ? Lobes::carried : Lobes::diffuse), direct,
+                stages, particles, options.parts);
         if (options.parts != Parts::indirect)
             add_light(found->irradiance, direct);
         return found;
     }
     std::unique_ptr<Solution> first =
-        run(device, setting, options.solver, black(lumels), direct, stages);
+        run(device, setting, options.solver, black(lumels), direct, stages, nullptr);
     add_light(first->irradiance, direct);
     if (options.parts == Parts::direct)
         return first;
     SolverOptions onward = options.solver;
     if (auto* directions = std::get_if<DirectionsOptions>(&onward.method))
         directions->sky = false;
-    return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages);
+    return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages,
+               particles);
 }
 
 }  // namespace
@@ -102,13 +107,16 @@ DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
     return light;
 }
 
-std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light)
+std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light,
+                              Lobes lobes)
 {
     if (light.empty())
         return {};
     Lumels result = lumels;
     for (std::size_t i = 0; i < light.size(); ++i)
-        result.lumels[i].emission += result.lumels[i].albedo * light[i];
+        result.lumels[i].emission +=
+            (lobes == Lobes::carried ? result.gloss[i].diffuse : result.lumels[i].albedo) *
+            light[i];
     return result;
 }
 

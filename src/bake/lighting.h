@@ -20,9 +20,16 @@ DirectionalOptions directional_options(const BakeOptions& options, std::uint64_t
 DirectLight light_of_lamps(const gpu::Device& device, const Setting& setting,
                            const BakeOptions& options, Stages& stages);
 
+/// Who brings what lobes reflect of the sky and of lamps.
+enum class Lobes {
+    diffuse,  ///< nobody: surfaces reflect it equally in all directions
+    carried,  ///< particles
+};
+
 /// Lumels that send on, beside their own light, what they reflect of `light` [N] [lx]. None if that
 /// is empty: then they stay as they are.
-std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light);
+std::optional<Lumels> shining(const Lumels& lumels, const std::vector<glm::vec3>& light,
+                              Lobes lobes = Lobes::diffuse);
 
 /// A solver that has run, and what came of it.
 struct Solution {

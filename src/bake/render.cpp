@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
+
+#include <fmt/format.h>
 
 #include "bake/dump.h"
 #include "bake/lighting.h"
@@ -14,9 +17,11 @@
 #include "images/image_files.h"
 #include "output/folder.h"
 #include "picture/lobe_rays.h"
+#include "picture/lumel_sight.h"
 #include "picture/picture.h"
 #include "preview/view.h"
 #include "record/origin.h"
+#include "scene/animation.h"
 #include "shooting/lumel_arrays.h"
 #include "solve/glossy.h"
 #include "json/json_file.h"
@@ -39,6 +44,12 @@ void check(const std::string& path, const RenderOptions& options)
     if (options.shots == 0 && options.rays == 0)
         throw Error(ErrorKind::input, "--eye-shots 0 --lobe-rays 0",
                     "would leave out all gloss; one of them must be above 0");
+    if (options.shots > 0 && is_papers(options.bake.solver.method))
+        throw Error(ErrorKind::input, "--eye-shots",
+                    "does nothing with --scheme paper, whose --shots light the picture too");
+    if (options.film.frames > 0 && (options.paths > 0 || !options.bake.dump.empty()))
+        throw Error(ErrorKind::input, "--frames",
+                    "makes films of solved scenes, without --paths and --dump");
     if (options.paths > 0 && !options.bake.dump.empty())
         throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
     const OutputFile can_be_written(path);
@@ -117,6 +128,17 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     return reflected;
 }
 
+/// As published: the texture C that the eye's image was accumulated in, of every lumel.
+std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const LumelSight& sight,
+                                           const Seen& seen, const Prepared& prepared)
+{
+    const SideMaps texture =
+        finish_sides(prepared.scene, prepared.atlas, prepared.lumels,
+                     by_lumel(sight, solver.eye_radiance(), prepared.lumels.lumels.size()));
+    return look_up(seen, prepared.scene, prepared.atlas, prepared.lumels, texture.front,
+                   texture.back);
+}
+
 /// A picture whose colours are not multiplied by alpha, as PNG has them.
 Image unmultiplied(Image image)
 {
@@ -127,8 +149,9 @@ Image unmultiplied(Image image)
     return image;
 }
 
-/// Returns the exposure of a PNG [m²/cd].
-std::optional<float> write_picture(const std::string& path, const Image& image)
+/// Returns the exposure of a PNG [m²/cd], `given` if there is one.
+std::optional<float> write_picture(const std::string& path, const Image& image,
+                                   std::optional<float> given = {})
 {
     OutputFile file(path);
     std::optional<float> exposure;
@@ -140,7 +163,7 @@ std::optional<float> write_picture(const std::string& path, const Image& image)
                    {"software", "lumel " + lumel_version()}});
     } else {
         const Image shown = unmultiplied(image);
-        exposure = choose_exposure(shown);
+        exposure = given ? *given : choose_exposure(shown);
         write_png(file.path(), tone_map(shown, *exposure));
     }
     file.commit();
@@ -164,29 +187,62 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
     return {std::move(image), path_traced_report(options, scene, stages)};
 }
 
-Made shoot(Scene scene, RenderOptions options, Stages& stages)
+/// A scene with its light, which the next frame goes on from.
+struct Lit {
+    /// lay_out: of the atlas, or empty.
+    Lit(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+        RenderOptions& options, Stages& stages)
+        : setting(lay_out
+                      ? std::make_unique<Setting>(std::move(scene), lay_out, device, options.bake,
+                                                  stages)
+                      : std::make_unique<Setting>(std::move(scene), device, options.bake, stages)),
+          view(view_for(setting->prepared.scene, setting->prepared.rays, options)),
+          lamps(light_of_lamps(device, *setting, options.bake, stages)),
+          // Without rays shooters do it all.
+          particles(options.rays > 0 ? setting->carriers() : nullptr),
+          lumels(shining(setting->prepared.lumels, lamps.irradiance,
+                         particles ? Lobes::carried : Lobes::diffuse)),
+          solver(device, *setting->world, lumels ? *lumels : setting->prepared.lumels,
+                 setting->near, std::get<GlossyOptions>(options.bake.solver.method),
+                 lamps.irradiance, particles)
+    {
+    }
+
+    std::unique_ptr<Setting> setting;
+    View view;
+    DirectLight lamps;
+    const LobeParticles* particles;
+    std::optional<Lumels> lumels;
+    GlossyIllumination solver;
+};
+
+/// before: the frame before, solved with the same atlas, or null.
+Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptions& options,
+           Stages& stages)
 {
     std::optional<OutputFolder> dump;
     if (!options.bake.dump.empty())
         dump.emplace(options.bake.dump, "dump");
-    const gpu::Device device(options.bake.device);
-    const Setting setting(std::move(scene), device, options.bake, stages);
+    const Setting& setting = *frame.setting;
     const Prepared& prepared = setting.prepared;
-    const View view = view_for(prepared.scene, prepared.rays, options);
+    GlossyIllumination& solver = frame.solver;
     check_size(device, options);
-    DirectLight lamps = light_of_lamps(device, setting, options.bake, stages);
-    const std::optional<Lumels> lumels = shining(prepared.lumels, lamps.irradiance);
-    // Without rays shooters do it all.
-    const LobeParticles* particles = options.rays > 0 ? setting.carriers() : nullptr;
-    GlossyIllumination solver(device, *setting.world, lumels ? *lumels : prepared.lumels,
-                              setting.near, std::get<GlossyOptions>(options.bake.solver.method),
-                              lamps.irradiance, particles);
+    const bool papers = is_papers(options.bake.solver.method);
+    LumelSight sight;
+    if (papers) {
+        sight = see_lumels(frame.view, WorldLumels(prepared.scene, prepared.rays, prepared.lumels),
+                           prepared.lumels);
+        solver.accumulate_at(sight.points);
+    }
+    if (before)
+        solver.go_on_from(before->solver,
+                          float(options.film.kept * double(before->solver.state().iterations)));
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
     stages.begin("finishing");
     std::vector<glm::vec3> irradiance = solver.irradiance();
-    add_light(irradiance, lamps.irradiance);
+    add_light(irradiance, frame.lamps.irradiance);
     if (dump)
         write_dump(*dump, device, {prepared, *setting.world, setting.near, irradiance},
                    options.bake.solver);
@@ -195,10 +251,11 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
     const LitScene lit(prepared.scene, prepared.atlas, prepared.lumels, maps.front, maps.back);
     stages.begin("looking");
     const Seen seen =
-        look(view, options.width, options.height, options.sets, prepared.rays, surfaces,
+        look(frame.view, options.width, options.height, options.sets, prepared.rays, surfaces,
              prepared.scene.sky, [&](double fraction) { return stages.progress(fraction); });
-    Image image =
-        compose(seen, lit, reflect(solver, seen, setting, surfaces, lit, options, stages));
+    Image image = compose(seen, lit,
+                          papers ? look_up_accumulated(solver, sight, seen, prepared)
+                                 : reflect(solver, seen, setting, surfaces, lit, options, stages));
     stages.end();
     device.check_validation();
     const Results results{.shots = solver.state().shots,
@@ -207,14 +264,69 @@ Made shoot(Scene scene, RenderOptions options, Stages& stages)
                           .interrupted = stages.stopped(),
                           .near_pairs = setting.near.column.size(),
                           .curve = std::move(run.curve),
-                          .lamps = std::move(lamps)};
+                          .lamps = frame.lamps};
     return {std::move(image), picture_report(options, prepared, device, solver, results, stages)};
 }
 
 Made make(Scene scene, const RenderOptions& options, Stages& stages)
 {
-    return options.paths > 0 ? path_trace(scene, options, stages)
-                             : shoot(std::move(scene), options, stages);
+    if (options.paths > 0)
+        return path_trace(scene, options, stages);
+    const gpu::Device device(options.bake.device);
+    RenderOptions sized = options;
+    Lit frame(std::move(scene), {}, device, sized, stages);
+    return shoot(frame, nullptr, device, sized, stages);
+}
+
+/// picture.png of frame 0 is picture-0001.png.
+std::string numbered(const std::string& path, int frame)
+{
+    std::filesystem::path name(path);
+    name.replace_filename(
+        fmt::format("{}-{:04d}{}", name.stem().string(), frame + 1, name.extension().string()));
+    return name.string();
+}
+
+/// Frames have other random numbers if they keep the average of those before: the same would add
+/// nothing new. Else their noise stays where it is.
+RenderOptions of_frame(RenderOptions options, int frame)
+{
+    auto& glossy = std::get<GlossyOptions>(options.bake.solver.method);
+    if (!options.film.fresh && options.film.kept > 0.0)
+        glossy.seed += std::uint32_t(frame);
+    return options;
+}
+
+/// Frame after frame. The report is that of the last, and names all files.
+Report film(const Scene& scene, const std::string& path, const RenderOptions& options,
+            const ProgressFunction& progress)
+{
+    const Animation animation = read_animation(scene.path, options.film.animation);
+    const gpu::Device device(options.bake.device);
+    std::unique_ptr<Lit> before;
+    std::optional<float> exposure;
+    std::optional<Atlas> atlas;
+    std::vector<std::string> files;
+    Report report;
+    for (int f = 0; f < options.film.frames && !report.interrupted; ++f) {
+        Stages stages(progress);
+        Scene posed = scene;
+        pose(posed, animation, double(f) / options.film.fps);
+        RenderOptions own = of_frame(options, f);
+        Prepared::LayOut same;
+        if (atlas)
+            same = [&](const Scene&, const RayScene&, const Watch&) { return *atlas; };
+        auto frame = std::make_unique<Lit>(std::move(posed), same, device, own, stages);
+        atlas = frame->setting->prepared.atlas;
+        Made made = shoot(*frame, options.film.fresh ? nullptr : before.get(), device, own, stages);
+        exposure = write_picture(numbered(path, f), made.image, exposure);
+        files.push_back(std::filesystem::path(numbered(path, f)).filename().string());
+        report = std::move(made.report);
+        before = std::move(frame);
+    }
+    report.exposure = exposure;
+    report.files = std::move(files);
+    return report;
 }
 
 RenderSummary summary_of(const Report& report)
@@ -240,6 +352,8 @@ RenderSummary render(const std::string& scene_path, const std::string& picture_p
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, MaterialModel::glossy, options.bake.lights);
+    if (options.film.frames > 0)
+        return summary_of(film(scene, picture_path, options, progress));
     Made made = make(std::move(scene), options, stages);
     made.report.exposure = write_picture(picture_path, made.image);
     made.report.files = {std::filesystem::path(picture_path).filename().string()};

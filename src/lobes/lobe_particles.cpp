@@ -7,6 +7,10 @@
 //
 // so that each brings the same power, wherever it lands, and no lumel more than its share of them.
 //
+// Light of the sky and of lamps starts at the lumels that it meets, for most of it meets no lobe.
+// Of the light that each of them sends there along one drawn direction one is chosen by its
+// luminance, and a ray finds out whether it arrives.
+//
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
 //           GPU. 2005.
 
@@ -19,7 +23,8 @@
 
 #include "core/parallel.h"
 #include "lobes/phong.h"
-#include "paths/samples.h"
+#include "paths/directions.h"
+#include "paths/lamp_choice.h"
 #include "shooting/lumel_arrays.h"
 
 namespace lumel {
@@ -33,8 +38,10 @@ constexpr std::uint32_t kMostLobes = 256;
 constexpr std::uint32_t kStratifiedLobes = 1;
 
 /// Dimension pairs of a particle's random numbers.
-constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kOffsetPair = 2, kFirstLobePair = 3,
-                        kPairsPerLobe = 2;
+constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kOffsetPair = 2, kChoicePair = 3,
+                        kFirstLobePair = 4, kPairsPerLobe = 2;
+/// Tells the random numbers of light that arrives from those of light that leaves.
+constexpr std::uint32_t kArrivingStream = 0x5bf03635u;
 
 bool has_lobes(const Lumels& lumels)
 {
@@ -59,8 +66,25 @@ struct LobeParticles::Landing {
 
 struct LobeParticles::Start {
     std::uint32_t lumel;
-    glm::vec3 power;  ///< [lm]
+    /// [lm]; of light that arrives, for each lux at the lumel.
+    glm::vec3 power;
+    double whole;  ///< power of all particles [lm]
+    bool arrives;  ///< true: from sky and lamps; false: leaves the lumel
     PathSamples samples;
+};
+
+/// Where a particle meets a lumel.
+struct LobeParticles::Arrival {
+    std::uint32_t lumel;
+    glm::vec3 position, direction;  ///< unit, that it came along
+    glm::vec3 normal, geometric;
+    glm::vec3 power;  ///< [lm]
+};
+
+/// Light of one of the sources, for all of them.
+struct LobeParticles::Sought {
+    glm::vec3 toward{0.0f};      ///< unit
+    glm::vec3 irradiance{0.0f};  ///< [lx]
 };
 
 LobeParticles::LobeParticles(const Scene& scene, const Atlas& atlas, const RayScene& rays,
@@ -70,52 +94,107 @@ LobeParticles::LobeParticles(const Scene& scene, const Atlas& atlas, const RaySc
       world_(scene, rays, lumels),
       surfaces_(scene),
       hits_(scene, atlas, lumels),
+      lamps_(scene),
       any_(has_lobes(lumels))
 {
+    if (!scene.sky.empty())
+        sky_.emplace(scene.sky);
+    if (sky_ && sky_->empty())
+        sky_.reset();
+}
+
+LobeParticles::Sought LobeParticles::seek_light(const LumelPoint& y,
+                                                const PathSamples& samples) const
+{
+    const glm::vec2 at = samples.stratified(kDirectionPair);
+    const glm::vec2 disc = square_to_disc(at);
+    const glm::vec3 position = y.position + rays_->lift() * y.normal;
+    LampChoice choice(double(samples.random(kChoicePair).x));
+    const auto offer = [&](const LampSample& light) {
+        choice.offer(light,
+                     std::max(glm::dot(y.normal, light.direction), 0.0f) * light.illuminance);
+    };
+    if (sky_) {
+        const SkySample sky = sky_->sample(at);
+        if (sky.density > 0.0f)
+            offer({.direction = sky.direction,
+                   .distance = std::numeric_limits<float>::infinity(),
+                   .illuminance = sky.radiance / sky.density});
+    }
+    for (std::size_t lamp = 0; lamp < lamps_.count(); ++lamp)
+        offer(lamps_.sample(lamp, position, disc));
+    if (choice.empty())
+        return {};
+    return {choice.lamp().direction, choice.light() * passing(*rays_, position, choice.lamp(), 0.0f,
+                                                              samples.bits(kChoicePair))};
+}
+
+/// To what a particle meets next.
+bool LobeParticles::fly(const glm::vec3& position, const glm::vec3& direction,
+                        const glm::vec3& power, std::uint32_t bits, Arrival& arrival) const
+{
+    RayHit hit;
+    if (!rays_->closest(position, direction, 0.0f, std::numeric_limits<float>::max(), bits, hit))
+        return false;
+    const std::uint32_t i = hits_.lumel(hit);
+    if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
+        return false;
+    const Shading there = surfaces_.shade(hit);
+    arrival = {i,
+               position + direction * hit.distance,
+               direction,
+               there.normal,
+               there.geometric,
+               power * hit.tint};
+    return true;
+}
+
+/// To the first lobe.
+bool LobeParticles::arrive(const Start& start, Arrival& arrival) const
+{
+    const PathSamples& samples = start.samples;
+    const LumelPoint y = world_.point_on(start.lumel, samples.stratified(kPointPair));
+    if (!start.arrives)
+        // A lobe of exponent 1 about the normal is what a diffuse surface sends.
+        return fly(y.position + rays_->lift() * y.normal,
+                   phong_direction(y.normal, 1.0f, samples.stratified(kDirectionPair)), start.power,
+                   samples.bits(kFirstLobePair), arrival);
+    const Sought light = seek_light(y, samples);
+    arrival = {start.lumel, y.position, -light.toward,
+               y.normal,    y.normal,   start.power * light.irradiance};
+    return light.irradiance != glm::vec3(0.0f);
 }
 
 void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) const
 {
     const PathSamples& samples = start.samples;
-    const LumelPoint y = world_.point_on(start.lumel, samples.stratified(kPointPair));
-    const float lift = rays_->lift();
-    const double whole = luminance(start.power);
-    glm::vec3 position = y.position + lift * y.normal;
-    // A lobe of exponent 1 about the normal is what a diffuse surface sends.
-    glm::vec3 direction = phong_direction(y.normal, 1.0f, samples.stratified(kDirectionPair));
-    glm::vec3 power = start.power;
+    Arrival at;
+    if (!arrive(start, at))
+        return;
     for (std::uint32_t lobe = 0; lobe < kMostLobes; ++lobe) {
         const std::uint32_t pair = kFirstLobePair + kPairsPerLobe * lobe;
-        RayHit hit;
-        if (!rays_->closest(position, direction, 0.0f, std::numeric_limits<float>::max(),
-                            samples.bits(pair), hit))
-            break;
-        const std::uint32_t i = hits_.lumel(hit);
-        if (i == HitLumels::kNone || (lumels_->lumels[i].flags & kLumelBuried) != 0)
-            break;
-        power *= hit.tint;
-        const Gloss& gloss = lumels_->gloss[i];
-        const Shading there = surfaces_.shade(hit);
-        const float cos_in = -glm::dot(there.normal, direction);
-        const glm::vec3 mirror = direction + 2.0f * cos_in * there.normal;
+        const Gloss& gloss = lumels_->gloss[at.lumel];
+        const float cos_in = -glm::dot(at.normal, at.direction);
+        const glm::vec3 mirror = at.direction + 2.0f * cos_in * at.normal;
         const glm::vec3 onward = phong_direction(mirror, gloss.shininess,
                                                  lobe < kStratifiedLobes ? samples.stratified(pair)
                                                                          : samples.random(pair));
-        const float cos_out = glm::dot(there.normal, onward);
+        const float cos_out = glm::dot(at.normal, onward);
         const bool leaves =
-            cos_in > 0.0f && cos_out > 0.0f && glm::dot(there.geometric, onward) > 0.0f;
+            cos_in > 0.0f && cos_out > 0.0f && glm::dot(at.geometric, onward) > 0.0f;
         const glm::vec3 reflected =
-            leaves ? power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
+            leaves ? at.power * gloss.specular * (cos_out / std::max(cos_in, cos_out))
                    : glm::vec3(0.0f);
         if (lobe > 0)
-            landings.push_back({i, power, reflected});
+            landings.push_back({at.lumel, at.power, reflected});
 
-        const double chance = luminance(reflected) / whole;
+        const double chance = luminance(reflected) / start.whole;
         if (!(double(samples.random(pair + 1).x) < chance))
             break;
-        power = reflected * float(1.0 / std::min(chance, 1.0));
-        position += direction * hit.distance + lift * there.geometric;
-        direction = onward;
+        if (!fly(at.position + rays_->lift() * at.geometric, onward,
+                 reflected * float(1.0 / std::min(chance, 1.0)), samples.bits(pair + kPairsPerLobe),
+                 at))
+            break;
     }
 }
 
@@ -123,38 +202,54 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
 /// what one sends does not depend on the others', so that a little more light changes little. The
 /// numbers of neighbours are spread evenly.
 std::vector<LobeParticles::Start> LobeParticles::starts_of(std::span<const glm::vec3> exitance,
+                                                           std::span<const glm::vec3> direct,
                                                            std::size_t particles,
                                                            std::uint32_t seed) const
 {
+    const auto leaving = [&](std::size_t j) { return power_of(lumels_->lumels[j], exitance[j]); };
+    const auto arriving = [&](std::size_t j) {
+        return power_of(lumels_->lumels[j], lumels_->gloss[j].specular * direct[j]);
+    };
     double total = 0.0;
     for (std::size_t j = 0; j < exitance.size(); ++j)
-        total += power_of(lumels_->lumels[j], exitance[j]);
+        total += leaving(j);
+    for (std::size_t j = 0; j < direct.size(); ++j)
+        total += arriving(j);
     std::vector<Start> starts;
     if (!(total > 0.0))
         return starts;
     starts.reserve(particles);
     const double offset = double(PathSamples(seed, 0).random(kOffsetPair).x);
     const double per_power = double(particles) / total;
-    for (std::size_t j = 0; j < exitance.size(); ++j) {
-        const double power = power_of(lumels_->lumels[j], exitance[j]);
-        const double number = offset + double(j) * std::numbers::phi;
+    const auto add = [&](std::size_t j, double power, const glm::vec3& each, bool arrives) {
+        const double place = double(j) + (arrives ? double(exitance.size()) : 0.0);
+        const double number = offset + place * std::numbers::phi;
         const auto count = std::uint32_t(power * per_power + number - std::floor(number));
-        const std::uint32_t stream = PathSamples::hash(seed, std::uint32_t(j));
+        const std::uint32_t stream =
+            PathSamples::hash(arrives ? seed ^ kArrivingStream : seed, std::uint32_t(j));
         for (std::uint32_t t = 0; t < count; ++t)
-            starts.push_back({std::uint32_t(j),
-                              exitance[j] * float(1.0 / (per_power * luminance(exitance[j]))),
-                              PathSamples(stream, t)});
+            starts.push_back(
+                {std::uint32_t(j), each, 1.0 / per_power, arrives, PathSamples(stream, t)});
+    };
+    for (std::size_t j = 0; j < exitance.size(); ++j)
+        add(j, leaving(j), exitance[j] * float(1.0 / (per_power * luminance(exitance[j]))), false);
+    for (std::size_t j = 0; j < direct.size(); ++j) {
+        const double power = arriving(j);
+        const float area = lumels_->lumels[j].area;
+        add(j, power, glm::vec3(power > 0.0 ? float(double(area) / (power * per_power)) : 0.0f),
+            true);
     }
     return starts;
 }
 
 LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
+                                            std::span<const glm::vec3> direct,
                                             std::size_t particles, std::uint32_t seed) const
 {
     const std::size_t count = exitance.size();
     Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
                     std::vector<glm::vec3>(count, glm::vec3(0.0f))};
-    const std::vector<Start> starts = starts_of(exitance, particles, seed);
+    const std::vector<Start> starts = starts_of(exitance, direct, particles, seed);
     // Tasks keep their landings apart, so that sums do not depend on which is first.
     const std::size_t tasks = (starts.size() + kParticlesPerTask - 1) / kParticlesPerTask;
     std::vector<std::vector<Landing>> landings(tasks);

@@ -9,6 +9,7 @@ LitScene::LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                    const Image& back)
     : scene_(&scene),
       lumels_(scene, atlas, lumels),
+      lamps_(scene),
       front_map_(&front),
       back_map_(back.values.empty() ? &front : &back)
 {

@@ -6,6 +6,7 @@
 #include "atlas/atlas.h"
 #include "core/image.h"
 #include "nearfield/hit_lumels.h"
+#include "paths/lamps.h"
 #include "rays/ray_scene.h"
 
 namespace lumel {
@@ -23,12 +24,15 @@ public:
     /// Radiance of the sky in a unit direction [cd/m²].
     glm::vec3 sky(const glm::vec3& direction) const;
 
+    const Lamps& lamps() const { return lamps_; }
+
     /// Index of the lumel, on the side that was hit; HitLumels::kNone where there is none.
     std::uint32_t lumel(const RayHit& hit) const { return lumels_.lumel(hit); }
 
 private:
     const Scene* scene_;
     HitLumels lumels_;
+    Lamps lamps_;
     const Image *front_map_, *back_map_;
 };
 

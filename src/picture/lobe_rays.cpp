@@ -7,7 +7,8 @@
 // ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at
 // x if there are no shooters, a second ray to a point drawn by what it sends takes the shooters'
 // place in the weights: Russian roulette makes what few rays go on carry much, and small lamps
-// would be met by few of those.
+// would be met by few of those. Lamps, which no ray meets, get a ray of their own at each of these
+// points; the sky is what a ray along the lobe finds.
 
 #include "picture/lobe_rays.h"
 
@@ -18,6 +19,8 @@
 
 #include "core/parallel.h"
 #include "lobes/phong.h"
+#include "paths/directions.h"
+#include "paths/lamp_choice.h"
 #include "paths/samples.h"
 
 namespace lumel {
@@ -29,8 +32,9 @@ constexpr std::uint32_t kMostLobes = 16;
 /// Throughput below which a ray takes part in Russian roulette: what glazed surfaces reflect. With
 /// more, the few narrow lobes behind one that lead to a lamp would show.
 constexpr float kRouletteBelow = 0.04f;
-/// Dimension pairs of a ray's random numbers: its direction, roulette, and the point it aims at.
-constexpr std::uint32_t kPairsPerLobe = 4;
+/// Dimension pairs of a ray's random numbers: its direction, roulette, the point it aims at, and
+/// which lamp, and where on it.
+constexpr std::uint32_t kPairsPerLobe = 6;
 /// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
 /// Points between two progress reports.
@@ -62,6 +66,8 @@ public:
             const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
             if (techniques.seeks)
                 sum += throughput * sought(x, mirror, samples, pair);
+            if (lit_.lamps().count() > 0)
+                sum += throughput * lamplight(x, mirror, samples, pair);
 
             const glm::vec3 direction = phong_direction(
                 mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
@@ -159,6 +165,29 @@ private:
         const float reflects = along * cos_in / std::max(cos_in, cos_eye);
         return hit.tint * x.specular * sent(surfaces_.shade(hit), hit) *
                (reflects / (drawn + along));
+    }
+
+    /// What x reflects to the eye of the lamps: one of them, chosen by that.
+    glm::vec3 lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                        std::uint32_t pair) const
+    {
+        const Lamps& lamps = lit_.lamps();
+        const glm::vec3 origin = x.position + lift_ * x.facing;
+        const glm::vec2 disc = square_to_disc(samples.random(pair + 4));
+        const float cos_eye = glm::dot(x.normal, x.toward_eye);
+        LampChoice choice(double(samples.random(pair + 5).x));
+        for (std::size_t i = 0; i < lamps.count(); ++i) {
+            const LampSample lamp = lamps.sample(i, origin, disc);
+            const float cos_in = glm::dot(x.normal, lamp.direction);
+            if (cos_in <= 0.0f || glm::dot(x.facing, lamp.direction) <= 0.0f)
+                continue;
+            const float lobe =
+                phong_lobe(cos_in, cos_eye, glm::dot(mirror, lamp.direction), x.shininess);
+            choice.offer(lamp, x.specular * lamp.illuminance * (lobe * cos_in));
+        }
+        if (choice.empty())
+            return glm::vec3(0.0f);
+        return choice.light() * passing(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
     }
 
     /// Russian roulette before another lobe: 0, or what makes up for those that end.

@@ -6,14 +6,15 @@
 #include "shooting/power_pyramid.glsl"
 #include "world/lumel.glsl"
 #include "shooting/shooter.glsl"
+#include "shooting/merged_texels.glsl"
 #include "visibility/channel.glsl"
 
 // Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
 // point y uniform on lumel j, the hemicube turned at random about the normal.
 //
 // Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area
-// A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. Its point stays on the
-// texel drawn, so that it lies on the surface.
+// A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. It stands at their common
+// centre, or, where points are spread over texels, on the one drawn.
 //
 // Among coloured glass what a shooter reaches differs from channel to channel: each takes one, with
 // three times the power in it.
@@ -33,22 +34,13 @@ struct Merged {
     float weight;  // Σ of what they are drawn by
 };
 
-bool is_merged_with(Lumel j, Lumel m)
-{
-    const uvec2 a = uvec2(j.texel % p.width, j.texel / p.width) >> p.merge;
-    const uvec2 b = uvec2(m.texel % p.width, m.texel / p.width) >> p.merge;
-    return a == b && j.chart == m.chart && (m.flags & kLumelBuried) == 0u;
-}
-
-// Lumels lie by chart and along a Morton curve: those of a square are neighbours.
 Merged merged_with(uint j)
 {
-    const Lumel lumel = lumels[j];
-    const uint reach = (1u << (2u * p.merge)) - 1u;
-    const uint last = min(j + reach, p.pyramid.count[0] - 1u);
+    const uint count = p.pyramid.count[0];
+    const uint last = last_of_square(j, p.merge, count);
     Merged sum = Merged(vec3(0.0), 0.0, 0.0);
-    for (uint m = j - min(j, reach); m <= last; ++m)
-        if (is_merged_with(lumel, lumels[m])) {
+    for (uint m = first_of_square(j, p.merge); m <= last; ++m)
+        if (shoot_as_one(lumels[j], lumels[m], p.merge, p.width)) {
             sum.power += source[m] * lumels[m].area;
             sum.area += lumels[m].area;
             sum.weight += source_power[p.pyramid.first[0] + m];
@@ -78,8 +70,10 @@ void main()
     const float area = lumel.area;
     LumelPoint y = point_on(lumel, u.y, u.z);
     if (p.centre != 0u) {
-        y.position = lumel.position;
-        y.normal = lumel.normal;
+        const MergedPlace centre =
+            merged_place(j, emits ? 0u : p.merge, p.pyramid.count[0], p.width);
+        y.position = centre.position;
+        y.normal = centre.normal;
     }
     const uint channel = channel_in_turn(index, p.channels != 0u);
     eyes[k] = make_eye(y.position, y.normal, hash(hash(index ^ hash(p.seed)) + (emits ? 1u : 2u)),

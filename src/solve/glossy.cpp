@@ -2,6 +2,7 @@
 //
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
 //           GPU. 2005.
+//   [VG95]  E. Veach, L. Guibas. Optimally Combining Sampling Techniques. 1995.
 //   [NNS99] The reflectance model; see phong.h.
 //
 // A lumel stores no directional light, only the actual irradiance of the last iteration and, common
@@ -17,21 +18,25 @@
 //
 // where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
 //
-// `Scheme::paper` with K = 1 is the paper's iteration, but for the points, which move over
-// receivers and shooters instead of standing at their centres, and a first part that is not
-// averaged.
+// `Scheme::paper` with K = 1 is the paper's iteration: all iterations are averaged, and merged
+// texels shoot from their common centre. Two things are its own: receiving points move over
+// lumels, unless SampleRule::centre has them stand still, and shooters are drawn by power or by
+// area, weighted. The paper names multiple importance sampling (figure 1), but not of what.
 //
 // Other differences from the paper:
 // - K shooters per iteration.
 // - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone. Without
 //   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
 //   wide, K but at most 64 where they are narrow.
-// - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel.
+// - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel
+//   (not with Scheme::paper).
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
-//   diffusely; lobes between them go through the same form factors. In the paper all pairs have
-//   the disc term of Eq. (8) instead.
-// - The average forgets the first iterations, in which light had not yet spread.
-// - Frames of a moved eye or a changed light draw by mean power, all from one beginning.
+//   diffusely; lobes between them go through the same form factors. With Scheme::paper all pairs
+//   have the disc term of Eq. (8) instead.
+// - The average forgets the first iterations, in which light had not yet spread (not with
+//   Scheme::paper).
+// - Frames of a moved eye or a changed light draw by mean power, all from one beginning; those of
+//   a moved scene go on from the mean light of the one before (glossy_frames.cpp).
 
 #include "solve/glossy.h"
 
@@ -51,8 +56,9 @@ constexpr std::uint64_t kRestarts[] = {8, 32};
 constexpr std::uint64_t kFirstStated = 2;
 /// Shooters for which each lumel has one particle: then both take about as long.
 constexpr std::size_t kShootersPerParticle = 8;
-/// Share of a frame's shooters spread by area: light may reach what was dark before.
-constexpr float kFrameByArea = 0.1f;
+/// Share of the paper's shooters that are drawn by area alone. A half of them, or by emission,
+/// leaves more than twice the variance: p in proportion to power lets all shooters send the same.
+constexpr float kAreaShare = 0.1f;
 
 }  // namespace
 
@@ -72,6 +78,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(std::uint32_t(options.views.batch)),
       paper_(options.scheme == Scheme::paper),
+      atlas_width_(std::uint32_t(lumels.width)),
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
@@ -94,14 +101,14 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       diffuse_(device, count_),
       near_(device, count_),
       last_(device, particles_ ? 1 : std::size_t(batch_) * count_),
-      carried_(device, count_),
-      passed_on_(device, count_),
+      carried_(device, particles_, known, count_),
       sums_(device, 2 * count_),
       absorbed_(device, 2 * count_),
       irradiance_(device, count_),
       figures_(device, count_),
       near_rows_(device, near, count_),
       power_(device, count_),
+      area_power_(device, count_),
       pacer_(device)
 {
     batch_ = std::min(batch_, views_.capacity());
@@ -111,18 +118,18 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
 void GlossyIllumination::begin()
 {
     pacer_.work("prepare", [&](gpu::Commands& commands) {
-        for (const auto* array :
-             {&near_, &last_, &sums_, &absorbed_, &irradiance_, &carried_, &passed_on_})
+        for (const auto* array : {&near_, &last_, &sums_, &absorbed_, &irradiance_})
             commands.fill(array->buffer());
         commands.copy(emission_.buffer(), exitance_.buffer(), count_ * sizeof(glm::vec3));
         commands.copy(emission_.buffer(), diffuse_.buffer(), count_ * sizeof(glm::vec3));
         power_.build(commands, exitance_, surface_, 0.0f, 0.0f);
+        area_power_.build(commands, emission_, surface_, 1.0f, reflecting_area_);
     });
 }
 
 std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const GlossyOptions& options)
 {
-    constexpr std::uint64_t kVectors = 7, kHalves = 2;  // arrays of vec3 [N] and [2][N]
+    constexpr std::uint64_t kVectors = 5, kHalves = 2;  // arrays of vec3 [N] and [2][N]
     const std::size_t count = size.count();
     const auto batch = std::uint32_t(options.views.batch);
     // Without particles the last irradiance of every shooter is kept.
@@ -135,14 +142,15 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
                (sizeof(glm::vec4) + sizeof(Gloss) + (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
            last * sizeof(glm::vec3) + phong_albedo_table().size() * sizeof(float) +
            Figures::device_bytes(count) + NearRows::device_bytes(count, size.near_pairs) +
-           PowerPyramid::device_bytes(count);
+           2 * PowerPyramid::device_bytes(count) + CarriedLight::device_bytes(count);
 }
 
 void GlossyIllumination::step()
 {
     take_figures();
-    if (std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
-        std::end(kRestarts))
+    if (!paper_ && !goes_on_ &&
+        std::find(std::begin(kRestarts), std::end(kRestarts), state_.iterations) !=
+            std::end(kRestarts))
         restart();
     select();
     carry();
@@ -150,6 +158,7 @@ void GlossyIllumination::step()
     receive();
     if (eye_)
         eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
+    has_before_ = true;
     ++batches_[iteration_++ % 2];
     ++state_.iterations;
     state_.shots += batch_;
@@ -169,17 +178,36 @@ void GlossyIllumination::restart()
     state_.error = -1.0;
 }
 
+bool GlossyIllumination::has_two_choices() const
+{
+    return paper_ && options_.two_choices && emitted_power_ > 0.0 && reflecting_area_ > 0.0f;
+}
+
+/// On average that share, whatever K is: a fraction of a shooter is one by chance.
+std::uint32_t GlossyIllumination::area_shots() const
+{
+    if (!has_two_choices())
+        return 0;
+    const float coin = PathSamples(PathSamples::hash(options_.seed, next_shot_), 0).random(0).x;
+    return std::uint32_t(kAreaShare * float(batch_) + coin);
+}
+
 void GlossyIllumination::select()
 {
     const std::size_t now = state_.iterations % 2;
     const GlossySelectParams params{.pyramid = power_.layout(),
                                     .count = count_,
                                     .shots = batch_,
-                                    .before = state_.iterations > 0 && !particles_ ? batch_ : 0u,
+                                    .before = has_before_ && !particles_ ? batch_ : 0u,
                                     .index = next_shot_,
                                     .seed = options_.seed,
                                     .random = paper_ ? 1u : 0u,
-                                    .channels = world_->has_coloured_glass() ? 1u : 0u};
+                                    .channels = world_->has_coloured_glass() ? 1u : 0u,
+                                    .centre = paper_ ? 1u : 0u,
+                                    .merge = paper_ ? options_.merge : 0u,
+                                    .width = atlas_width_,
+                                    .area_shots = area_shots(),
+                                    .area_share = has_two_choices() ? kAreaShare : 0.0f};
     pacer_.work("select", [&](gpu::Commands& commands) {
         commands.dispatch(kernels_.select,
                           {.lumels = world_->lumels(),
@@ -189,6 +217,7 @@ void GlossyIllumination::select()
                            .diffuse = diffuse_,
                            .last = last_,
                            .power = power_.array(),
+                           .area_power = area_power_.array(),
                            .before = eyes_[1 - now],
                            .eyes = eyes_[now],
                            .shots = shots_,
@@ -199,15 +228,8 @@ void GlossyIllumination::select()
 
 void GlossyIllumination::carry()
 {
-    if (!particles_)
-        return;
-    pacer_.finish();
-    const std::vector<glm::vec3> exitance = diffuse_.download();
     const std::size_t particles = std::size_t(batch_) * count_ / kShootersPerParticle + 1;
-    const LobeParticles::Carried carried =
-        particles_->carry(exitance, particles, PathSamples::hash(options_.seed, iteration_));
-    carried_.upload(carried.irradiance);
-    passed_on_.upload(carried.reflected);
+    carried_.begin(pacer_, diffuse_, particles, options_.seed, iteration_);
 }
 
 void GlossyIllumination::receive()
@@ -248,10 +270,11 @@ void GlossyIllumination::receive()
                                        .exitance = exitance_,
                                        .absorbed = absorbed_,
                                        .diffuse_exitance = diffuse_,
-                                       .carried = carried_,
-                                       .passed_on = passed_on_},
+                                       .carried = carried_.irradiance(),
+                                       .passed_on = carried_.reflected()},
                                       params, last - first);
                 });
+    carried_.end(pacer_, diffuse_);
     if (!held_)
         draw_in_proportion_to(exitance_, 0.0f);
 }
@@ -275,7 +298,8 @@ void GlossyIllumination::take_figures()
         return;
     const glm::vec4 sums = terms->column[0];
     const double count = 3.0 * double(sums.z);
-    const bool settled = state_.iterations > *std::rbegin(kRestarts) + kFirstStated;
+    const std::uint64_t unsettled = goes_on_ ? 0 : *std::rbegin(kRestarts);
+    const bool settled = state_.iterations > unsettled + kFirstStated;
     if (!(sums.y > 0.0f) || count <= 0.0)
         state_.error = emitted_power_ > 0.0 && !settled ? -1.0 : 0.0;
     else if (settled)
@@ -289,107 +313,11 @@ std::vector<glm::vec3> GlossyIllumination::irradiance()
     return irradiance_.download();
 }
 
-void GlossyIllumination::rewind()
-{
-    const std::size_t before = (state_.iterations + 1) % 2;
-    const bool is_first = !held_;
-    if (is_first)
-        held_.emplace(Held{{*device_, count_},
-                           {*device_, count_},
-                           {*device_, count_},
-                           {*device_, count_},
-                           {*device_, last_.size()},
-                           {*device_, kMostGlossyBatch},
-                           {*device_, view(mean_exitance())}});
-    pacer_.work("rewind", [&](gpu::Commands& commands) {
-        const auto carry = [&](const gpu::Buffer& now, const gpu::Buffer& held) {
-            commands.copy(is_first ? now : held, is_first ? held : now, held.bytes());
-        };
-        carry(emission_.buffer(), held_->emission.buffer());
-        carry(exitance_.buffer(), held_->exitance.buffer());
-        carry(diffuse_.buffer(), held_->diffuse.buffer());
-        carry(near_.buffer(), held_->near.buffer());
-        carry(last_.buffer(), held_->last.buffer());
-        carry(eyes_[before].buffer(), held_->eyes.buffer());
-    });
-    pacer_.finish();
-    figures_.drop();
-    iteration_ = next_shot_ = 0;
-}
-
-void GlossyIllumination::forget_frames()
-{
-    pacer_.finish();
-    held_.reset();
-}
-
-void GlossyIllumination::set_emission(std::span<const glm::vec3> given)
-{
-    if (given.size() != count_)
-        throw Error(ErrorKind::input, "emission", "must be given for every lumel");
-    std::vector<glm::vec3> emission(given.begin(), given.end());
-    for (std::size_t i = 0; i < count_; ++i)
-        if (lumels_->lumels[i].flags & kLumelBuried)
-            emission[i] = glm::vec3(0.0f);
-    emitted_power_ = emitted_power(*lumels_, emission);
-    rewind();
-    const std::vector<glm::vec3> before = emission_.download();
-    emission_.upload(emission);
-    const auto add_change = [&](const gpu::Array<glm::vec3>& from, gpu::Array<glm::vec3>& to) {
-        std::vector<glm::vec3> values = from.download();
-        for (std::size_t i = 0; i < count_; ++i)
-            values[i] = glm::max(values[i] + emission[i] - before[i], glm::vec3(0.0f));
-        to.upload(values);
-    };
-    add_change(exitance_, exitance_);
-    add_change(diffuse_, diffuse_);
-    restart();
-    if (eye_)
-        eye_->restart(pacer_);
-    draw_in_proportion_to(held_->mean_exitance, kFrameByArea);
-}
-
 void GlossyIllumination::draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area)
 {
     pacer_.work("power", [&](gpu::Commands& commands) {
         power_.build(commands, exitance, surface_, by_area, reflecting_area_);
     });
-}
-
-std::vector<glm::vec3> GlossyIllumination::mean_exitance()
-{
-    const std::vector<glm::vec3> arriving = irradiance();
-    std::vector<glm::vec3> exitance = emission_.download();
-    // The lobes' albedo counts as 1: what is drawn by need not be exact.
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Gloss& gloss = lumels_->gloss[i];
-        exitance[i] += (particles_ ? gloss.diffuse : gloss.diffuse + gloss.specular) * arriving[i];
-    }
-    return exitance;
-}
-
-std::vector<float> GlossyIllumination::brightness()
-{
-    const std::vector<glm::vec3> exitance =
-        held_ ? held_->mean_exitance.download() : mean_exitance();
-    std::vector<float> brightness(count_, 0.0f);
-    double power = 0.0;
-    for (std::uint32_t j = 0; j < count_; ++j) {
-        brightness[j] = float(luminance(exitance[j]));
-        power += double(brightness[j]) * double(lumels_->lumels[j].area);
-    }
-    for (float& value : brightness)
-        value = power > 0.0 ? float(double(value) / power) : 0.0f;
-    return brightness;
-}
-
-void GlossyIllumination::look_at(std::span<const EyePoint> points,
-                                 std::span<const float> brightness, const EyeSampling& sampling)
-{
-    pacer_.finish();
-    const std::vector<glm::vec3> emission = emission_.download();
-    eye_.emplace(*device_, options_.views.projection, points, brightness, sampling);
-    set_emission(emission);
 }
 
 std::vector<glm::vec3> GlossyIllumination::eye_radiance()

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "gpu/pacer.h"
+#include "lobes/carried_light.h"
 #include "lobes/eye_image.h"
 #include "lobes/lobe_particles.h"
 #include "nearfield/near_rows.h"
@@ -31,8 +32,8 @@ struct EnergyBalance {
 /// Shooters drawn by power send diffuse light and the lobes of their last irradiance.
 class GlossyIllumination final : public Solver {
 public:
-    /// particles: carry what lobes send on, instead of the shooters; not with Scheme::paper. Must
-    /// outlive this.
+    /// known: [N] [lx] of sky and lamps, or empty. particles: carry what lobes send on, that of
+    /// `known` too, instead of the shooters; not with Scheme::paper. Must outlive this.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
@@ -63,13 +64,22 @@ public:
     /// Lets the next frame be the first one. Waits for the device.
     void forget_frames();
 
+    /// Before the first step, of a scene in which things have moved since the frame before, which
+    /// has the same lumels and is wholly solved: the iteration starts from its light, and the
+    /// average from its average, which counts as so many iterations. Without the latter frames with
+    /// the same seed have much of their noise in common. Waits for the device.
+    void go_on_from(GlossyIllumination& before, float kept = 0.0f);
+
     /// A frame for another eye: every step also adds to the image of one that sees these points.
     /// It goes on as any frame does, so that all eyes meet the same shooters and close ones see
     /// the same noise. Waits for the device.
     void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
                  const EyeSampling& sampling);
+    /// Before the first step: every step also adds to the image of an eye what shooters alone make
+    /// these points reflect, the accumulation texture of the paper.
+    void accumulate_at(std::span<const EyePoint> points);
     std::uint32_t batch() const { return batch_; }  ///< K
-    /// [P] reflected by the lobes toward the eye [cd/m²]; empty before look_at. Waits for the
+    /// [P] reflected by the lobes toward the eye [cd/m²]; empty without an eye. Waits for the
     /// device.
     std::vector<glm::vec3> eye_radiance();
 
@@ -92,8 +102,11 @@ private:
 
     void begin();
     void rewind();
+    void keep_average_of(const GlossyIllumination& before, float kept);
     std::vector<glm::vec3> mean_exitance();
     void draw_in_proportion_to(const gpu::Array<glm::vec3>& exitance, float by_area);
+    bool has_two_choices() const;
+    std::uint32_t area_shots() const;
     void select();
     void carry();
     void receive();
@@ -105,6 +118,7 @@ private:
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;  ///< K
     bool paper_;
+    std::uint32_t atlas_width_;  ///< [texels]
     float near_radius_;
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
     double emitted_power_;   ///< Σ A 𝓛(E) [lm]
@@ -127,17 +141,20 @@ private:
     gpu::Array<glm::vec3> diffuse_;   ///< [N] the part of it that is the same in all directions
     gpu::Array<glm::vec3> near_;      ///< [N] near light of the B before it
     gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
-    gpu::Array<glm::vec3> carried_, passed_on_;  ///< [N] LobeParticles::Carried of this iteration
-    gpu::Array<glm::vec3> sums_, absorbed_;      ///< [2][N] since the last restart
+    CarriedLight carried_;            ///< by particles
+    gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     Figures figures_;
     std::optional<EyeImage> eye_;
     std::optional<Held> held_;  ///< from the first frame on
     NearRows near_rows_;
     PowerPyramid power_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    PowerPyramid area_power_;  ///< used with two choices only
+    gpu::Pacer pacer_;         ///< after all that its work uses: it waits when it ends
 
     SolverState state_;
+    bool has_before_ = false;  ///< last_ holds the light of eyes_ of an iteration before
+    bool goes_on_ = false;     ///< from a frame before: light has spread already
     std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences
     std::array<float, 2> batches_{};               ///< iterations in sums, per half
 };

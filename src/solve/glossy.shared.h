@@ -18,8 +18,13 @@ struct GlossySelectParams {
     uint before;  ///< K of the iteration before, 0: none
     uint index;   ///< shooters before this iteration
     uint seed;
-    uint random;    ///< 1: independent random numbers
-    uint channels;  ///< 1: shooters take the colour channels in turn
+    uint random;       ///< 1: independent random numbers
+    uint channels;     ///< 1: shooters take the colour channels in turn
+    uint centre;       ///< 1: shooters stand at the centres of squares
+    uint merge;        ///< of 2^merge texels a side, with `centre`
+    uint width;        ///< of the atlas [texels]
+    uint area_shots;   ///< the first of them are drawn by area alone
+    float area_share;  ///< how many that is on average, as a part of all
 };
 
 /// Push constants of glossy.receive.comp.

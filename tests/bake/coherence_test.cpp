@@ -1,6 +1,9 @@
 // From frame to frame: what changes a little should not flicker.
 
 #include <cmath>
+#include <memory>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "picture/seen.h"
 #include "shooting/lumel_arrays.h"
@@ -203,6 +206,84 @@ TEST(Frames, OnceForgottenMakeLightThatMovedLessNoisy)
     const std::vector<glm::vec3> truth = long_run.solver.irradiance();
     EXPECT_LE(mean_difference(drawn_anew, truth), 0.6 * mean_difference(drawn_as_before, truth));
 }
+
+/// The glossy Cornell box whose tall block has been turned, with what solves it.
+struct Turned {
+    /// same: whose atlas it has.
+    explicit Turned(double degrees, float brightness = 1.0f, const Turned* same = nullptr,
+                    Scheme scheme = Scheme::phased)
+        : world(scene(degrees, brightness),
+                [&](const Scene& posed, const RayScene&, const Watch& watch) {
+                    return same ? same->world.atlas : make_atlas(posed, {.size = 32}, watch);
+                }),
+          options{.scheme = scheme},
+          resident(world.scene, world.rays, world.lumels, {.method = options}),
+          particles(world.scene, world.atlas, world.rays, world.lumels)
+    {
+    }
+
+    static Scene scene(double degrees, float brightness)
+    {
+        Scene scene = read_gltf(support::scene_path("glossy-cornell-box"), MaterialModel::glossy);
+        glm::mat4& place = scene.instances[find_instance(scene, "tall block")].transform;
+        const glm::vec3 pivot(0.37f, 0.0f, 0.35f);  // about its middle [m]
+        place = glm::translate(glm::mat4(1.0f), pivot) *
+                glm::rotate(glm::mat4(1.0f), float(glm::radians(degrees)), {0.0f, 1.0f, 0.0f}) *
+                glm::translate(glm::mat4(1.0f), -pivot) * place;
+        for (Material& material : scene.materials)
+            material.emitted *= brightness;
+        return scene;
+    }
+
+    std::unique_ptr<GlossyIllumination> start(std::uint32_t seed) const
+    {
+        GlossyOptions own = options;
+        own.seed = seed;
+        return std::make_unique<GlossyIllumination>(resident.device, resident.world, world.lumels,
+                                                    resident.near, own,
+                                                    std::span<const glm::vec3>{}, &particles);
+    }
+
+    Prepared world;
+    GlossyOptions options;
+    support::Resident resident;
+    LobeParticles particles;
+};
+
+std::vector<glm::vec3> after(GlossyIllumination& solver, int iterations)
+{
+    for (int i = 0; i < iterations; ++i)
+        solver.step();
+    return solver.irradiance();
+}
+
+TEST(MovedFrames, ThatGoOnFromTheOneBeforeAreNearerToTheTruth)
+{
+    constexpr int kIterations = 16, kManyIterations = 512;
+    const Turned first(0.0), second(3.0, 1.0f, &first);
+    const auto before = first.start(1), fresh = second.start(2), going_on = second.start(2),
+               long_run = second.start(3);
+    after(*before, kIterations);
+    going_on->go_on_from(*before, float(kIterations));
+    const std::vector<glm::vec3> truth = after(*long_run, kManyIterations);
+    EXPECT_LE(difference(after(*going_on, kIterations), truth),
+              0.75 * difference(after(*fresh, kIterations), truth));
+    EXPECT_EQ(second.resident.device.validation_messages(), "");
+}
+
+class MovedFramesOf : public testing::TestWithParam<Scheme> {};
+
+TEST_P(MovedFramesOf, SoonForgetALampThatWentOut)
+{
+    const Turned lit(0.0, 1.0f, nullptr, GetParam()), dark(0.0, 0.0f, &lit, GetParam());
+    const auto before = lit.start(1), now = dark.start(1);
+    const double light = sum(after(*before, 64));
+    now->go_on_from(*before);
+    EXPECT_LE(sum(after(*now, 64)), 0.1 * light);
+    EXPECT_EQ(dark.resident.device.validation_messages(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Schemes, MovedFramesOf, testing::Values(Scheme::phased, Scheme::paper));
 
 }  // namespace
 }  // namespace lumel

@@ -29,7 +29,7 @@ struct GlossyFurnace {
     LobeParticles::Carried carry(std::uint32_t seed) const
     {
         const LobeParticles particles(world.scene, world.atlas, world.rays, world.lumels);
-        return particles.carry(emission_of(world.lumels), 200000, seed);
+        return particles.carry(emission_of(world.lumels), {}, 200000, seed);
     }
 
     Prepared world;

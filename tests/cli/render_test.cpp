@@ -37,6 +37,52 @@ TEST(Render, WritesThePictureItsNameAsksFor)
     EXPECT_EQ(bytes_of(place.path("b.png")).substr(1, 3), "PNG");
 }
 
+TEST(Render, ByThePapersSchemeTakesNoRaysAndNoShootersForTheEyeAlone)
+{
+    const Workplace place;
+    const std::vector<std::string> papers = {"--scheme", "paper", "--shots", "64", "--error", "1"};
+    EXPECT_EQ(run_lumel(tiny_render(place.path("a.png"), papers)).code, 0);
+    for (const char* option : {"--lobe-rays", "--eye-shots"}) {
+        std::vector<std::string> given = papers;
+        given.insert(given.end(), {option, "16"});
+        const Outcome outcome = run_lumel(tiny_render(place.path("b.png"), given));
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_NE(outcome.err.find(option), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("--scheme paper"), std::string::npos) << outcome.err;
+    }
+}
+
+TEST(Render, MakesFramesOfAnAnimation)
+{
+    const Workplace place;
+    for (const std::vector<std::string>& manner :
+         {std::vector<std::string>{}, {"--fresh"}, {"--scheme", "paper"}}) {
+        std::vector<std::string> arguments = {"render",
+                                              own_scene("turning-box.gltf"),
+                                              place.path("film.png"),
+                                              "--size",
+                                              "32",
+                                              "--width",
+                                              "32",
+                                              "--shots",
+                                              "64",
+                                              "--frames",
+                                              "3",
+                                              "--fps",
+                                              "2",
+                                              "--json"};
+        arguments.insert(arguments.end(), manner.begin(), manner.end());
+        const Outcome outcome = run_lumel(arguments);
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out, nullptr, false);
+        EXPECT_EQ(report["files"].size(), 3u);
+        EXPECT_EQ(place.listing(),
+                  (std::vector<std::string>{"film-0001.png", "film-0002.png", "film-0003.png"}));
+        EXPECT_NE(bytes_of(place.path("film-0001.png")), bytes_of(place.path("film-0003.png")));
+    }
+    EXPECT_EQ(run_lumel(tiny_render(place.path("a.png"), {"--fresh"})).code, 2);
+}
+
 TEST(Render, PrintsItsReportAsJson)
 {
     const Workplace place;
