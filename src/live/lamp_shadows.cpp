@@ -171,34 +171,34 @@ void LampShadows::receive(float sign)
 {
     const PatchShots& shots = solver_->shots();
     const EyeViews& views = shots.views();
-    solver_->pacer().work(
-        "lamps to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
-        [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-            const RedistributeParams params{.views = views.layout(),
-                                            .first = first,
-                                            .last = last,
-                                            .count = std::uint32_t(world_->lumels().size()),
-                                            .shots = shots.batch(),
-                                            .first_place = next_,
-                                            .near_radius = solver_->near_radius(),
-                                            .boxes = std::uint32_t(boxes_.size()),
-                                            .slack = edge_slack(views.layout()),
-                                            .sign_factor = sign,
-                                            .keeps = 0};
-            commands.dispatch(receive_,
-                              {.lumels = world_->lumels(),
-                               .pieces = world_->pieces(),
-                               .views = {views.image(), views.sampler()},
-                               .eyes = shots.eyes(),
-                               .shots = shots.shots(),
-                               .sending = shots.sending(),
-                               .row_of = list_->rows,
-                               .seen = rows_.seen(),
-                               .far = light_,
-                               .moved = moved_,
-                               .boxes = boxes_},
-                              params, last - first);
-        });
+    solver_->pacer().work("lamps to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
+                          [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                              const RedistributeParams params{
+                                  .views = views.layout(),
+                                  .first = first,
+                                  .last = last,
+                                  .count = std::uint32_t(world_->lumels().size()),
+                                  .shots = shots.batch(),
+                                  .first_place = next_,
+                                  .near_radius = solver_->near_radius(),
+                                  .boxes = std::uint32_t(boxes_.size()),
+                                  .slack = edge_slack(views.layout()),
+                                  .sign_factor = sign,
+                                  .keeps = 0};
+                              commands.dispatch(receive_,
+                                                {.lumels = world_->lumels(),
+                                                 .pieces = world_->pieces(),
+                                                 .views = {views.image(), views.sampler()},
+                                                 .eyes = shots.eyes(),
+                                                 .shots = shots.shots(),
+                                                 .sending = shots.sending(),
+                                                 .row_of = list_->rows,
+                                                 .seen = rows_.seen(),
+                                                 .far = light_,
+                                                 .moved = moved_,
+                                                 .boxes = boxes_},
+                                                params, last - first);
+                          });
 }
 
 }  // namespace lumel

@@ -26,8 +26,8 @@ public:
     bool step();
     bool is_under_way() const { return list_.has_value(); }
 
-    /// [N] light of the lamps [lx]: what moving lumels receive; what movers keep from the others, as
-    /// a negative number.
+    /// [N] light of the lamps [lx]: what moving lumels receive; what movers keep from the others,
+    /// as a negative number.
     const gpu::Array<glm::vec3>& light() const { return light_; }
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far
 

@@ -113,7 +113,9 @@ std::vector<ChosenPatch> in_batches(std::vector<Unit> units, std::uint32_t batch
 
 RemainingLight::RemainingLight(const gpu::Device& device, ProgressiveRadiosity& solver,
                                VisibilityRows& rows)
-    : device_(&device), solver_(&solver), rows_(&rows)
+    : device_(&device),
+      solver_(&solver),
+      rows_(&rows)
 {
 }
 
@@ -139,8 +141,7 @@ bool RemainingLight::begin(double left)
     }
     for (std::vector<Unit>& part : parts)
         if (!part.empty())
-            lists_.push_back(
-                rows_->list_of(in_batches(std::move(part), solver_->shots().batch())));
+            lists_.push_back(rows_->list_of(in_batches(std::move(part), solver_->shots().batch())));
     return is_under_way();
 }
 

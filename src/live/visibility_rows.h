@@ -14,9 +14,9 @@ namespace lumel {
 
 /// Patches that shoot one after another, with their rows, on the device.
 struct ShotList {
-    std::vector<ChosenPatch> patches;    ///< in whole batches
-    gpu::Array<ChosenPatch> chosen;      ///< the same
-    gpu::Array<std::uint32_t> rows;      ///< of each, or kNoRow
+    std::vector<ChosenPatch> patches;  ///< in whole batches
+    gpu::Array<ChosenPatch> chosen;    ///< the same
+    gpu::Array<std::uint32_t> rows;    ///< of each, or kNoRow
     bool empty() const { return patches.empty(); }
 };
 
