@@ -126,7 +126,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       lamps_(scene_, options.lights),
       solver_(device, world_, lumels_, near_, options.solver),
       rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
-      remaining_(device, solver_, rows_),
+      remaining_(solver_, rows_),
       requested_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),

@@ -111,10 +111,8 @@ std::vector<ChosenPatch> in_batches(std::vector<Unit> units, std::uint32_t batch
 
 }  // namespace
 
-RemainingLight::RemainingLight(const gpu::Device& device, ProgressiveRadiosity& solver,
-                               VisibilityRows& rows)
-    : device_(&device),
-      solver_(&solver),
+RemainingLight::RemainingLight(ProgressiveRadiosity& solver, VisibilityRows& rows)
+    : solver_(&solver),
       rows_(&rows)
 {
 }

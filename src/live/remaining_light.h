@@ -12,7 +12,7 @@ namespace lumel {
 class RemainingLight {
 public:
     /// rows: of what is in the world when step() is called. All must outlive it.
-    RemainingLight(const gpu::Device& device, ProgressiveRadiosity& solver, VisibilityRows& rows);
+    RemainingLight(ProgressiveRadiosity& solver, VisibilityRows& rows);
 
     /// Chooses patches, so that of the light still to be shot no more than `left` of it is outside
     /// them. False, and nothing is chosen, where charts have more that never shot: the solver has
@@ -27,7 +27,6 @@ public:
     std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far
 
 private:
-    const gpu::Device* device_;
     ProgressiveRadiosity* solver_;
     VisibilityRows* rows_;
     std::vector<ShotList> lists_;  ///< of patches whose views are kept, are to be, and cannot be
