@@ -358,7 +358,7 @@ struct LiveSettings {
     Redistribution redistribution = Redistribution::incremental;
     std::vector<std::uint32_t> movers;  ///< instances that may move; empty: only lamps change
     std::uint32_t seed = 1;
-    double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at
+    double residual = 0.0005;  ///< light still to be shot, as a part of all, to rest at
 };
 
 /// Where a LiveScene stands.

@@ -5,12 +5,13 @@
 //
 // C is what stays, M what may move. The progressive solver shoots C's light among C alone, as if M
 // were not there: H = T_CC B^s. What M does to C is kept apart, and found anew whenever something
-// moved or more was shot, for each patch j of M (Algorithm 4.4):
+// moved or more was shot: lamps shoot past M (lamp_shadows.h), then for each patch j of M
+// (Algorithm 4.4):
 //
 //     see the world from the front of j                     look_from
 //     gather what arrives at its lumels                     gather    R_g(C, M), R(M, M)
 //     send all they have                                    send
-//     see C's light from the back of j                      look_from in colour, resolve
+//     see C's light, but for lamps, from the back of j      look_from in colour, resolve
 //     for all lumels i of C:                                receive
 //         ΔH_i += F_ij (B_j - P(C, j, i))                   R_p(M, C), R_x(C, C): Eq. (3.3.1)
 //     ΔH takes the place of the former ΔH                   settle
@@ -19,10 +20,11 @@
 // - The solution without M is what is kept. Nothing that was done for an old place need be undone,
 //   so there are 2 |M| hemicubes instead of 4 |M|, errors cannot add up, and M need not be removed
 //   before C shoots (section 4.5.2, Error analysis).
+// - Lamps are not crossed. The thesis names undersampling of small lamps as its main artefact.
 // - Patches are blocks of lumels on any triangles; rays go through the lumels, where the thesis
 //   divides a quad into a grid.
 // - Back hemicubes have mipmaps; the level follows from how wide the bundle of rays through a lumel
-//   is where it ends. The thesis names undersampling as its main artefact.
+//   is where it ends.
 // - Form factors of close pairs are the near field's: no halos where things touch.
 // - M's lumels gather from C's by the depth hemicube of their patch, where the thesis multiplies
 //   a hemicube of radiosity by delta form factors.
@@ -88,17 +90,20 @@ std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lum
 
 CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
                                          const Lumels& lumels, ProgressiveRadiosity& solver,
-                                         const std::vector<char>& open)
+                                         const std::vector<char>& movers,
+                                         const std::vector<char>& open, std::uint64_t most_bytes)
     : device_(&device),
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
       back_eyes_kernel_(device),
+      part_(device),
       resolve_(device),
       gather_(device, std::uint32_t(solver.shots().views().projection())),
       send_(device),
       receive_(device, std::uint32_t(solver.shots().views().projection())),
       settle_(device),
+      lamps_(device, world, lumels, solver, movers, most_bytes),
       back_views_(device, world, kBackSide, solver.shots().views().layout().near,
                   solver.shots().batch()),
       batch_(solver.shots().batch()),
@@ -111,6 +116,7 @@ CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world
       near_first_(device, lumels.lumels.size() + 1),
       near_column_(device, 1),
       near_factor_(device, 1),
+      crossed_(device, lumels.lumels.size()),
       fresh_(device, lumels.lumels.size()),
       crossing_(device, lumels.lumels.size())
 {
@@ -127,19 +133,36 @@ void CrossRedistribution::set_near_field(const NearField& near)
     near_factor_ = gpu::Array<float>(*device_, view(rows.factor));
 }
 
-void CrossRedistribution::begin()
+void CrossRedistribution::begin(const std::vector<MovedBox>& boxes, bool has_moved,
+                                double tolerance)
 {
-    gpu::Pacer& pacer = solver_->pacer();
-    pacer.finish();
-    pacer.work("prepare", [&](gpu::Commands& commands) { commands.fill(fresh_.buffer()); });
+    lamps_.begin(boxes, has_moved, tolerance);
     next_ = 0;
     under_way_ = true;
+    if (!lamps_.is_under_way())
+        begin_crossing();
+}
+
+void CrossRedistribution::begin_crossing()
+{
+    const auto count = std::uint32_t(lumels_->lumels.size());
+    solver_->pacer().work("prepare", [&](gpu::Commands& commands) {
+        commands.copy(lamps_.light().buffer(), fresh_.buffer(), count * sizeof(glm::vec3));
+        commands.dispatch(
+            part_, {.shot = solver_->light().shot, .is_lamp = lamps_.lamps(), .crossed = crossed_},
+            CrossPartParams{count}, count);
+    });
 }
 
 bool CrossRedistribution::step()
 {
     if (!under_way_)
         return false;
+    if (lamps_.is_under_way()) {
+        if (!lamps_.step())
+            begin_crossing();
+        return true;
+    }
     look_from_fronts();
     gather();
     look_from_backs();
@@ -152,7 +175,10 @@ bool CrossRedistribution::step()
         const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
         solver_->pacer().work("settle", [&](gpu::Commands& commands) {
             commands.dispatch(settle_,
-                              {.fresh = fresh_, .crossing = crossing_, .far = solver_->light().far},
+                              {.lumels = world_->lumels(),
+                               .fresh = fresh_,
+                               .crossing = crossing_,
+                               .far = solver_->light().far},
                               params, params.count);
         });
     }
@@ -187,7 +213,8 @@ void CrossRedistribution::gather()
                            .lumels = world_->lumels(),
                            .eyes = shots.eyes(),
                            .shots = shots.shots(),
-                           .shot = light.shot,
+                           .crossed = crossed_,
+                           .fresh = fresh_,
                            .far = light.far},
                           params, std::size_t(batch_) * kPatchGroup);
         commands.dispatch(send_,
@@ -196,7 +223,8 @@ void CrossRedistribution::gather()
                            .emission = light.emission,
                            .far = light.far,
                            .near = light.near,
-                           .shot = light.shot},
+                           .shot = light.shot,
+                           .crossed = crossed_},
                           BackEyesParams{batch_}, batch_);
     });
 }
@@ -206,7 +234,7 @@ void CrossRedistribution::look_from_backs()
     world_->show_movers(false);
     back_views_.look_from(solver_->pacer(), back_eyes_,
                           {.lumel_of = &lumel_of_,
-                           .radiosity = &solver_->light().shot,
+                           .radiosity = &crossed_,
                            .width = std::uint32_t(lumels_->width),
                            .height = std::uint32_t(lumels_->height)},
                           batch_);

@@ -10,14 +10,16 @@
 //
 //     H_m = Σ_i B_i^s A_i · V · cosθ_m cosθ_i / (π r²)
 //
-// over all lumels i that the patch's hemicube sees. A workgroup a patch.
+// over all lumels i that the patch's hemicube sees, and what lamps shot at them. A workgroup a
+// patch.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossGatherParams p; };
 layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
-layout(scalar) readonly buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer Crossed { vec3 crossed[]; };
+layout(scalar) readonly buffer Fresh { vec3 fresh[]; };  // of moving lumels: from lamps
 layout(scalar) buffer Far { vec3 far[]; };
 
 vec3 plus(vec3 a, vec3 b)
@@ -42,12 +44,12 @@ void main()
     for (uint i = me; i < p.count; i += kPatchGroup) {
         const Lumel from = lumels[i];
         const vec3 d = from.position - eye.position;
-        if (shot[i] == vec3(0.0) || (from.flags & kLumelBuried) != 0u ||
+        if (crossed[i] == vec3(0.0) || (from.flags & kLumelBuried) != 0u ||
             dot(d, eye.normal) <= 0.0 || dot(d, from.normal) >= 0.0)
             continue;
         if (!sees(p.views, k, d * frame, from.normal * frame))
             continue;
-        const vec3 power = shot[i] * (from.area / kPi);
+        const vec3 power = crossed[i] * (from.area / kPi);
         for (uint m = 0u; m < s.count; ++m) {
             const Lumel to = lumels[s.first + m];
             if (!is_near(from.position, from.size, to.position, to.size, p.near_radius))
@@ -58,6 +60,6 @@ void main()
     for (uint m = 0u; m < s.count; ++m) {
         const vec3 sum = add_over_group(mine[m]);
         if (me == 0u)
-            far[s.first + m] = sum;
+            far[s.first + m] = sum + fresh[s.first + m];
     }
 }

@@ -29,20 +29,53 @@ layout(scalar) buffer Fresh { vec3 fresh[]; };
 
 // Rays through a lumel, along each of its sides, for each radian that it measures from the
 // receiver; and at most.
-const float kRaysPerRadian = 16.0;
-const float kMostRays = 6.0;
+const float kRaysPerRadian = 4.0;
+const float kMostRays = 3.0;
 
 // r² in the weight of a ray is larger by this part of the lumel's area: finite where they touch.
 const float kTouching = 0.01;
 // Distances at which angles are taken are no less [m].
 const float kLeastDistance = 1e-6;
 
-// The pixel of a back hemicube's level in direction `direction` (t, b, n of the back eye; n ≥ 0).
-BackPixel behind(uint k, uint level, vec3 direction)
+ViewPoint point_in(uint side, vec3 direction)
+{
+    return project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
+}
+
+// 1 / distance at the pixel of a back hemicube in direction `direction` (t, b, n of the back eye;
+// n ≥ 0).
+float inverse_behind(uint k, vec3 direction)
+{
+    const ViewPoint f = point_in(p.back.side, direction);
+    return back[back_pixel(p.back, k, 0u, uvec2(face_corner(p.back.side, f) + f.pixel))].inverse;
+}
+
+// Light in that direction, filtered over the four nearest pixels of a level. Faces end at their
+// edges: nothing is mixed across them [Hoef13] 4.5.2.
+vec3 level_behind(uint k, uint level, vec3 direction)
 {
     const uint side = back_side(p.back, level);
-    const ViewPoint f = project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
-    return back[back_pixel(p.back, k, level, uvec2(face_corner(side, f) + f.pixel))];
+    const ViewPoint f = point_in(side, direction);
+    const vec2 size = vec2(float(side), f.front ? float(side) : 0.5 * float(side));
+    const vec2 at = clamp(f.at - 0.5, vec2(0.0), size - 1.0);
+    const vec2 low = floor(at), part = at - low, corner = face_corner(side, f);
+    vec3 sum = vec3(0.0);
+    for (uint q = 0u; q < 4u; ++q) {
+        const vec2 step = vec2(q & 1u, q >> 1u);
+        const vec2 weight = mix(1.0 - part, part, step);
+        const uvec2 pixel = uvec2(corner + min(low + step, size - 1.0));
+        sum += weight.x * weight.y * back[back_pixel(p.back, k, level, pixel)].shot;
+    }
+    return sum;
+}
+
+// The same between two levels.
+vec3 behind(uint k, float level, vec3 direction)
+{
+    const uint fine = uint(level);
+    const float part = level - float(fine);
+    const vec3 light = level_behind(k, fine, direction);
+    return part > 0.0 ? mix(light, level_behind(k, fine + 1u, direction), part) : light;
 }
 
 // Light that a ray from x through the point y of a patch meets behind it, if it stands for a bundle
@@ -55,14 +88,14 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
     const vec3 direction = ray * frame / r;
     if (direction.z <= 0.0)
         return vec3(0.0);
-    const float inverse = behind(k, 0u, direction).inverse;
+    const float inverse = inverse_behind(k, direction);
     if (inverse <= 0.0)
         return vec3(0.0);
     const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;
     // As wide is its end as seen from the back eye [rad], and in pixels.
     const float pixels = width * (inverse + 1.0 / r) * 0.5 * float(p.back.side);
-    const uint level = uint(clamp(log2(max(pixels, 1.0)) + 0.5, 0.0, float(kBackLevels - 1u)));
-    return toward.z > 0.0 ? behind(k, level, toward).shot : vec3(0.0);
+    const float level = clamp(log2(max(pixels, 1.0)), 0.0, float(kBackLevels - 1u));
+    return toward.z > 0.0 ? behind(k, level, toward) : vec3(0.0);
 }
 
 // P(C, j, i) for the lumel m of the patch: more rays where it is close, each weighted by the light

@@ -11,6 +11,7 @@ layout(scalar) readonly buffer Emission { vec3 emission[]; };
 layout(scalar) readonly buffer Far { vec3 far[]; };
 layout(scalar) readonly buffer Near { vec3 near[]; };
 layout(scalar) writeonly buffer Sent { vec3 shot[]; };
+layout(scalar) writeonly buffer Crossed { vec3 crossed[]; };
 
 void main()
 {
@@ -18,5 +19,5 @@ void main()
     if (k >= p.batch || shots[k].facing < 0.0)
         return;
     for (uint j = shots[k].first; j < shots[k].first + shots[k].count; ++j)
-        shot[j] = emission[j] + surface[j].rgb * (far[j] + near[j]);
+        shot[j] = crossed[j] = emission[j] + surface[j].rgb * (far[j] + near[j]);
 }

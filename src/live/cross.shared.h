@@ -50,6 +50,11 @@ struct CrossReceiveParams {
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
 };
 
+/// Push constants of cross.part.comp.
+struct CrossPartParams {
+    uint count;  ///< N lumels
+};
+
 /// Push constants of cross.settle.comp.
 struct CrossSettleParams {
     uint count;  ///< N lumels

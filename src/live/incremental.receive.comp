@@ -7,14 +7,17 @@
 #include "world/receiving_point.glsl"
 #include "visibility/sees.glsl"
 #include "transport/patch_light.glsl"
+#include "live/visibility_rows.glsl"
 
 // Redistributes what the patches of a batch have shot [Hoef13] 4.4, Eq. (3.2.1):
 //
-//     H_i += ± Σ_k B_k^s A_k · V · cosθ_i cosθ_k / (π r²)
+//     H_i += Σ_k B_k^s A_k · (V' - V) · cosθ_i cosθ_k / (π r²)
 //
-// with - and the views of before, then with + and those of after. Where nothing moved, both would
-// be the same: only pairs are looked at that moved themselves, R(C,M), R(M,C), R(M,M), or whose
-// line of sight meets what moved, R(C,C).
+// Only pairs are looked at that moved themselves, R(C,M), R(M,C), R(M,M), or whose line of sight
+// meets what moved, R(C,C); where nothing moved, V' is V. Of patches with rows V is what was kept,
+// so that light is found only where V' differs: the four cases of section 4.4.1. Those without rows
+// are sent with - and the views of before, then with + and those of after. What pairs that moved
+// had is taken away before: to them all is sent anew.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { RedistributeParams p; };
@@ -49,15 +52,35 @@ bool is_affected(vec3 from, Lumel to)
     return any;
 }
 
+bool has_moved(uint k)
+{
+    return moved[lumels[shots[k].first].instance] != 0u;
+}
+
 // Of the shots from `first` on, as many as a word has bits: those that matter.
 uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
 {
     uint found = 0u;
     for (uint k = first; k < min(first + kWordBits, p.shots); ++k)
-        if (shots[k].count > 0u && (lumel_moved || moved[lumels[shots[k].first].instance] != 0u ||
-                                    is_affected(eyes[k].position, lumel)))
+        if (shots[k].count > 0u && (p.sign_factor > 0.0 || row_of[p.first_place + k] == kNoRow) &&
+            (lumel_moved || has_moved(k) || is_affected(eyes[k].position, lumel)))
             found |= 1u << (k - first);
     return found;
+}
+
+// What a shot changes at the lumel: what it sends now, less what it sent before.
+vec3 change_of(uint k, Lumel lumel, uint i, bool lumel_moved)
+{
+    const uint row = row_of[p.first_place + k];
+    if (row == kNoRow)
+        return p.sign_factor * light_of(k, lumel, i, p.near_radius, p.views);
+    const Receiver r = receiver_at(receiving_point(lumel, i, shots[k].number, 0u, false), lumel, i);
+    const bool was = was_seen(row, i, p.count);
+    const bool is = is_seen(r, eyes[k], k, p.views);
+    if (was != is && p.keeps != 0u)
+        keep_seen(row, i, p.count, is);
+    const float change = float(is) - (lumel_moved || has_moved(k) ? 0.0 : float(was));
+    return change != 0.0 ? change * light_without_occluders(r, k, p.near_radius) : vec3(0.0);
 }
 
 void main()
@@ -73,6 +96,6 @@ void main()
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < p.shots; first += kWordBits)
         for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)
-            sum += light_of(first + uint(findLSB(left)), lumel, i, p.near_radius, p.views);
-    far[i] += p.sign_factor * sum;
+            sum += change_of(first + uint(findLSB(left)), lumel, i, i_moved);
+    far[i] += sum;
 }

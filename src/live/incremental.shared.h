@@ -14,11 +14,14 @@ struct RedistributeParams {
     EyeViewLayout views;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
+    uint count;         ///< N lumels
     uint shots;         ///< K
+    uint first_place;   ///< of the batch in its list
     float near_radius;  ///< pairs closer than this × the larger size belong to the near field
     uint boxes;         ///< of what moved, before and after
     float slack;        ///< angle [rad] by which views may show them larger
-    float sign_factor;  ///< -1: takes light back, 1: sends it anew
+    float sign_factor;  ///< -1: takes light of patches without rows back, 1: sends all anew
+    uint keeps;         ///< 1: rows are to hold what is seen now
 };
 
 /// Push constants of incremental.reset.comp.

@@ -20,6 +20,13 @@ gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
 /// Batches between two looks at how much light is still to be shot: looking costs a wait.
 constexpr int kBatchesALook = 8;
 
+/// Where no more than this part of all light is still to be shot, the patches that have most of it
+/// shoot it one by one; else charts do, and choose how finely.
+constexpr double kMostToCorrect = 0.1;
+/// Of the light that may stay unshot, this part is left outside the patches chosen: theirs is
+/// reflected in turn.
+constexpr double kLeftOutside = 0.5;
+
 std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
 {
     if (options.still)
@@ -52,6 +59,17 @@ NearFieldOptions near_field_options(const LiveOptions& options)
 {
     return near_field_options(
         SolverOptions{.method = options.solver, .target_error = options.target_error});
+}
+
+/// Of the area of all surfaces.
+double share_of(const std::vector<char>& movers, const Lumels& lumels)
+{
+    double moving = 0.0, all = 0.0;
+    for (const Lumel& lumel : lumels.lumels) {
+        all += double(lumel.area);
+        moving += movers[lumel.instance] ? double(lumel.area) : 0.0;
+    }
+    return moving / all;
 }
 
 std::vector<char> open_meshes(const Scene& scene)
@@ -107,6 +125,8 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       world_(device, scene_, lumels_, &atlas_, movers_),
       lamps_(scene_, options.lights),
       solver_(device, world_, lumels_, near_, options.solver),
+      rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
+      remaining_(solver_, rows_),
       requested_(scene_.instances.size()),
       emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
@@ -121,9 +141,12 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         commands.fill(direct_.buffer());
     });
     if (options.redistribution == Redistribution::cross)
-        cross_.emplace(device, world_, lumels_, solver_, open_meshes(scene_));
+        cross_.emplace(device, world_, lumels_, solver_, movers_, open_meshes(scene_),
+                       options.visibility_bytes);
     else
-        incremental_.emplace(device, world_, lumels_, solver_, options.solver.views.projection);
+        incremental_.emplace(device, world_, lumels_, solver_, rows_,
+                             options.solver.views.projection);
+    moving_share_ = share_of(movers_, lumels_);
     find_lamps();
     world_.show_movers(!cross_);
     show();
@@ -154,6 +177,7 @@ void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instan
 void LiveScene::light_changes()
 {
     surfaces_changed_ = true;
+    corrects_ = false;
     state_.residual = 1.0;
 }
 
@@ -222,7 +246,14 @@ bool LiveScene::is_under_way() const
 bool LiveScene::is_at_rest() const
 {
     return !is_under_way() && !is_move_requested() && state_.residual <= options_.residual &&
-           (!cross_ || crossed_);
+           (!cross_ || is_crossed());
+}
+
+/// Movers meet their share of what is shot, and change as much by what they hide as by what they
+/// send on: so much of it is less than what may be left to be shot.
+bool LiveScene::is_crossed() const
+{
+    return crossed_ && 2.0 * moving_share_ * uncrossed_ <= options_.residual;
 }
 
 void LiveScene::begin_move()
@@ -233,23 +264,29 @@ void LiveScene::begin_move()
         const bool moves = requested_[i] && *requested_[i] != instance.transform;
         move_.moved.push_back(moves ? 1 : 0);
         if (moves) {
-            move_.boxes.push_back(box_of(scene_, i, instance.transform));
+            const MovedBox before = box_of(scene_, i, instance.transform);
             instance.transform = *requested_[i];
-            move_.boxes.push_back(box_of(scene_, i, instance.transform));
+            const MovedBox after = box_of(scene_, i, instance.transform);
+            const std::vector<MovedBox> boxes = around(before, after);
+            move_.boxes.insert(move_.boxes.end(), boxes.begin(), boxes.end());
         }
         move_.transforms.push_back(instance.transform);
         requested_[i].reset();
     }
     if (!cross_) {
-        if (!move_.boxes.empty())
-            incremental_->begin(move_);
+        if (!move_.boxes.empty() && !incremental_->begin(move_))
+            end_move();
         return;
     }
     if (!move_.boxes.empty())
         world_.place(move_.transforms);
     if (!move_.boxes.empty() || !knows_crossing_pairs_)
         find_crossing_pairs();
-    cross_->begin();
+    std::vector<MovedBox> boxes;
+    for (std::uint32_t i = 0; i < movers_.size(); ++i)
+        if (movers_[i])
+            boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
+    cross_->begin(boxes, !move_.boxes.empty(), options_.residual);
 }
 
 void LiveScene::find_crossing_pairs()
@@ -274,6 +311,7 @@ void LiveScene::end_move()
 {
     if (cross_) {
         crossed_ = true;
+        uncrossed_ = 0.0;
     } else {
         const std::vector<char> affected =
             affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
@@ -284,6 +322,8 @@ void LiveScene::end_move()
     if (!move_.boxes.empty())
         find_lamps();
     state_.residual = solver_.residual();
+    corrects_ = state_.residual <= kMostToCorrect;
+    remaining_.drop();
 }
 
 void LiveScene::work()
@@ -292,7 +332,7 @@ void LiveScene::work()
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
     } else if (is_move_requested() ||
-               (cross_ && !crossed_ && state_.residual <= options_.residual)) {
+               (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
         begin_move();
     } else {
         shoot();
@@ -303,10 +343,21 @@ void LiveScene::work()
 void LiveScene::shoot()
 {
     world_.show_movers(!cross_);
-    solver_.step();
-    crossed_ = false;
-    if (++batches_ % kBatchesALook == 0)
+    if (corrects_ && !remaining_.is_under_way())
+        corrects_ = remaining_.begin(kLeftOutside * options_.residual / state_.residual);
+    if (!corrects_) {
+        crossed_ = false;
+        solver_.step();
+        if (++batches_ % kBatchesALook == 0)
+            state_.residual = solver_.residual();
+        return;
+    }
+    remaining_.step();
+    if (!remaining_.is_under_way()) {
+        const double before = state_.residual;
         state_.residual = solver_.residual();
+        uncrossed_ += before;  // all of it, as a part may since have been reflected
+    }
 }
 
 LiveState LiveScene::update(double budget_ms)
@@ -327,8 +378,8 @@ LiveState LiveScene::update(double budget_ms)
     }
     state_.under_way = is_under_way();
     state_.at_rest = is_at_rest();
-    state_.hemicubes =
-        solver_.state().shots + (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
+    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() +
+                       (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
     state_.milliseconds = elapsed();
     return state_;
 }

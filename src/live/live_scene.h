@@ -13,6 +13,8 @@
 #include "live/live.show.comp.h"
 #include "live/live_lamps.h"
 #include "live/live_state.h"
+#include "live/remaining_light.h"
+#include "live/visibility_rows.h"
 
 namespace lumel {
 
@@ -31,7 +33,9 @@ struct LiveOptions {
     bool still = false;                                  ///< none may, whatever `movers` holds
     /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
-    double residual = 0.002;  ///< light still to be shot, as a part of all, to rest at
+    double residual = 0.0005;  ///< light still to be shot, as a part of all, to rest at
+    /// Kept of what patches see, so that it is not rendered again; 0: nothing, as in the thesis.
+    std::uint64_t visibility_bytes = std::uint64_t(256) << 20;
 };
 
 /// Not safe for use from several threads.
@@ -92,6 +96,7 @@ private:
     bool is_under_way() const;
     bool is_move_requested() const;
     bool is_at_rest() const;
+    bool is_crossed() const;
     void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
                     const glm::vec3& factor);
 
@@ -105,14 +110,19 @@ private:
     World world_;
     LiveLamps lamps_;
     ProgressiveRadiosity solver_;
+    VisibilityRows rows_;  ///< with Redistribution::cross: without movers
+    RemainingLight remaining_;
     std::optional<IncrementalRedistribution> incremental_;
     std::optional<CrossRedistribution> cross_;
     std::vector<std::optional<glm::mat4>> requested_;  ///< [instances] transforms requested
     std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
     Move move_;                                                    ///< under way
     LiveState state_;
-    int batches_ = 0;       ///< shot since the last look at how much light is still to be shot
-    bool crossed_ = false;  ///< what movers do is known for all that is shot
+    int batches_ = 0;            ///< shot since the last look at how much light is still to be shot
+    bool corrects_ = false;      ///< what is unshot was left by a redistribution
+    bool crossed_ = false;       ///< what movers do is known for all that is shot, less uncrossed_
+    double uncrossed_ = 0.0;     ///< shot since, as a part of all light
+    double moving_share_ = 0.0;  ///< of the area of all surfaces
     bool knows_crossing_pairs_ = false;
     bool surfaces_changed_ = false;  ///< emission, reflectance or lamps, since the last update()
     gpu::Array<glm::vec3> direct_;   ///< [N] H of sky, sun and lamps

@@ -14,6 +14,12 @@ namespace {
 /// Lengths may change by this much over a move that counts as rigid: transforms come as floats.
 constexpr float kStretch = 1e-3f;
 
+float volume_of(const MovedBox& box)
+{
+    const glm::vec3 size = box.high - box.low;
+    return size.x * size.y * size.z;
+}
+
 float distance2_to(const MovedBox& box, const glm::vec3& x)
 {
     const glm::vec3 d = x - glm::clamp(x, box.low, box.high);
@@ -61,6 +67,14 @@ MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& tra
             box.high = glm::max(box.high, world);
         }
     return box;
+}
+
+std::vector<MovedBox> around(const MovedBox& before, const MovedBox& after)
+{
+    const MovedBox both{glm::min(before.low, after.low), glm::max(before.high, after.high)};
+    if (volume_of(both) <= volume_of(before) + volume_of(after))
+        return {both};
+    return {before, after};
 }
 
 bool is_open(const Scene& scene, std::uint32_t instance)

@@ -20,6 +20,9 @@ void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, L
 /// Where an instance's vertices are, under a transform [m].
 MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform);
 
+/// Around both: one box where it is no larger than the two, else both.
+std::vector<MovedBox> around(const MovedBox& before, const MovedBox& after);
+
 /// Does the instance's mesh have single-sided surfaces whose backs can be seen from outside: an
 /// edge that does not join two triangles?
 bool is_open(const Scene& scene, std::uint32_t instance);

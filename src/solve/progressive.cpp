@@ -132,6 +132,8 @@ void ProgressiveRadiosity::step()
     shots_.look(pacer_);
     receive();
     settle();
+    if (state_.iterations % kNearEvery == kNearEvery - 1)
+        pacer_.work("near", [&](gpu::Commands& commands) { light_near(commands); });
     ++state_.iterations;
     state_.shots += shots_.batch();
     ask_figures();
@@ -199,8 +201,6 @@ void ProgressiveRadiosity::settle()
                            .sending = shots_.sending(),
                            .shot = light_.shot},
                           TakeParams{shots_.batch()}, shots_.batch());
-        if (state_.iterations % kNearEvery == kNearEvery - 1)
-            light_near(commands);
     });
 }
 

@@ -39,13 +39,15 @@ public:
     PatchShots& shots() { return shots_; }
     gpu::Pacer& pacer() { return pacer_; }
     float near_radius() const { return near_radius_; }
+    /// Lumels take what the batch in shots(), taken and looked from, sends.
+    void receive();
+    /// What that batch sent counts as shot from now on.
+    void settle();
     /// Puts another near field, of the same radius, in the place of the former.
     void set_near_field(const NearField& near);
 
 private:
     void choose();
-    void receive();
-    void settle();
     void light_near(gpu::Commands& commands);
     void sum_figures(gpu::Commands& commands);
     void ask_figures();

@@ -3,10 +3,6 @@
 #include "shooting/lumel_arrays.h"
 
 namespace lumel {
-namespace {
-
-}  // namespace
-
 ShotLight::ShotLight(const gpu::Device& device, const Lumels& lumels)
     : surface(device, view(surfaces_of(lumels))),
       emission(device, view(emission_of(lumels))),
@@ -31,7 +27,7 @@ PatchShots::PatchShots(const gpu::Device& device, const World& world, const Lume
       eyes_(device, batch_),
       shots_(device, batch_),
       sending_(device, lumels.lumels.size()),
-      no_ambient_(device, 1)
+      no_ambient_(device, view(std::vector<glm::vec3>(1, glm::vec3(0.0f))))
 {
 }
 

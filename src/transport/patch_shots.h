@@ -37,8 +37,8 @@ public:
     /// to arrive [lx], for those that send what is unshot.
     void take(gpu::Commands& commands, const ShotLight& light,
               const gpu::Array<glm::vec3>& ambient);
-    /// The same of the batch that begins at `first` in a list in whole batches, none of which sends
-    /// what is unshot.
+    /// The same of the batch that begins at `first` in a list in whole batches. No light is still
+    /// to arrive.
     void take(gpu::Commands& commands, const ShotLight& light, const gpu::Array<ChosenPatch>& list,
               std::uint32_t first);
     /// Draws what they see.
@@ -67,7 +67,7 @@ private:
     gpu::Array<Eye> eyes_;
     gpu::Array<PatchShot> shots_;
     gpu::Array<glm::vec3> sending_;     ///< part of its light that a point of this batch sends
-    gpu::Array<glm::vec3> no_ambient_;  ///< [1], not read
+    gpu::Array<glm::vec3> no_ambient_;  ///< [1] 0
 };
 
 /// With places that stay empty behind it, so that its length divides by `batch`: one batch at

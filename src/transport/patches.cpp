@@ -169,4 +169,13 @@ std::uint32_t patches_of(const PatchChart& chart, std::uint32_t level)
                                 : chart.lumel_count * points_per_lumel(level);
 }
 
+Patch patch_of(const Patches& layout, const ChosenPatch& chosen)
+{
+    const PatchChart& chart = layout.charts[chosen.chart];
+    if (chosen.level < kBlockLevels)
+        return layout.patches[chart.first_patch[chosen.level] + chosen.index];
+    const std::uint32_t lumel = chart.first_lumel + chosen.index / points_per_lumel(chosen.level);
+    return {lumel, 1, lumel, 0.0f};
+}
+
 }  // namespace lumel

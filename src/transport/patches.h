@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "atlas/atlas.h"
-#include "transport/patches.shared.h"
+#include "transport/patch_shots.shared.h"
 
 namespace lumel {
 
@@ -30,5 +30,7 @@ std::vector<Patch> make_blocks(const Lumels& lumels, std::span<const std::uint32
 /// transport/patches.glsl.
 std::uint32_t patches_of(const PatchChart& chart, std::uint32_t level);
 std::uint32_t points_per_lumel(std::uint32_t level);
+/// The lumels of a chosen patch, as patch_shots.take.comp has them.
+Patch patch_of(const Patches& layout, const ChosenPatch& chosen);
 
 }  // namespace lumel

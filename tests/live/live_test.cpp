@@ -1,6 +1,7 @@
 // A moved scene is lit as one that always stood so.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -69,34 +70,41 @@ INSTANTIATE_TEST_SUITE_P(By, LiveScenes,
 
 struct Moved {
     Redistribution redistribution;
-    const char* light;  ///< of the scene
-    double most;        ///< error
+    const char* name;
+    const char* scene;
+    int side, hemicube;  ///< of the atlas, and of views [pixels]
+    double most;         ///< error
 };
 
 class MovedBox : public testing::TestWithParam<Moved> {};
 
 std::string moved_name(const testing::TestParamInfo<Moved>& test)
 {
-    const auto& [redistribution, light, most] = test.param;
-    return (redistribution == Redistribution::cross ? "cross_" : "incremental_") +
-           std::string(light);
+    return (test.param.redistribution == Redistribution::cross ? "cross_" : "incremental_") +
+           std::string(test.param.name);
 }
 
-// Cross redistribution is as exact under a large lamp alone: see docs/papers.md.
-INSTANTIATE_TEST_SUITE_P(By, MovedBox,
-                         testing::Values(Moved{Redistribution::incremental, "large_lamp", 0.01},
-                                         Moved{Redistribution::incremental, "small_lamp", 0.015},
-                                         Moved{Redistribution::cross, "large_lamp", 0.02}),
-                         moved_name);
+// Scenes of [Hoef13] section 5.1; hemicubes of 64² are the thesis'. In its indirect scene the box
+// changes less light than the error allowed: see docs/papers.md.
+INSTANTIATE_TEST_SUITE_P(
+    By, MovedBox,
+    testing::Values(
+        Moved{Redistribution::incremental, "large_lamp", "moving-large-lamp", 64, 256, 0.01},
+        Moved{Redistribution::incremental, "small_lamp", "moving-small-lamp", 64, 256, 0.015},
+        Moved{Redistribution::cross, "large_lamp", "moving-large-lamp", 64, 64, 0.015},
+        Moved{Redistribution::cross, "small_lamp", "moving-small-lamp", 64, 64, 0.015},
+        Moved{Redistribution::cross, "low_quality", "moving-large-lamp", 32, 64, 0.015}),
+    moved_name);
 
 TEST_P(MovedBox, IsLitAsIfItAlwaysStoodSo)
 {
-    const auto& [redistribution, light, most] = GetParam();
+    const Moved& given = GetParam();
     const gpu::Device device;
-    std::string name = std::string("moving-") + light;
-    std::replace(name.begin(), name.end(), '_', '-');
-    const Scene scene = read_gltf(support::source_path("scenes/" + name + ".gltf"));
-    const LiveOptions options = options_for(scene, redistribution);
+    const Scene scene =
+        read_gltf(support::source_path("scenes/" + std::string(given.scene) + ".gltf"));
+    LiveOptions options = options_for(scene, given.redistribution);
+    options.atlas.size = given.side;
+    options.solver.views.hemicube = given.hemicube;
     const std::uint32_t block = options.movers[0];
     const glm::mat4 place = shifted(scene, 0.2f, 0.5f);
 
@@ -112,8 +120,8 @@ TEST_P(MovedBox, IsLitAsIfItAlwaysStoodSo)
     fresh.move(block, place);  // before anything is shot
     fresh.settle();
     const auto truth = fresh.irradiance();
-    EXPECT_GT(apart(fresh, first, truth), 0.03);  // it did make a difference
-    EXPECT_LE(apart(fresh, moved.irradiance(), truth), most);
+    EXPECT_GT(apart(fresh, first, truth), 2.0 * given.most);  // it did make a difference
+    EXPECT_LE(apart(fresh, moved.irradiance(), truth), given.most);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
@@ -144,7 +152,6 @@ TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
     LiveOptions options = options_for(scene, GetParam());
     options.atlas.size = kSmallSide;
     options.solver.views.hemicube = kSmallHemicube;
-    options.residual = 0.0005;  // less than the two may be apart
     const std::uint32_t block = options.movers[0];
     LiveScene live(device, scene, options);
     live.settle();
@@ -155,7 +162,7 @@ TEST_P(LiveScenes, TakenOutAndPutBackIsAsBefore)
     EXPECT_GT(apart(live, live.irradiance(), before), 0.05);
     live.move(block, home);
     live.settle();
-    EXPECT_LE(apart(live, live.irradiance(), before), 0.001);
+    EXPECT_LE(apart(live, live.irradiance(), before), 0.0005);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
@@ -238,6 +245,30 @@ TEST_P(LiveScenes, BrighterAndDarkerSurfacesAreLitAsIfTheyAlwaysWereSo)
     fresh.set_reflectance(wall, stained);
     fresh.settle();
     EXPECT_LE(apart(fresh, changed.irradiance(), fresh.irradiance()), 0.01);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(LiveScene, KeepsWhatPatchesSeeAndRendersItOnce)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions kept = options_for(scene, Redistribution::incremental);
+    kept.atlas.size = kSmallSide;
+    kept.solver.views.hemicube = kSmallHemicube;
+    LiveOptions looked = kept;
+    looked.visibility_bytes = 0;  // the thesis' two hemicubes for each patch
+    LiveScene once(device, scene, kept), twice(device, scene, looked);
+    std::array<std::uint64_t, 2> hemicubes{};
+    for (const float angle : {0.0f, 0.3f, 0.6f}) {
+        hemicubes = {once.state().hemicubes, twice.state().hemicubes};
+        once.move(kept.movers[0], shifted(scene, 0.1f, angle));
+        twice.move(kept.movers[0], shifted(scene, 0.1f, angle));
+        once.settle();
+        twice.settle();
+    }
+    // Both shoot the same light past the same surfaces.
+    EXPECT_LE(apart(once, once.irradiance(), twice.irradiance()), 1e-4);
+    EXPECT_LE(2 * (once.state().hemicubes - hemicubes[0]), twice.state().hemicubes - hemicubes[1]);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
