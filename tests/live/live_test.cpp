@@ -11,6 +11,7 @@
 #include "../support/source_folder.h"
 #include "core/error.h"
 #include "live/live_scene.h"
+#include "scene/light_options.h"
 #include "scene/scene.h"
 
 namespace lumel {
@@ -122,6 +123,27 @@ TEST_P(MovedBox, IsLitAsIfItAlwaysStoodSo)
     const auto truth = fresh.irradiance();
     EXPECT_GT(apart(fresh, first, truth), 2.0 * given.most);  // it did make a difference
     EXPECT_LE(apart(fresh, moved.irradiance(), truth), given.most);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
+// Sky and sun reach what has left the box that held the scene at first.
+TEST_P(LiveScenes, TheWholeSceneMovedAwayIsLitAsBefore)
+{
+    const gpu::Device device;
+    Scene scene = read_gltf(support::source_path("scenes/four-cubes.gltf"));
+    add_lights(scene, {.sky_color = glm::vec3(1.0f)});
+    LiveOptions options;
+    options.redistribution = GetParam();
+    options.atlas.size = kSmallSide;
+    options.solver.views.hemicube = kSmallHemicube;
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        live.move(i, glm::translate(glm::mat4(1.0f), glm::vec3(10.0f, 0.0f, 0.0f)) *
+                         scene.instances[i].transform);
+    live.settle();
+    EXPECT_LE(apart(live, live.irradiance(), before), 0.03);
     EXPECT_EQ(device.validation_messages(), "");
 }
 
