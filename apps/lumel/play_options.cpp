@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "command.h"
+#include "core/error.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -61,13 +62,21 @@ void add_play_options(CLI::App& app, PlayOptions& options)
            "Light left to be shot, as a part of all, at which a solution is at rest; with "
            "--solver directions, what is left of the light before a change")
         ->type_name("PERCENT")
-        ->default_str(fmt::format("{:g}", 100.0 * options.residual))
+        ->default_str(fmt::format("{:g}, {:g} with directions", 100.0 * options.residual,
+                                  100.0 * LeakyOptions{}.residual))
         ->check(positive());
     app.add_option("--exposure", options.exposure,
                    "Factor from cd/m2 to brightness, the same for all frames")
         ->type_name("F")
         ->default_str("as suits the first frame")
         ->check(positive());
+}
+
+/// Throws Error{input} if an option was given that the method does not read.
+void refuse(const CLI::App& command, const std::string& option, const std::string& method)
+{
+    if (command.count(option) > 0)
+        throw Error(ErrorKind::input, option, "is not read by --solver " + method);
 }
 
 }  // namespace
@@ -94,12 +103,17 @@ Command play_command(CLI::App& program)
                 {"scheme"});
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
-    return {&command, [given, method]() -> Arguments {
+    return {&command, [given, method, &command]() -> Arguments {
                 const MethodOptions chosen = method->options();
-                if (const auto* directions = std::get_if<DirectionsOptions>(&chosen))
+                const auto* directions = std::get_if<DirectionsOptions>(&chosen);
+                refuse(command, directions ? "--redistribution" : "--leak", method->id);
+                if (directions) {
                     given->options.solver = *directions;
-                else
+                    if (command.count("--residual") == 0)
+                        given->options.residual = LeakyOptions{}.residual;
+                } else {
                     given->options.solver = std::get<ProgressiveOptions>(chosen);
+                }
                 return *given;
             }};
 }

@@ -12,9 +12,13 @@ int run(const RenderArguments& arguments)
     const auto work = [&](const ProgressFunction& progress) {
         const RenderSummary summary =
             render(arguments.scene, arguments.picture, arguments.options, progress);
+        const bool film = arguments.options.film.frames > 0;
+        const std::string what =
+            film ? fmt::format("{} to {}", summary.files.front(), summary.files.back())
+                 : arguments.picture;
         return Conclusion{summary.report,
-                          fmt::format("{}: {} x {} pixels in {:.1f} s", arguments.picture,
-                                      summary.width, summary.height, summary.seconds),
+                          fmt::format("{}: {} x {} pixels{} in {:.1f} s", what, summary.width,
+                                      summary.height, film ? ", the last" : "", summary.seconds),
                           summary.interrupted};
     };
     return do_long_work(arguments.talk, batch_of(arguments.options.bake.solver.method), work);

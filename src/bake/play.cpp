@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bake/poses.h"
 #include "bake/report.h"
 #include "bake/setting.h"
 #include "bake/stages.h"
@@ -29,8 +30,6 @@ constexpr const char* kFilm = "play.mp4";
 constexpr const char* kFramePattern = "frame-%04d.png";
 /// Cancellation is polled at least this often [ms].
 constexpr double kSlice = 200.0;
-/// Places beyond this [m] overflow what is computed with them.
-constexpr double kFarthest = 1e9;
 
 double time_of(const PlayOptions& options, int frame)
 {
@@ -53,26 +52,6 @@ int frames_of(const PlayOptions& options, const Animation& animation)
                                 "made at once; use fewer --frames",
                                 frames, kMostFrames));
     return int(frames);
-}
-
-/// Lumels keep their areas, so what moves must keep its shape in all frames.
-void check_shapes(const Scene& start, const Animation& animation,
-                  const std::vector<std::uint32_t>& movers, const PlayOptions& options)
-{
-    for (int frame = 0; frame < options.frames; ++frame)
-        for (const std::uint32_t i : movers) {
-            const Instance& instance = start.instances[i];
-            const double time = time_of(options, frame);
-            const glm::mat4 place = place_in(start, animation, instance.node, time);
-            const std::string at =
-                fmt::format("{}: \"{}\" at {:.3g} s", start.path, instance.name, time);
-            if (!is_rigid(instance.transform, place))
-                throw Error(ErrorKind::input, at,
-                            "is stretched by the animation; what is played may be turned and "
-                            "moved, but not stretched");
-            if (!(glm::length(glm::dvec3(place[3])) <= kFarthest))
-                throw Error(ErrorKind::input, at, "is too far out to be computed");
-        }
 }
 
 bool has_material(const Scene& scene, const Instance& instance, int material)
@@ -319,7 +298,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     if (movers.empty() && changing_lamps(start, animation).empty())
         throw Error(ErrorKind::input, scene_path,
                     "its animation moves nothing that is shown, and changes no light");
-    check_shapes(start, animation, movers, options);
+    check_poses(start, animation, options.frames, options.fps);
     // What can fail before the long work should.
     OutputFolder output(folder);
     const gpu::Device device(options.device);

@@ -10,9 +10,11 @@
 
 #include "bake/dump.h"
 #include "bake/lighting.h"
+#include "bake/poses.h"
 #include "bake/reference.h"
 #include "bake/report.h"
 #include "bake/setting.h"
+#include "core/log.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
@@ -189,14 +191,14 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
 
 /// A scene with its light, which the next frame goes on from.
 struct Lit {
-    /// lay_out: of the atlas, or empty.
-    Lit(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
-        RenderOptions& options, Stages& stages)
+    /// lay_out: of the atlas, or empty. given: where the eye is, if it is known.
+    Lit(Scene scene, const Prepared::LayOut& lay_out, const std::optional<View>& given,
+        const gpu::Device& device, RenderOptions& options, Stages& stages)
         : setting(lay_out
                       ? std::make_unique<Setting>(std::move(scene), lay_out, device, options.bake,
                                                   stages)
                       : std::make_unique<Setting>(std::move(scene), device, options.bake, stages)),
-          view(view_for(setting->prepared.scene, setting->prepared.rays, options)),
+          view(given ? *given : view_for(setting->prepared.scene, setting->prepared.rays, options)),
           lamps(light_of_lamps(device, *setting, options.bake, stages)),
           // Without rays shooters do it all.
           particles(options.rays > 0 ? setting->carriers() : nullptr),
@@ -236,7 +238,7 @@ Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptio
     }
     if (before)
         solver.go_on_from(before->solver,
-                          float(options.film.kept * double(before->solver.state().iterations)));
+                          float(options.film.kept * double(before->solver.averaged())));
     SolveRun run = solve_in_stage(solver, options.bake.solver, stages);
     const SolverState solved = solver.state();
 
@@ -274,7 +276,7 @@ Made make(Scene scene, const RenderOptions& options, Stages& stages)
         return path_trace(scene, options, stages);
     const gpu::Device device(options.bake.device);
     RenderOptions sized = options;
-    Lit frame(std::move(scene), {}, device, sized, stages);
+    Lit frame(std::move(scene), {}, {}, device, sized, stages);
     return shoot(frame, nullptr, device, sized, stages);
 }
 
@@ -302,10 +304,17 @@ Report film(const Scene& scene, const std::string& path, const RenderOptions& op
             const ProgressFunction& progress)
 {
     const Animation animation = read_animation(scene.path, options.film.animation);
+    for (const std::string& warning : animation.warnings)
+        log_warning(scene.path + ": " + warning);
+    Scene start = scene;
+    pose(start, animation, 0.0);
+    check_poses(start, animation, options.film.frames, options.film.fps);
     const gpu::Device device(options.bake.device);
     std::unique_ptr<Lit> before;
     std::optional<float> exposure;
     std::optional<Atlas> atlas;
+    std::optional<View> chosen;  // where the file has no camera: the pictures would jump
+    int height = options.height;
     std::vector<std::string> files;
     Report report;
     for (int f = 0; f < options.film.frames && !report.interrupted; ++f) {
@@ -313,11 +322,15 @@ Report film(const Scene& scene, const std::string& path, const RenderOptions& op
         Scene posed = scene;
         pose(posed, animation, double(f) / options.film.fps);
         RenderOptions own = of_frame(options, f);
+        own.height = height;
         Prepared::LayOut same;
         if (atlas)
             same = [&](const Scene&, const RayScene&, const Watch&) { return *atlas; };
-        auto frame = std::make_unique<Lit>(std::move(posed), same, device, own, stages);
+        auto frame = std::make_unique<Lit>(std::move(posed), same, chosen, device, own, stages);
         atlas = frame->setting->prepared.atlas;
+        if (scene.cameras.empty())
+            chosen = frame->view;
+        height = own.height;
         Made made = shoot(*frame, options.film.fresh ? nullptr : before.get(), device, own, stages);
         exposure = write_picture(numbered(path, f), made.image, exposure);
         files.push_back(std::filesystem::path(numbered(path, f)).filename().string());
@@ -331,9 +344,9 @@ Report film(const Scene& scene, const std::string& path, const RenderOptions& op
 
 RenderSummary summary_of(const Report& report)
 {
-    return {report.picture_width,      report.picture_height, report.shots,
-            report.estimated_error,    report.wall_seconds,   report.interrupted,
-            json_text(to_json(report))};
+    return {report.picture_width,       report.picture_height, report.shots,
+            report.estimated_error,     report.wall_seconds,   report.interrupted,
+            json_text(to_json(report)), report.files};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "bake/bake.h"
 #include "core/image.h"
@@ -42,7 +43,8 @@ struct RenderSummary {
     double error = -1.0;      ///< estimated, of the irradiance
     double seconds = 0.0;
     bool interrupted = false;
-    std::string report;  ///< JSON
+    std::string report;              ///< JSON
+    std::vector<std::string> files;  ///< written, without their folder
 };
 
 struct Rendered {

@@ -128,14 +128,13 @@ bool LeakyScene::place_what_moved()
         Instance& instance = scene_.instances[i];
         if (requested_[i] && *requested_[i] != instance.transform) {
             instance.transform = *requested_[i];
-            const MovedBox box = box_of(scene_, i, instance.transform);
-            world_.widen(box.low, box.high);
             moved = true;
         }
         requested_[i].reset();
         transforms.push_back(instance.transform);
     }
     if (moved) {
+        world_.bound(scene_);
         world_.place(transforms);
         lamps_.find(*device_, world_, lumels_);
     }

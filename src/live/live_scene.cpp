@@ -267,13 +267,13 @@ void LiveScene::begin_move()
             const MovedBox before = box_of(scene_, i, instance.transform);
             instance.transform = *requested_[i];
             const MovedBox after = box_of(scene_, i, instance.transform);
-            world_.widen(after.low, after.high);
             const std::vector<MovedBox> boxes = around(before, after);
             move_.boxes.insert(move_.boxes.end(), boxes.begin(), boxes.end());
         }
         move_.transforms.push_back(instance.transform);
         requested_[i].reset();
     }
+    world_.bound(scene_);
     if (!cross_) {
         if (!move_.boxes.empty() && !incremental_->begin(move_))
             end_move();

@@ -18,7 +18,7 @@ VisibilityRows::VisibilityRows(const gpu::Device& device, const World& world,
     : device_(&device),
       world_(&world),
       solver_(&solver),
-      most_bytes_(most_bytes),
+      most_bytes_(std::min(most_bytes, device.max_array_bytes())),
       count_(std::uint32_t(world.lumels().size())),
       record_(device, std::uint32_t(projection)),
       shoot_(device, std::uint32_t(projection)),
@@ -35,11 +35,18 @@ void VisibilityRows::follow(std::span<const std::uint32_t> levels)
             continue;
         const std::uint32_t patches = patches_of(layout.charts[c], levels[c]);
         const std::uint64_t words = (rows_ + patches + kRowsInAWord - 1) / kRowsInAWord;
-        const bool fits = words * count_ * sizeof(std::uint32_t) <= most_bytes_;
+        const bool fits = words <= most_words();
         charts_[c] = {levels[c], fits ? rows_ : kNoRow, std::vector<char>(patches)};
         rows_ += fits ? patches : 0;
     }
     make_room(rows_);
+}
+
+/// Of a lumel, in all its rows.
+std::uint32_t VisibilityRows::most_words() const
+{
+    const std::uint64_t words = most_bytes_ / (std::uint64_t(count_) * sizeof(std::uint32_t));
+    return std::uint32_t(std::min<std::uint64_t>(words, kNoRow / kRowsInAWord));
 }
 
 void VisibilityRows::make_room(std::uint32_t rows)
@@ -47,7 +54,8 @@ void VisibilityRows::make_room(std::uint32_t rows)
     const std::uint32_t words = (rows + kRowsInAWord - 1) / kRowsInAWord;
     if (std::size_t(words) * count_ <= seen_.size())
         return;
-    const std::uint32_t enough = (words + kWordsAtATime - 1) / kWordsAtATime * kWordsAtATime;
+    const std::uint32_t enough =
+        std::min((words + kWordsAtATime - 1) / kWordsAtATime * kWordsAtATime, most_words());
     gpu::Array<std::uint32_t> larger(*device_, std::size_t(enough) * count_);
     gpu::Pacer& pacer = solver_->pacer();
     pacer.work("prepare", [&](gpu::Commands& commands) {

@@ -22,7 +22,8 @@ struct ShotList {
 
 class VisibilityRows {
 public:
-    /// Keeps no more than `most_bytes`; patches beyond them have no rows. All must outlive it.
+    /// Keeps no more than `most_bytes`, nor than one array of the device holds; patches beyond them
+    /// have no rows. While it grows there are two arrays. All must outlive it.
     VisibilityRows(const gpu::Device& device, const World& world, ProgressiveRadiosity& solver,
                    Projection projection, std::uint64_t most_bytes);
 
@@ -56,6 +57,7 @@ private:
 
     RowsParams params(std::uint32_t first, std::uint32_t last, std::uint32_t place) const;
     void make_room(std::uint32_t rows);
+    std::uint32_t most_words() const;
 
     const gpu::Device* device_;
     const World* world_;

@@ -160,6 +160,7 @@ void GlossyIllumination::step()
         eye_->receive(pacer_, views_, eyes_[state_.iterations % 2], shots_, lobes_, batch_);
     has_before_ = true;
     ++batches_[iteration_++ % 2];
+    ++averaged_;
     ++state_.iterations;
     state_.shots += batch_;
     next_shot_ += batch_;
@@ -175,6 +176,7 @@ void GlossyIllumination::restart()
         commands.fill(absorbed_.buffer());
     });
     batches_ = {};
+    averaged_ = 0;
     state_.error = -1.0;
 }
 

@@ -69,6 +69,8 @@ public:
     /// average from its average, which counts as so many iterations. Without the latter frames with
     /// the same seed have much of their noise in common. Waits for the device.
     void go_on_from(GlossyIllumination& before, float kept = 0.0f);
+    /// Iterations in the average since the last restart, without those of frames before.
+    std::uint64_t averaged() const { return averaged_; }
 
     /// A frame for another eye: every step also adds to the image of one that sees these points.
     /// It goes on as any frame does, so that all eyes meet the same shooters and close ones see
@@ -157,6 +159,7 @@ private:
     bool goes_on_ = false;     ///< from a frame before: light has spread already
     std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences
     std::array<float, 2> batches_{};               ///< iterations in sums, per half
+    std::uint64_t averaged_ = 0;                   ///< of them, those of this frame
 };
 
 }  // namespace lumel

@@ -132,6 +132,7 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
     if (before.count_ != count_ || before.batch_ != batch_ || before.paper_ != paper_)
         throw Error(ErrorKind::input, "the frame before",
                     "must have the same lumels, batches and scheme");
+    pacer_.finish();
     const std::vector<glm::vec3> mean = before.irradiance();
     const std::vector<glm::vec3> emission = emission_.download();
     std::vector<glm::vec3> exitance = emission, diffuse = emission;

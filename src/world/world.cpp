@@ -111,9 +111,7 @@ World::World(const gpu::Device& device, const Scene& scene, const Lumels& lumels
       place_lumels_(device),
       place_vertices_(device)
 {
-    const Box box = box_of(scene);
-    low_ = box.low;
-    high_ = box.high;
+    bound(scene);
     for (const CutOut& cut_out : occluders.cut_outs) {
         cut_outs_.push_back(make_draw(device, scene, cut_out));
         coloured_glass_ |= is_coloured_glass(scene.materials[cut_out.material]);
@@ -147,10 +145,11 @@ void World::place(std::span<const glm::mat4> transforms)
     commands.run();
 }
 
-void World::widen(const glm::vec3& low, const glm::vec3& high)
+void World::bound(const Scene& scene)
 {
-    low_ = glm::min(low_, low);
-    high_ = glm::max(high_, high);
+    const Box box = box_of(scene);
+    low_ = box.low;
+    high_ = box.high;
 }
 
 std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)

@@ -37,8 +37,9 @@ public:
     /// Moves instances to `transforms` [instances]. Waits for the device.
     void place(std::span<const glm::mat4> transforms);
 
-    /// Something now stands within these corners [m], maybe outside the bounding box of before.
-    void widen(const glm::vec3& low, const glm::vec3& high);
+    /// Takes the bounding box, to which views of sky and sun are fitted, from where the scene's
+    /// instances stand now.
+    void bound(const Scene& scene);
 
     /// From now on views show movers, as they do at first, or not.
     void show_movers(bool shown) { movers_shown_ = shown; }

@@ -100,6 +100,11 @@ TEST(Play, RefusesWhatItCannotPlay)
     expect_one_sentence(run_lumel(small_play(out, {"--camera", "1"})), 2, {"--camera 1"});
     expect_one_sentence(run_lumel(small_play(out, {"--redistribution", "guess"})), 2,
                         {"--redistribution", "guess", "cross"});
+    expect_one_sentence(run_lumel(small_play(out, {"--leak", "0.1"})), 2,
+                        {"--leak", "--solver progressive"});
+    expect_one_sentence(
+        run_lumel(small_play(out, {"--solver", "directions", "--redistribution", "cross"})), 2,
+        {"--redistribution", "--solver directions"});
 
     std::string scene = bytes_of(own_scene("turning-box.gltf"));
     const std::string turn = "\"path\": \"rotation\"", type = "\"VEC4\"";
@@ -107,6 +112,9 @@ TEST(Play, RefusesWhatItCannotPlay)
     scene.replace(scene.find(type), type.size(), "\"VEC3\"");
     expect_one_sentence(run_lumel({"play", place.file("scaled.gltf", scene), out}), 2,
                         {"scaled.gltf", "\"box\"", "stretched"});
+    expect_one_sentence(
+        run_lumel({"render", place.path("scaled.gltf"), place.path("a.png"), "--frames", "2"}), 2,
+        {"scaled.gltf", "\"box\"", "stretched"});
     EXPECT_EQ(place.listing(), std::vector<std::string>{"scaled.gltf"});
 }
 

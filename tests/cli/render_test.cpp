@@ -1,5 +1,7 @@
 // Pictures from outside.
 
+#include <array>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -81,6 +83,43 @@ TEST(Render, MakesFramesOfAnAnimation)
         EXPECT_NE(bytes_of(place.path("film-0001.png")), bytes_of(place.path("film-0003.png")));
     }
     EXPECT_EQ(run_lumel(tiny_render(place.path("a.png"), {"--fresh"})).code, 2);
+}
+
+/// Bytes of the two frames of a film.
+std::array<std::string, 2> two_frames(const Workplace& place, const std::string& name,
+                                      const std::vector<std::string>& manner)
+{
+    std::vector<std::string> arguments = {"render",
+                                          own_scene("turning-box.gltf"),
+                                          place.path(name + ".png"),
+                                          "--size",
+                                          "32",
+                                          "--width",
+                                          "32",
+                                          "--shots",
+                                          "64",
+                                          "--frames",
+                                          "2",
+                                          "--fps",
+                                          "2"};
+    arguments.insert(arguments.end(), manner.begin(), manner.end());
+    const Outcome outcome = run_lumel(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return {bytes_of(place.path(name + "-0001.png")), bytes_of(place.path(name + "-0002.png"))};
+}
+
+// The first frame has nothing to go on from.
+TEST(Render, AFrameGoesOnFromTheOneBeforeUnlessItIsFresh)
+{
+    const Workplace place;
+    const auto first = two_frames(place, "a", {}), again = two_frames(place, "b", {});
+    const auto fresh = two_frames(place, "c", {"--fresh"});
+    const auto guess = two_frames(place, "d", {"--keep", "0"});
+    EXPECT_EQ(first, again);
+    EXPECT_EQ(first[0], fresh[0]);
+    EXPECT_NE(first[1], fresh[1]);
+    EXPECT_NE(first[1], guess[1]);
+    EXPECT_NE(guess[1], fresh[1]);
 }
 
 TEST(Render, PrintsItsReportAsJson)

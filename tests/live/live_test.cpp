@@ -147,6 +147,31 @@ TEST_P(LiveScenes, TheWholeSceneMovedAwayIsLitAsBefore)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+// What was far away for a while leaves no coarser shadows behind.
+TEST_P(LiveScenes, TakenFarAwayAndPutBackUnderASunIsAsBefore)
+{
+    const gpu::Device device;
+    Scene scene = read_gltf(support::source_path("scenes/four-cubes.gltf"));
+    add_lights(scene, {.sky_color = glm::vec3(1.0f),
+                       .sun = SunPosition{.azimuth = 2.0, .elevation = 0.8}});
+    LiveOptions options;
+    options.redistribution = GetParam();
+    options.atlas.size = kSmallSide;
+    options.solver.views.hemicube = kSmallHemicube;
+    options.movers = {find_instance(scene, "white cube")};
+    const glm::mat4 place = scene.instances[options.movers[0]].transform;
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    live.move(options.movers[0],
+              glm::translate(glm::mat4(1.0f), glm::vec3(1000.0f, 0.0f, 0.0f)) * place);
+    live.settle();
+    live.move(options.movers[0], place);
+    live.settle();
+    EXPECT_LE(apart(live, live.irradiance(), before), 0.005);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 TEST_P(LiveScenes, MovedThereAndBackIsAsBefore)
 {
     const gpu::Device device;
@@ -279,17 +304,22 @@ TEST(LiveScene, KeepsWhatPatchesSeeAndRendersItOnce)
     kept.solver.views.hemicube = kSmallHemicube;
     LiveOptions looked = kept;
     looked.visibility_bytes = 0;  // the thesis' two hemicubes for each patch
-    LiveScene once(device, scene, kept), twice(device, scene, looked);
+    LiveOptions some = kept;
+    some.visibility_bytes = 4096;  // room for 32 patches only
+    LiveScene once(device, scene, kept), twice(device, scene, looked), mixed(device, scene, some);
     std::array<std::uint64_t, 2> hemicubes{};
     for (const float angle : {0.0f, 0.3f, 0.6f}) {
         hemicubes = {once.state().hemicubes, twice.state().hemicubes};
         once.move(kept.movers[0], shifted(scene, 0.1f, angle));
         twice.move(kept.movers[0], shifted(scene, 0.1f, angle));
+        mixed.move(kept.movers[0], shifted(scene, 0.1f, angle));
         once.settle();
         twice.settle();
+        mixed.settle();
     }
     // Both shoot the same light past the same surfaces.
     EXPECT_LE(apart(once, once.irradiance(), twice.irradiance()), 1e-4);
+    EXPECT_LE(apart(once, once.irradiance(), mixed.irradiance()), 1e-4);
     EXPECT_LE(2 * (once.state().hemicubes - hemicubes[0]), twice.state().hemicubes - hemicubes[1]);
     EXPECT_EQ(device.validation_messages(), "");
 }

@@ -1,5 +1,5 @@
-// What [SF17] promises of its compressed matrix, held on scenes: light through what was stored
-// against light through the matrix itself.
+// What compressed matrices cost on scenes: light through what was stored against light through the
+// matrix itself.
 
 #include <gtest/gtest.h>
 
@@ -29,14 +29,14 @@ double saving(const MatrixCase& matrix_case, std::size_t bytes)
     return 4.0 * double(matrix_case.size()) * double(matrix_case.size()) / double(bytes);
 }
 
-// "requires 3 times less memory", and the image "hardly differs": at the paper's 4 %, offset of 25,
-// and with its exact part. We take 4 % for that; 5 bits for 25 units of logarithm are steps of a
-// factor of 2.2.
+// "requires 3 times less memory" [SF17], at the paper's 4 %, offset of 25, and with its exact part.
+// The error guards what is reached, 2.7 %; the bar of 2 % for "hardly differs" is missed
+// (docs/papers.md).
 void expect_papers_blocks(const MatrixCase& matrix_case)
 {
     const CodedMatrix coded = encode(matrix_case.bounces, {.code = Code::bc1, .mend = false});
     EXPECT_GE(saving(matrix_case, coded.bytes()), 3.0);
-    EXPECT_LE(light_error(matrix_case, decode(coded)).mean, 0.04);
+    EXPECT_LE(light_error(matrix_case, decode(coded)).mean, 0.03);
 }
 
 // Ours: 1 % of error in a twelfth of the bytes.
