@@ -44,7 +44,7 @@ constexpr Run kRuns[] = {
      "Error of the map of each frame against paths. Processor time of a frame's iterations; near "
      "field, rays and upload of the moved scene are the same for all.",
      "frames --frames 4 --reference-spp 1024", "frames --size 128 --frames 12",
-     "frames --size 16 --hemicube 32 --frames 2 --iterations 2 --reference-spp 4"},
+     "frames --size 16 --hemicube 32 --frames 2 --iterations 16 --reference-spp 4"},
     {"layers", "Stochastic layers",
      "Excess of red over green on the plane on top after all directions, on its lower side, where "
      "light may leak. The distances and albedos of the planes are ours: the paper does not give "

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "bench/papers/matrix_case.h"
 #include "matrix/coded_matrix.h"
 #include "matrix/compressed_tiles.h"
@@ -17,7 +18,7 @@ MatrixCase matrix_of(const char* scene)
 {
     const gpu::Device device;
     Settings settings;
-    settings.scene = scene;
+    settings.scene = support::source_path(scene);
     MatrixCase found = make_matrix_case(device, settings, kPatches, kLights);
     EXPECT_EQ(device.validation_messages(), "");
     return found;
