@@ -18,8 +18,8 @@ void read_number(const std::string& text)
     require(!number || std::isfinite(*number), "numbers are finite");
     constexpr int kLow = -5, kHigh = 1000;
     std::string kept = text;
-    if (whole(kLow, kHigh)(kept).empty() && number)
-        require(*number >= kLow && *number <= kHigh, "whole numbers are within bounds");
+    if (whole(kLow, kHigh)(kept).empty())
+        require(number && *number >= kLow && *number <= kHigh, "whole numbers are within bounds");
     if (between(kLow, kHigh)(kept).empty())
         require(number && *number >= kLow && *number <= kHigh, "numbers are within bounds");
     positive()(kept);

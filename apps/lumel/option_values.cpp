@@ -1,16 +1,34 @@
 #include "option_values.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "core/number.h"
 
 namespace lumel {
+namespace {
+
+/// The whole number that the text writes in decimal digits. Nothing for 0100, which the parser of
+/// options reads as the octal 64, nor for 0x10.
+std::optional<std::int64_t> whole_number_of(const std::string& text)
+{
+    const std::size_t first_digit = text.starts_with('-') ? 1 : 0;
+    if (text.size() > first_digit + 1 && text[first_digit] == '0')
+        return std::nullopt;
+    std::int64_t value = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (problem != std::errc() || end != text.data() + text.size())
+        return std::nullopt;
+    return value;
+}
+
+}  // namespace
 
 CLI::Validator whole(std::int64_t low, std::int64_t high)
 {
     const auto check = [low, high](const std::string& text) -> std::string {
-        std::int64_t value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high)
+        const auto value = whole_number_of(text);
+        if (value && *value >= low && *value <= high)
             return {};
         return fmt::format("'{}' is not a whole number from {} to {}", text, low, high);
     };

@@ -35,6 +35,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"bake", scene, "out", "--size", "0"}, {"--size", "0"}},
         {{"bake", scene, "out", "--size", "nan"}, {"--size", "nan"}},
         {{"bake", scene, "out", "--size", "3.5"}, {"--size", "3.5"}},
+        {{"bake", scene, "out", "--size", "010"},
+         {"--size", "010"}},  // octal to the parser of options
         {{"bake", scene, "out", "--shots", "0"}, {"--shots"}},
         {{"bake", scene, "out", "--shots", "1e99"}, {"--shots"}},
         {{"bake", scene, "out", "--time", "-1"}, {"--time"}},
