@@ -27,6 +27,7 @@ struct BakeArguments {
     std::string scene;   ///< glTF or GLB file
     std::string folder;  ///< where the results go
     BakeOptions options;
+    bool page = false;  ///< write report.html too
     Talk talk;
 };
 
@@ -87,6 +88,12 @@ struct CompareArguments {
     bool json = false;
 };
 
+struct ReportArguments {
+    std::string folder;  ///< of a finished bake
+    std::string other;   ///< of one to compare it with, or empty
+    std::string page;    ///< HTML file to write; empty: report.html in the folder
+};
+
 struct DevicesArguments {
     bool json = false;
 };
@@ -98,9 +105,10 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
-                               RenderArguments, PlayArguments, ReferenceArguments, InfoArguments,
-                               CompareArguments, DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments =
+    std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments, RenderArguments,
+                 PlayArguments, ReferenceArguments, InfoArguments, CompareArguments,
+                 ReportArguments, DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

@@ -1,18 +1,25 @@
 // lumel bake: the scene in, solved lightmaps and a lit glTF out.
 
+#include <array>
+
 #include <fmt/core.h>
 
 #include "commands.h"
 #include "long_work.h"
+#include "page/page.h"
 #include "solve/methods.h"
 
 namespace lumel {
 
 int run(const BakeArguments& arguments)
 {
+    if (arguments.page)
+        check_viewer();
     const auto work = [&](const ProgressFunction& progress) {
         const BakeSummary summary =
             bake(arguments.scene, arguments.folder, arguments.options, progress);
+        if (arguments.page)
+            write_page(page_in(arguments.folder), std::array{arguments.folder});
         std::string error;
         if (summary.error >= 0.0)
             error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);

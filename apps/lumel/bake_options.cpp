@@ -56,6 +56,11 @@ Command bake_command(CLI::App& program)
     add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
     add_preview_option(command, bake.options.preview_width);
+    command
+        .add_flag("--html", bake.page,
+                  "Also write report.html, a page to walk through the scene and read its light, as "
+                  "lumel report does")
+        ->group(kPictureGroup);
     add_dump_option(command, bake.options.dump);
     add_talk_options(command, bake.talk);
     return {&command, [given, method]() -> Arguments {

@@ -29,6 +29,7 @@ Command play_command(CLI::App& program);
 Command reference_command(CLI::App& program);
 Command info_command(CLI::App& program);
 Command compare_command(CLI::App& program);
+Command report_command(CLI::App& program);
 Command devices_command(CLI::App& program);
 Command methods_command(CLI::App& program);
 /// Of what the program says of itself.

@@ -12,6 +12,9 @@ inline constexpr int kExitInput = 2;
 inline constexpr int kExitDevice = 3;
 inline constexpr int kExitOutput = 4;
 
+/// The page that a bake's folder holds.
+std::string page_in(const std::string& folder);
+
 int run(const BakeArguments& arguments);
 int run(const UpdateArguments& arguments);
 int run(const RelightArguments& arguments);
@@ -21,6 +24,7 @@ int run(const PlayArguments& arguments);
 int run(const ReferenceArguments& arguments);
 int run(const InfoArguments& arguments);
 int run(const CompareArguments& arguments);
+int run(const ReportArguments& arguments);
 int run(const DevicesArguments& arguments);
 int run(const MethodsArguments& arguments);
 int run(const TextArguments& arguments);

@@ -6,16 +6,12 @@
 // --curve: Lumel's tone curve; --compare: also print the mean difference from this picture, of 255.
 // Exits with 0, or with 1 and a sentence.
 
-import { spawn } from 'node:child_process';
-import { once } from 'node:events';
-import { createServer } from 'node:http';
-import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
+import { readFile, writeFile } from 'node:fs/promises';
 import { dirname, extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { parseArgs } from 'node:util';
+import { visit } from './browser.mjs';
 
-const secondsToWait = 150;
 const here = dirname(fileURLToPath(import.meta.url));
 const { values: options, positionals: [scene, picture] } = parseArgs({
     allowPositionals: true,
@@ -46,58 +42,18 @@ function fileOf(path) {
     return join(here, normalize(path));
 }
 
-function bodyOf(request) {
-    return new Promise((done) => {
-        const parts = [];
-        request.on('data', (part) => parts.push(part));
-        request.on('end', () => done(Buffer.concat(parts)));
-    });
+async function fileAt(path) {
+    if (path === '/') return { type: 'text/html', content: page };
+    const type = types[extname(path)] ?? 'application/octet-stream';
+    return { type, content: await readFile(fileOf(path)) };
 }
 
-// Serves the page until it has sent its picture.
-function serve(server) {
-    return new Promise((done, failed) => {
-        server.on('request', async (request, response) => {
-            const url = new URL(request.url, 'http://localhost');
-            if (request.method === 'POST') {
-                const body = await bodyOf(request);
-                response.end();
-                if (url.pathname === '/picture') done({ body, found: url.searchParams });
-                else failed(new Error(body.toString()));
-            } else if (url.pathname === '/') {
-                response.setHeader('Content-Type', 'text/html').end(page);
-            } else {
-                try {
-                    const file = await readFile(fileOf(url.pathname));
-                    const type = types[extname(url.pathname)] ?? 'application/octet-stream';
-                    response.setHeader('Content-Type', type).end(file);
-                } catch {
-                    response.writeHead(404).end();
-                }
-            }
-        });
-        setTimeout(() => failed(new Error('the browser has sent no picture')),
-                   secondsToWait * 1000).unref();
-    });
-}
-
-const server = createServer().listen(0, '127.0.0.1');
-const profile = await mkdtemp(join(tmpdir(), 'lumel-browser-'));
 const [width, height] = options.size.split('x');
 const asked = new URLSearchParams({ width, height });
 for (const flag of ['map', 'baked', 'curve', 'compare'])
     if (options[flag]) asked.set(flag, '1');
-const browser = spawn(options.browser, [
-    '--headless', '--no-sandbox', '--disable-dev-shm-usage', '--use-gl=angle',
-    '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`,
-    `http://127.0.0.1:${server.address().port}/?${asked}`,
-], { stdio: 'ignore' });
-const stopped = new Promise((_, failed) => {
-    browser.on('error', failed);
-    browser.on('exit', (code) => failed(new Error(`the browser ended with ${code}`)));
-});
 try {
-    const { body, found } = await Promise.race([serve(server), stopped]);
+    const { body, found } = await visit(options.browser, asked, fileAt, '/picture');
     await writeFile(picture, body);
     const distance = found.get('distance');
     console.log(`${picture}: lightmaps: ${found.get('lightmaps')}` +
@@ -105,10 +61,4 @@ try {
 } catch (error) {
     console.error(`render.mjs: ${error.message}`);
     process.exitCode = 1;
-} finally {
-    stopped.catch(() => {});
-    if (browser.kill()) await once(browser, 'exit');
-    server.closeAllConnections();
-    server.close();
-    await rm(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
 }

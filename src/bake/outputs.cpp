@@ -88,10 +88,9 @@ namespace {
 
 /// The picture of a bake [cd/m²]. One that cannot be made costs no more than itself.
 std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& prepared,
-                                  const Image& map, int width)
+                                  const Image& map, const View& view, int width)
 {
     try {
-        const View view = choose_view(prepared.scene, prepared.rays);
         return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
     } catch (const Error& error) {
         log_warning(std::string("there is no ") + kPreview + ": " + error.what());
@@ -133,13 +132,15 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
                                       radiance_of(prepared.lumels, irradiance));
     std::optional<Image> picture;
+    std::optional<View> view;
     if (device && options.preview_width > 0) {
         stages.begin("preview");
-        picture = draw_preview(*device, prepared, map, options.preview_width);
+        view = choose_view(prepared.scene, prepared.rays);
+        picture = draw_preview(*device, prepared, map, *view, options.preview_width);
     }
     stages.begin("writing");
     const WrittenLight written{.exposure = exposure_of(picture, radiance),
-                               .preview = picture.has_value()};
+                               .view = picture ? view : std::nullopt};
     const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
     if (picture)
         write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
@@ -167,10 +168,13 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
     stages.end();
     device.check_validation();
 
-    if (!written.preview)
+    if (!written.view)
         folder.outdate(kPreview);
+    folder.outdate(kPageFile);
     const BakeRecord record = record_of(options, prepared, results, written);
-    const Json report = to_json(bake_report(record, prepared, device, solver, results, stages));
+    Report facts = bake_report(record, prepared, device, solver, results, stages);
+    facts.preview = preview_row(written, prepared.scene);
+    const Json report = to_json(facts);
     write_json(folder.path(kReportFile), report);
     folder.commit();
     return {.shots = results.shots,

@@ -11,6 +11,7 @@
 #include "output/folder.h"
 #include "prepare/prepare.h"
 #include "record/report.h"
+#include "scene/view.h"
 
 namespace lumel {
 
@@ -41,8 +42,8 @@ float write_map(const OutputFolder& folder, const std::string& name, const Image
 
 /// What write_light() wrote.
 struct WrittenLight {
-    float exposure = 0.0f;  ///< of all pictures [1/lx]
-    bool preview = false;
+    float exposure = 0.0f;     ///< of all pictures [1/lx]
+    std::optional<View> view;  ///< that the preview shows, if there is one
 };
 
 /// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.

@@ -146,11 +146,21 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .interrupted = results.interrupted,
                       .exposure = written.exposure,
                       .files = kBakedFiles};
-    if (written.preview)
+    if (written.view)
         record.files.emplace_back(kPreview);
     if (results.relightable)
         record.files.emplace_back(kMatrixFile);
     return record;
+}
+
+std::optional<PreviewRow> preview_row(const WrittenLight& written, const Scene& scene)
+{
+    if (!written.view)
+        return std::nullopt;
+    const glm::mat4& camera = written.view->transform;
+    return PreviewRow{.eye = glm::dvec3(camera[3]) + scene.origin,
+                      .direction = -glm::normalize(glm::dvec3(camera[2])),
+                      .vertical_fov = glm::degrees(double(written.view->vertical_fov))};
 }
 
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
@@ -170,7 +180,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     if (written)
         baked.exposure = written->exposure;
     baked.files = kBakedFiles;
-    if (written && written->preview)
+    if (written && written->view)
         baked.files.emplace_back(kPreview);
     return baked;
 }

@@ -15,6 +15,9 @@ struct ReferenceOptions;
 BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
                      const WrittenLight& written);
 
+/// From where preview.png shows the scene; nothing if there is no preview.
+std::optional<PreviewRow> preview_row(const WrittenLight& written, const Scene& scene);
+
 /// What a bake is once it was corrected. written: if light was written anew.
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
                      const Prepared& prepared, const std::optional<WrittenLight>& written,

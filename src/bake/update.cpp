@@ -158,15 +158,18 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
                               stages);
     }
-    if (written && !written->preview)
+    if (written && !written->view)
         output.outdate(kPreview);
+    output.outdate(kPageFile);
     stages.end();
     if (device)
         device->check_validation();
     const BakeRecord record =
         corrected(std::move(baked), options, row, edit.now, written, stages.stopped());
-    const Json report =
-        to_json(update_report(record, row, edit.now, device ? &*device : nullptr, stages));
+    Report facts = update_report(record, row, edit.now, device ? &*device : nullptr, stages);
+    if (written)
+        facts.preview = preview_row(*written, edit.now.scene);
+    const Json report = to_json(facts);
     write_json(output.path(kReportFile), report);
     output.commit();
     return {row, record.error, stages.seconds(), stages.stopped(), json_text(report)};

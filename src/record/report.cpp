@@ -128,6 +128,13 @@ Json update(const UpdateRow& row)
     return json;
 }
 
+Json preview(const PreviewRow& row)
+{
+    return {{"eye", {row.eye.x, row.eye.y, row.eye.z}},
+            {"direction", {row.direction.x, row.direction.y, row.direction.z}},
+            {"vertical_fov", row.vertical_fov}};
+}
+
 Json sizes(const Report& report)
 {
     Json json = Json::object();
@@ -195,6 +202,8 @@ Json to_json(const Report& report)
         json["form_factors"] = form_factors(*report.form_factors);
     if (report.update)
         json["update"] = update(*report.update);
+    if (report.preview)
+        json["preview"] = preview(*report.preview);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
     json["units"] =

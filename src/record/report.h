@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "json/json_view.h"
 
 namespace lumel {
@@ -64,6 +66,13 @@ struct UpdateRow {
     bool any() const { return moved + appeared + vanished + recoloured > 0 || relit; }
 };
 
+/// From where preview.png shows the scene.
+struct PreviewRow {
+    glm::dvec3 eye{0.0};        ///< [m], in the file's own coordinates
+    glm::dvec3 direction{0.0};  ///< unit
+    double vertical_fov = 0.0;  ///< of the picture [degrees]
+};
+
 /// All contents of report.json. Empty strings, empty lists and negative numbers: not known; left
 /// out of the file.
 struct Report {
@@ -102,6 +111,7 @@ struct Report {
     std::vector<FrameRow> frames;
     std::optional<FormFactorRow> form_factors;
     std::optional<UpdateRow> update;
+    std::optional<PreviewRow> preview;
 
     double wall_seconds = 0.0;
     double cpu_seconds = 0.0;

@@ -26,6 +26,8 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"help", "rendr"}, {"did you mean render?"}},
         {{"completion", "fish"}, {"fish", "bash, zsh"}},
         {{"bake"}, {"scene"}},
+        {{"report"}, {"folder"}},
+        {{"report", "one", "two", "three"}, {"three"}},
         {{"bake", scene}, {"folder"}},
         {{"bake", scene, "out", "more"}, {"more"}},
         {{"bake", scene, "out", "--siz", "32"}, {"did you mean --size?"}},

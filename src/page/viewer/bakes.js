@@ -1,0 +1,62 @@
+// The bakes that the page was made of.
+
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { makeDiffuse } from '../../../examples/threejs/lightmap.js';
+import { readLightmap } from './lightmap.js';
+
+// The bytes of a text: base 64, of gzip.
+async function unpack(text) {
+    const packed = await (await fetch(`data:application/octet-stream;base64,${text}`)).blob();
+    return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+}
+
+// Lights what was baked by its lightmap, and returns it.
+function bindLightmap(scene, map) {
+    const lit = [];
+    scene.traverse((object) => {
+        if (!object.material?.userData.lumel?.lightmap) return;
+        object.material.lightMap = map.texture;
+        object.material.lightMapIntensity = map.unit; // [lx]
+        lit.push(object);
+    });
+    return lit;
+}
+
+// Where to look from: as preview.png does; of a bake that does not say it, from inside the scene.
+function firstView(gltf, preview) {
+    const camera = new THREE.PerspectiveCamera(50, 1, 0.01, 1000);
+    const box = new THREE.Box3().setFromObject(gltf.scene);
+    const size = box.getSize(new THREE.Vector3());
+    camera.near = Math.max(size.length() / 5000, 0.005);
+    camera.far = size.length() * 4;
+    if (preview) {
+        camera.position.fromArray(preview.eye);
+        camera.lookAt(camera.position.clone().add(new THREE.Vector3().fromArray(preview.direction)));
+        camera.fov = preview.vertical_fov;
+        return camera;
+    }
+    const middle = box.getCenter(new THREE.Vector3());
+    camera.position.copy(middle);
+    camera.lookAt(size.x > size.z ? box.max.x : middle.x, middle.y, size.x > size.z ? middle.z : box.max.z);
+    return camera;
+}
+
+/** One baked folder: its report, its scene with materials that its lightmap lights, and the view it opens with. */
+async function readBake(renderer, { name, report, glb, lightmap, unit }) {
+    const map = await readLightmap(renderer, await unpack(lightmap), unit);
+    const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
+    makeDiffuse(gltf);
+    return {
+        name, report, map,
+        scene: gltf.scene,
+        lit: bindLightmap(gltf.scene, map),
+        exposure: gltf.asset.extras?.lumel?.exposure ?? report.solution.exposure ?? 1, // [1/lx]
+        camera: firstView(gltf, report.preview),
+    };
+}
+
+/** What the page holds, see page.cpp. */
+export const packedBakes = () => JSON.parse(document.getElementById('bakes').textContent);
+
+export const readBakes = (renderer, packed) => Promise.all(packed.map((bake) => readBake(renderer, bake)));

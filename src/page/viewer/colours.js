@@ -1,0 +1,71 @@
+// Illuminance as a colour: from blue to yellow, equal steps for equal ratios.
+
+import * as THREE from 'three';
+
+// Blue over green to yellow, of rising lightness, so that a grey print of it can be read too. [sRGB, 0 to 255]
+const anchors = [[38, 16, 82], [46, 62, 140], [32, 108, 142], [30, 152, 138], [74, 194, 109], [166, 219, 53],
+    [253, 231, 37]];
+const steps = 256;
+const rec709 = [0.2126, 0.7152, 0.0722];
+
+/** Illuminance of linear RGB irradiance. [lx] */
+export const luxOf = (rgb) => rgb.reduce((sum, value, channel) => sum + value * rec709[channel], 0);
+
+/** The colour at a place of the scale, 0 to 1. [sRGB, 0 to 255] */
+export function colourAt(place) {
+    const at = Math.min(Math.max(place, 0), 1) * (anchors.length - 1);
+    const low = Math.min(Math.floor(at), anchors.length - 2);
+    return anchors[low].map((value, channel) =>
+        Math.round(value + (at - low) * (anchors[low + 1][channel] - value)));
+}
+
+/** From which illuminance to which the scale goes: the light of 2 to 99.5 % of the lit texels, in whole decades. */
+export class Scale {
+    constructor(maps) {
+        const lit = maps.flatMap((map) => map.sampleOfLux()).filter((lux) => lux > 0).sort((a, b) => a - b);
+        const part = (share) => lit[Math.floor(share * (lit.length - 1))] ?? 1;
+        this.high = roundUp(part(0.995));
+        this.low = Math.min(Math.max(roundUp(part(0.02)) / 2, this.high / 1e4), this.high / 10);
+    }
+
+    placeOf(lux) {
+        return Math.log(Math.max(lux, 1e-9) / this.low) / Math.log(this.high / this.low);
+    }
+
+    luxAt(place) {
+        return this.low * (this.high / this.low) ** place;
+    }
+
+    /** Numbers of the form 1, 2 and 5 times a power of ten that lie on it. */
+    ticks() {
+        const found = [];
+        for (let decade = Math.floor(Math.log10(this.low)); decade <= Math.log10(this.high); ++decade)
+            for (const digit of [1, 2, 5]) {
+                const lux = digit * 10 ** decade;
+                if (lux >= this.low * 0.999 && lux <= this.high * 1.001) found.push(lux);
+            }
+        return found;
+    }
+
+    texture() {
+        const texels = new Uint8Array(4 * steps);
+        for (let step = 0; step < steps; ++step) texels.set([...colourAt(step / (steps - 1)), 255], 4 * step);
+        const texture = new THREE.DataTexture(texels, steps, 1);
+        texture.colorSpace = THREE.SRGBColorSpace;
+        texture.magFilter = texture.minFilter = THREE.LinearFilter;
+        texture.needsUpdate = true;
+        return texture;
+    }
+}
+
+/** A number of lux as people write it. */
+export function luxText(lux) {
+    if (!(lux > 0)) return '0 lx';
+    return `${Number(lux.toPrecision(lux < 1000 ? 3 : 4)).toLocaleString('en')} lx`;
+}
+
+// The next of 1, 2 and 5 times a power of ten.
+function roundUp(lux) {
+    const decade = 10 ** Math.floor(Math.log10(lux));
+    return decade * ([1, 2, 5].find((digit) => digit * decade >= lux * 0.999) ?? 10);
+}

@@ -1,0 +1,47 @@
+// The legend of false colours, with a mark at what is pointed at.
+
+import { colourAt, luxText } from './colours.js';
+
+const bar = { top: 8, height: 14 }, gap = 6; // [CSS pixels]
+
+export class Legend {
+    constructor(canvas, scale) {
+        this.canvas = canvas;
+        this.scale = scale;
+        new ResizeObserver(() => this.draw()).observe(canvas);
+    }
+
+    /** marks: illuminances to point at. [lx] */
+    draw(marks = []) {
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        const ratio = window.devicePixelRatio;
+        this.canvas.width = width * ratio;
+        this.canvas.height = height * ratio;
+        const context = this.canvas.getContext('2d');
+        context.scale(ratio, ratio);
+        for (let x = 0; x < width; ++x) {
+            context.fillStyle = `rgb(${colourAt(x / width)})`;
+            context.fillRect(x, bar.top, 1, bar.height);
+        }
+        context.fillStyle = getComputedStyle(this.canvas).color;
+        context.font = '12px system-ui, sans-serif';
+        let free = 0; // where the next number may begin
+        for (const lux of this.scale.ticks()) {
+            const x = this.scale.placeOf(lux) * width, text = luxText(lux), long = context.measureText(text).width;
+            const left = Math.min(Math.max(x - long / 2, 0), width - long);
+            context.fillRect(x, bar.top + bar.height, 1, 4);
+            if (left < free) continue;
+            context.fillText(text, left, height - 4);
+            free = left + long + gap;
+        }
+        for (const lux of marks) this.mark(context, Math.min(Math.max(this.scale.placeOf(lux), 0), 1) * width);
+    }
+
+    mark(context, x) {
+        context.beginPath();
+        context.moveTo(x - 5, 0);
+        context.lineTo(x + 5, 0);
+        context.lineTo(x, bar.top + 4);
+        context.fill();
+    }
+}

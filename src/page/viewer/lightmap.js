@@ -1,0 +1,64 @@
+// The lightmap of a bake, for the eye and for reading its numbers.
+
+import * as THREE from 'three';
+import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
+import { luxOf } from './colours.js';
+
+const textureCoordinates = 1; // TEXCOORD_1
+const mostSamples = 40000;
+
+// Of a shared exponent, as EXT_texture_shared_exponent has it.
+const mantissaBits = 9;
+const exponentBias = 15;
+
+/** The three numbers of a texel of shared exponent. */
+function unpacked(word) {
+    const scale = 2 ** ((word >>> 27) - exponentBias - mantissaBits);
+    return [word & 511, (word >>> 9) & 511, (word >>> 18) & 511].map((mantissa) => mantissa * scale);
+}
+
+export class Lightmap {
+    /** unit: irradiance of a texel of 1. [lx] */
+    constructor(texture, unit) {
+        this.unit = unit;
+        this.texture = texture;
+        this.width = texture.image.width;
+        this.height = texture.image.height;
+        this.words = texture.image.data;
+    }
+
+    /** Irradiance of a texel, in linear RGB. [lx] */
+    at(x, y) {
+        const column = Math.min(Math.max(x, 0), this.width - 1), row = Math.min(Math.max(y, 0), this.height - 1);
+        return unpacked(this.words[row * this.width + column]).map((value) => value * this.unit);
+    }
+
+    /** Irradiance at a place, as the device mixes it from four texels. (0, 0): top left. [lx] */
+    sample(u, v) {
+        const x = u * this.width - 0.5, y = v * this.height - 0.5;
+        const left = Math.floor(x), top = Math.floor(y);
+        const corners = [[0, 0], [1, 0], [0, 1], [1, 1]];
+        return corners.reduce((sum, [right, down]) => {
+            const weight = (right ? x - left : 1 - x + left) * (down ? y - top : 1 - y + top);
+            return this.at(left + right, top + down).map((value, channel) => sum[channel] + weight * value);
+        }, [0, 0, 0]);
+    }
+
+    /** Of texels spread over the whole map. [lx] */
+    sampleOfLux() {
+        const step = Math.max(1, Math.floor(this.words.length / mostSamples));
+        const found = [];
+        for (let i = 0; i < this.words.length; i += step) found.push(this.unit * luxOf(unpacked(this.words[i])));
+        return found;
+    }
+}
+
+/** From the bytes of a KTX2 file with shared exponents. unit: irradiance of a texel of 1. [lx] */
+export async function readLightmap(renderer, bytes, unit) {
+    const loader = new KTX2Loader().detectSupport(renderer);
+    const texture = await new Promise((done, failed) => loader.parse(bytes, done, failed));
+    texture.channel = textureCoordinates;
+    texture.minFilter = texture.magFilter = THREE.LinearFilter;
+    loader.dispose();
+    return new Lightmap(texture, unit);
+}

@@ -1,0 +1,158 @@
+// A page about one bake or two: the scene, its lightmap, errors, times and settings.
+
+import * as THREE from 'three';
+import { packedBakes, readBakes } from './bakes.js';
+import { Scale, colourAt, luxOf, luxText } from './colours.js';
+import { convergence, element, lineColour, summary, table, timesTable } from './facts.js';
+import { Legend } from './legend.js';
+import { Stage } from './stage.js';
+import { walk } from './walk.js';
+
+const byId = (id) => document.getElementById(id);
+
+function say(trouble) {
+    byId('trouble').textContent = trouble;
+    byId('trouble').hidden = false;
+}
+
+// A section with a part for each bake, under its name where there are two. None where no bake has a part.
+function section(title, bakes, partOf) {
+    const parts = bakes.map((bake) => {
+        const part = partOf(bake);
+        return part && element('div', {}, ...(bakes.length > 1 ? [element('h3', {}, bake.name)] : []), part);
+    }).filter(Boolean);
+    return parts.length === 0 ? ''
+        : element('section', {}, element('h2', {}, title), element('div', { class: 'sides' }, ...parts));
+}
+
+function warnings({ report }) {
+    const sentences = [...report.warnings ?? [], ...report.notes ?? []];
+    return sentences.length > 0 &&
+        element('ul', { class: 'warnings' }, ...sentences.map((sentence) => element('li', {}, sentence)));
+}
+
+const folded = (title, content) => element('details', {}, element('summary', {}, title), content);
+
+function settings({ report: { settings, lights, solver, sizes, lumel, date, scene, device, libraries } }) {
+    return table({ settings, lights: lights ?? {}, solver: solver ?? {}, sizes, scene, device, lumel, date: date ?? '',
+        libraries });
+}
+
+function errorsOf(bakes) {
+    const curve = convergence(bakes);
+    if (!curve) return '';
+    const names = bakes.length > 1 ? bakes.map((bake, i) =>
+        element('span', { style: `color: ${lineColour(i)}` }, `— ${bake.name} `)) : [];
+    return element('section', {}, element('h2', {}, 'Stated error'), element('p', {}, ...names), curve);
+}
+
+function addFacts(bakes) {
+    document.querySelector('main').append(
+        section('Warnings and notes', bakes, warnings),
+        errorsOf(bakes),
+        section('Times', bakes, ({ report }) => timesTable(report)),
+        section('Result', bakes, ({ report: { solution: { convergence: _, ...solution }, memory } }) =>
+            table({ ...solution, ...memory })),
+        section('Settings', bakes, (bake) => folded('All settings', settings(bake))));
+}
+
+// The lightmap in false colours; pointing at it reads the light.
+function atlas({ map }, scale, read) {
+    const canvas = element('canvas', { width: map.width, height: map.height, 'aria-label': 'the lightmap' });
+    const context = canvas.getContext('2d');
+    const picture = context.createImageData(map.width, map.height);
+    for (let y = 0; y < map.height; ++y)
+        for (let x = 0; x < map.width; ++x) {
+            const lux = luxOf(map.at(x, y));
+            const colour = lux > 0 ? colourAt(scale.placeOf(lux)) : [0, 0, 0];
+            picture.data.set([...colour, 255], 4 * (y * map.width + x));
+        }
+    context.putImageData(picture, 0, 0);
+    canvas.addEventListener('pointermove', ({ offsetX, offsetY }) =>
+        read(offsetX / canvas.clientWidth, offsetY / canvas.clientHeight));
+    return canvas;
+}
+
+function addAtlases(bakes, scale, legend) {
+    byId('scene').after(section('Lightmap', bakes, (bake) => {
+        const reading = element('output', {}, 'Point at it to read its light.');
+        const canvas = atlas(bake, scale, (u, v) => {
+            const x = Math.min(Math.floor(u * bake.map.width), bake.map.width - 1);
+            const y = Math.min(Math.floor(v * bake.map.height), bake.map.height - 1);
+            const lux = luxOf(bake.map.at(x, y));
+            reading.textContent = `${luxText(lux)} at column ${x}, row ${y}`;
+            legend.draw([lux]);
+        });
+        return element('div', { class: 'atlas' }, canvas, element('p', {}, reading));
+    }));
+}
+
+// Writes what is under the mouse below the scene.
+function readUnderMouse(stage, legend) {
+    const reading = byId('reading');
+    stage.canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
+        if (buttons !== 0) return;
+        const found = stage.lookUp(offsetX, offsetY);
+        if (!found) {
+            reading.textContent = 'No baked surface is there.';
+            reading.removeAttribute('data-lux');
+            legend.draw();
+            return;
+        }
+        const lux = luxOf(found.light), { x, y, z } = found.place;
+        const which = stage.bakes.length > 1 ? `, ${found.bake.name}` : '';
+        reading.textContent = `${luxText(lux)} at ${x.toFixed(2)}, ${y.toFixed(2)}, ${z.toFixed(2)} m${which}`;
+        Object.assign(reading.dataset, { lux, u: found.uv.x, v: found.uv.y, bake: found.bake.name });
+        legend.draw([lux]);
+    });
+}
+
+function addControls(stage) {
+    for (const input of document.querySelectorAll('[name=mode]'))
+        input.addEventListener('change', () => stage.setMode(input.value));
+    const exposure = byId('exposure');
+    exposure.addEventListener('input', () => {
+        stage.stops = Number(exposure.value);
+        document.querySelector('[for=exposure]').textContent =
+            `${stage.stops < 0 ? '−' : stage.stops > 0 ? '+' : '±'}${Math.abs(stage.stops).toFixed(1)} EV`;
+        stage.draw();
+    });
+    byId('home').addEventListener('click', () => stage.lookAsAtFirst());
+    if (stage.bakes.length < 2) return;
+    const slider = byId('slider');
+    slider.hidden = false;
+    slider.addEventListener('input', () => {
+        stage.split = Number(slider.value);
+        stage.draw();
+    });
+    byId('names').append(...stage.bakes.map(({ name }) => element('span', {}, name)));
+}
+
+async function open() {
+    const packed = packedBakes();
+    document.title = packed.map(({ report }) => report.scene.file).filter((file, i, all) => all.indexOf(file) === i)
+        .join(' and ');
+    document.querySelector('h1').textContent = document.title;
+    byId('facts').append(...packed.flatMap(({ name, report }) =>
+        [packed.length > 1 ? `${name}: ` : '', summary(report), element('br')]));
+    addFacts(packed);
+
+    const stage = new Stage(document.querySelector('#stage canvas'));
+    const bakes = await readBakes(stage.renderer, packed);
+    const scale = new Scale(bakes.map((bake) => bake.map));
+    stage.show(bakes, scale);
+    const legend = new Legend(document.querySelector('#legend canvas'), scale);
+    const size = new THREE.Box3().setFromObject(bakes[0].scene).getSize(new THREE.Vector3()).length();
+    walk(stage.canvas, stage.camera, size, () => stage.draw());
+    addControls(stage);
+    readUnderMouse(stage, legend);
+    addAtlases(bakes, scale, legend);
+    stage.drawNow();
+    document.documentElement.dataset.state = 'ready';
+}
+
+open().catch((error) => {
+    say(`The scene cannot be shown: ${error.message}.`);
+    document.documentElement.dataset.state = 'failed';
+    throw error;
+});

@@ -1,0 +1,116 @@
+// The scene, drawn by WebGL: lit, in white paint or in false colours; two bakes beside each other.
+
+import * as THREE from 'three';
+import { useToneCurve } from '../../../examples/threejs/lightmap.js';
+
+// What a fragment shows in place of surface colour × light.
+const shownInstead = {
+    light: 'outgoingLight = lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;',
+    lux: `float lux = lightMapIntensity * dot( lightMapTexel.rgb, vec3( 0.2126, 0.7152, 0.0722 ) );
+        float place = log( max( lux, 1e-9 ) / luxRange.x ) / log( luxRange.y / luxRange.x );
+        outgoingLight = texture2D( luxColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;`,
+};
+
+// A material that shows the light of a surface alone: it keeps what is cut out and which side is drawn.
+function lightAlone(material, mode, uniforms) {
+    const shown = new THREE.MeshBasicMaterial({
+        map: material.map, alphaTest: material.alphaTest, transparent: material.transparent, side: material.side,
+        opacity: material.opacity, lightMap: material.lightMap,
+        lightMapIntensity: material.lightMapIntensity, toneMapped: mode !== 'lux',
+    });
+    shown.onBeforeCompile = (shader) => {
+        Object.assign(shader.uniforms, uniforms);
+        shader.fragmentShader = 'uniform vec2 luxRange;\nuniform sampler2D luxColours;\n' +
+            shader.fragmentShader.replace('#include <opaque_fragment>',
+                `${shownInstead[mode]}\n#include <opaque_fragment>`);
+    };
+    shown.customProgramCacheKey = () => mode;
+    return shown;
+}
+
+export class Stage {
+    constructor(canvas) {
+        this.canvas = canvas;
+        this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
+        useToneCurve(this.renderer);
+        this.renderer.setScissorTest(true);
+        this.caster = new THREE.Raycaster();
+        this.split = 0.5; // where the first bake ends, as a part of the width
+        this.stops = 0;
+        this.waiting = false;
+    }
+
+    /** Shows bakes as readBakes() returns them. scale: of false colours. */
+    show(bakes, scale) {
+        this.bakes = bakes;
+        const uniforms = {
+            luxRange: { value: new THREE.Vector2(scale.low, scale.high) },
+            luxColours: { value: scale.texture() },
+        };
+        for (const bake of bakes)
+            bake.materials = bake.lit.map(({ material }) => ({
+                lit: material,
+                light: lightAlone(material, 'light', uniforms),
+                lux: lightAlone(material, 'lux', uniforms),
+            }));
+        this.camera = new THREE.PerspectiveCamera();
+        this.lookAsAtFirst();
+        new ResizeObserver(() => this.resize()).observe(this.canvas);
+        this.resize();
+    }
+
+    lookAsAtFirst() {
+        this.camera.copy(this.bakes[0].camera);
+        this.resize();
+    }
+
+    setMode(mode) {
+        for (const bake of this.bakes) bake.lit.forEach((object, i) => { object.material = bake.materials[i][mode]; });
+        this.draw();
+    }
+
+    /** Draws before the next frame of the browser. */
+    draw() {
+        if (this.waiting) return;
+        this.waiting = true;
+        requestAnimationFrame(() => {
+            this.waiting = false;
+            this.drawNow();
+        });
+    }
+
+    resize() {
+        const { clientWidth, clientHeight } = this.canvas;
+        if (clientWidth === 0) return;
+        this.renderer.setPixelRatio(window.devicePixelRatio);
+        this.renderer.setSize(clientWidth, clientHeight, false);
+        this.camera.aspect = clientWidth / clientHeight;
+        this.camera.updateProjectionMatrix();
+        this.draw();
+    }
+
+    /** Draws the bakes, each in its part of the width. All have the exposure of the first. */
+    drawNow() {
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        // White paint that receives H lx sends H / π, and shows as exposure × H.
+        this.renderer.toneMappingExposure = Math.PI * this.bakes[0].exposure * 2 ** this.stops;
+        const seam = this.bakes.length > 1 ? Math.round(this.split * width) : width;
+        const parts = [[0, seam], [seam, width - seam]];
+        this.bakes.forEach((bake, i) => {
+            const [left, across] = parts[i];
+            if (across <= 0) return;
+            this.renderer.setScissor(left, 0, across, height);
+            this.renderer.render(bake.scene, this.camera);
+        });
+    }
+
+    /** What is at a place of the canvas, from its top left corner. [CSS pixels] Nothing where no light is known. */
+    lookUp(x, y) {
+        const { clientWidth: width, clientHeight: height } = this.canvas;
+        const bake = this.bakes[this.bakes.length > 1 && x > this.split * width ? 1 : 0];
+        this.caster.setFromCamera(new THREE.Vector2(2 * x / width - 1, 1 - 2 * y / height), this.camera);
+        const hit = this.caster.intersectObjects(bake.lit, false).find((met) => met.uv1);
+        if (!hit) return null;
+        return { bake, place: hit.point, uv: hit.uv1, light: bake.map.sample(hit.uv1.x, hit.uv1.y) };
+    }
+}

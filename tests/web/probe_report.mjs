@@ -1,0 +1,86 @@
+// Opens a page of lumel report in a browser and prints what is found there, as JSON:
+//     node probe_report.mjs page.html --browser-module FILE [--points X,Y …]
+// points: of the scene's canvas, as parts of its width and height.
+// Exits with 0, or with 1 and a sentence.
+
+import { readFile } from 'node:fs/promises';
+import { pathToFileURL } from 'node:url';
+import { parseArgs } from 'node:util';
+
+const { values: options, positionals: [page] } = parseArgs({
+    allowPositionals: true,
+    options: { 'browser-module': { type: 'string' }, points: { type: 'string', multiple: true, default: [] } },
+});
+const { visit } = await import(pathToFileURL(options['browser-module']));
+
+// Runs in the page, before anything else of it.
+async function probe(points) {
+    const errors = [];
+    for (const kind of ['error', 'warn']) {
+        const before = console[kind].bind(console);
+        console[kind] = (...words) => { errors.push(`${kind}: ${words.join(' ')}`); before(...words); };
+    }
+    addEventListener('error', ({ message }) => errors.push(message));
+    addEventListener('unhandledrejection', ({ reason }) => errors.push(String(reason)));
+    const outside = [];
+    new PerformanceObserver((list) => outside.push(...list.getEntries().map(({ name }) => name)
+        .filter((name) => !name.startsWith('data:')))).observe({ type: 'resource' });
+
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    const root = document.documentElement;
+    while (!root.dataset.state) await new Promise((done) => setTimeout(done, 50));
+
+    const canvas = document.querySelector('#stage canvas'), reading = document.getElementById('reading');
+    // The light that the page reads at a point.
+    function readAt([x, y]) {
+        const box = canvas.getBoundingClientRect();
+        canvas.dispatchEvent(new PointerEvent('pointermove',
+            { clientX: box.left + x * box.width, clientY: box.top + y * box.height }));
+        const { lux, u, v, bake } = reading.dataset;
+        return { text: reading.textContent, lux: Number(lux), u: Number(u), v: Number(v), bake };
+    }
+    // The colours that are shown at all points.
+    async function shown() {
+        await frame();
+        const copy = document.createElement('canvas');
+        const context = copy.getContext('2d');
+        [copy.width, copy.height] = [canvas.width, canvas.height];
+        context.drawImage(canvas, 0, 0);
+        return points.map(([x, y]) =>
+            [...context.getImageData(Math.floor(x * copy.width), Math.floor(y * copy.height), 1, 1).data]);
+    }
+    async function choose(mode) {
+        document.querySelector(`[name=mode][value=${mode}]`).click();
+        return shown();
+    }
+    async function slide(place) {
+        const slider = document.getElementById('slider');
+        slider.value = place;
+        slider.dispatchEvent(new Event('input'));
+        return { colours: await shown(), readings: points.map(readAt) };
+    }
+
+    const found = { state: root.dataset.state, title: document.title, facts: document.getElementById('facts').textContent,
+        sections: [...document.querySelectorAll('h2')].map((heading) => heading.textContent) };
+    if (root.dataset.state === 'ready') {
+        found.readings = points.map(readAt);
+        for (const mode of ['lit', 'light', 'lux']) found[mode] = await choose(mode);
+        const slider = document.getElementById('slider');
+        if (!slider.hidden) found.slid = [await slide(0), await slide(1)];
+    }
+    await fetch('/found', { method: 'POST', body: JSON.stringify({ ...found, errors, outside }) });
+}
+
+const points = options.points.map((point) => point.split(',').map(Number));
+const html = (await readFile(page, 'utf8')).replace('<style>',
+    () => `<script>(${probe})(${JSON.stringify(points)})</script><style>`);
+try {
+    const { body } = await visit('chromium', '', async (path) => {
+        if (path !== '/') throw new Error(`the page wants ${path}`);
+        return { type: 'text/html; charset=utf-8', content: html };
+    }, '/found');
+    console.log(body.toString());
+} catch (error) {
+    console.error(`probe_report.mjs: ${error.message}`);
+    process.exitCode = 1;
+}
