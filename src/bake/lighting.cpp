@@ -19,7 +19,8 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                               const SolverOptions& options, std::optional<Lumels> changed,
                               std::span<const glm::vec3> known, Stages& stages,
                               const LobeParticles* particles, Parts parts = Parts::all,
-                              Checkpoint* checkpoint = nullptr)
+                              Checkpoint* checkpoint = nullptr,
+                              std::span<const glm::vec3> first_emission = {})
 {
     const Prepared& prepared = setting.prepared;
     const HostScene host{prepared.scene, prepared.rays, prepared.atlas};
@@ -32,6 +33,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
                                     .near = setting.near,
                                     .known = known,
                                     .particles = particles,
+                                    .first_emission = first_emission,
                                     .host = &host,
                                     .parts = parts},
                                    options);
@@ -68,8 +70,11 @@ std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& 
     SolverOptions onward = options.solver;
     if (auto* directions = std::get_if<DirectionsOptions>(&onward.method))
         directions->sky = false;
-    return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages,
-               particles);
+    if (!particles)
+        return run(device, setting, onward, shining(dark(lumels), first->irradiance), {}, stages,
+                   nullptr);
+    return run(device, setting, onward, shining(dark(lumels), first->irradiance, Lobes::carried),
+               first->irradiance, stages, particles, Parts::all, nullptr, emission_of(lumels));
 }
 
 }  // namespace

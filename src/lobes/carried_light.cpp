@@ -21,9 +21,11 @@ CarriedLight::Slot::Slot(const gpu::Device& device, std::size_t count)
 }
 
 CarriedLight::CarriedLight(const gpu::Device& device, const LobeParticles* particles,
-                           std::span<const glm::vec3> direct, std::size_t lumel_count)
+                           std::span<const glm::vec3> direct, std::span<const glm::vec3> emission,
+                           std::size_t lumel_count)
     : particles_(particles),
       direct_(direct.begin(), direct.end()),
+      emission_(emission.begin(), emission.end()),
       count_(particles ? lumel_count : 0),
       slots_{Slot(device, count_), Slot(device, count_)},
       irradiance_(device, count_),
@@ -47,8 +49,11 @@ void CarriedLight::restart()
 
 void CarriedLight::find(std::size_t count, std::uint32_t seed)
 {
+    leaving_ = exitance_;
+    for (std::size_t i = 0; i < emission_.size(); ++i)
+        leaving_[i] += emission_[i];
     found_ = std::async(std::launch::async, [this, count, seed] {
-        return particles_->carry(exitance_, direct_, count, seed);
+        return particles_->carry(leaving_, direct_, count, seed);
     });
 }
 

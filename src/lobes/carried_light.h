@@ -17,9 +17,10 @@ namespace lumel {
 class CarriedLight {
 public:
     /// particles: must outlive this; null: none are carried. direct: as LobeParticles::carry takes
-    /// it.
+    /// it. emission: [N] [lm/m²] that particles leave beside the exitance on the device, or empty.
     CarriedLight(const gpu::Device& device, const LobeParticles* particles,
-                 std::span<const glm::vec3> direct, std::size_t lumel_count);
+                 std::span<const glm::vec3> direct, std::span<const glm::vec3> emission,
+                 std::size_t lumel_count);
     static std::uint64_t device_bytes(std::size_t lumel_count);
 
     /// Records the way of an iteration's light to the device, and begins to find that of the next.
@@ -50,12 +51,13 @@ private:
     void find(std::size_t count, std::uint32_t seed);
 
     const LobeParticles* particles_;
-    std::vector<glm::vec3> direct_;
+    std::vector<glm::vec3> direct_, emission_;
     std::size_t count_;  ///< N, 0 without particles
     std::array<Slot, kSlots> slots_;
     gpu::Array<glm::vec3> irradiance_, reflected_;
     std::uint64_t iteration_ = 0;
-    std::vector<glm::vec3> exitance_;            ///< that particles are about to start from
+    std::vector<glm::vec3> exitance_;            ///< of the device, the newest that is here
+    std::vector<glm::vec3> leaving_;             ///< that particles start from
     std::future<LobeParticles::Carried> found_;  ///< after all that it reads: it waits when it ends
 };
 

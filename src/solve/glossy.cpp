@@ -73,7 +73,8 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
                                        const Lumels& lumels, const NearField& near,
                                        const GlossyOptions& options,
                                        std::span<const glm::vec3> known,
-                                       const LobeParticles* particles)
+                                       const LobeParticles* particles,
+                                       std::span<const glm::vec3> first_emission)
     : options_(options),
       count_(std::uint32_t(lumels.lumels.size())),
       batch_(std::uint32_t(options.views.batch)),
@@ -82,7 +83,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       near_radius_(paper_ ? 0.0f : near.radius),
       reflecting_area_(reflecting_area(lumels)),
       emitted_power_(emitted_power(lumels, emission_of(lumels))),
-      known_sum_(irradiance_sum(known)),
+      known_sum_(first_emission.empty() ? irradiance_sum(known) : 0.0),
       device_(&device),
       world_(&world),
       lumels_(&lumels),
@@ -101,7 +102,7 @@ GlossyIllumination::GlossyIllumination(const gpu::Device& device, const World& w
       diffuse_(device, count_),
       near_(device, count_),
       last_(device, particles_ ? 1 : std::size_t(batch_) * count_),
-      carried_(device, particles_, known, count_),
+      carried_(device, particles_, known, first_emission, count_),
       sums_(device, 2 * count_),
       absorbed_(device, 2 * count_),
       irradiance_(device, count_),

@@ -34,10 +34,12 @@ class GlossyIllumination final : public Solver {
 public:
     /// known: [N] [lx] of sky and lamps, or empty. particles: carry what lobes send on, that of
     /// `known` too, instead of the shooters; not with Scheme::paper. Must outlive this.
+    /// first_emission: as SolverInputs has it; particles leave it too.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
-                       const LobeParticles* particles = nullptr);
+                       const LobeParticles* particles = nullptr,
+                       std::span<const glm::vec3> first_emission = {});
 
     /// Bytes on the device at most, but for an eye, on one whose images may be as large as is
     /// wanted.

@@ -350,7 +350,7 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
         return std::make_unique<Method>(in.device, *in.host, in.lumels, own, options, in.parts);
     else if constexpr (std::is_same_v<Method, GlossyIllumination>)
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
-                                        in.particles);
+                                        in.particles, in.first_emission);
     else if constexpr (std::is_same_v<Method, GlobalDirections>)
         return make_directions(in, own, options.target_error);
     else if constexpr (std::is_same_v<Method, GatherRadiosity>)

@@ -55,6 +55,10 @@ struct SolverInputs {
     /// is a part of both, but the noise of what is known is not in it.
     std::span<const glm::vec3> known = {};
     const LobeParticles* particles = nullptr;  ///< see GlossyIllumination
+    /// E [N] [lm/m²] of surfaces whose direct light is a part of `known`, for indirect light alone:
+    /// the lumels' own emission is then what they reflect diffusely of `known`, and lobes reflect
+    /// the rest. Or empty.
+    std::span<const glm::vec3> first_emission = {};
     /// For links, matrix and directions of Scheme::phased; only while they are made.
     const HostScene* host = nullptr;
     Parts parts = Parts::all;  ///< what is returned by methods that find lights or finds_emitted()

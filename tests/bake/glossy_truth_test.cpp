@@ -116,6 +116,45 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"PlateUnderSkySunAndLamps", plate_and_wall, 48, 1024, 4096}),
     [](const auto& test) { return test.param.name; });
 
+// What lobes reflect of lamps, and of surfaces that shine, is indirect light too.
+TEST(IndirectLight, OfLampsSkyAndAShiningSurfaceIsWhatPathsFind)
+{
+    Scene scene = plate_and_wall();
+    support::add_quad(scene, {.corner = {1.5f, 1.5f, 1.5f},
+                              .edge_u = {0.4f, 0.0f, 0.0f},
+                              .edge_v = {0.0f, 0.0f, 0.4f},
+                              .albedo = glm::vec3(0.0f),
+                              .emission = glm::vec3(40.0f)});
+    const gpu::Device device;
+    const ProgressFunction progress;
+    Stages stages(progress);
+    BakeOptions options;
+    options.atlas.size = 32;
+    options.parts = Parts::indirect;
+    options.solver = {.method = GlossyOptions{}, .max_shots = 8192, .target_error = 0.0};
+    const Setting setting(std::move(scene), device, options, stages);
+    const std::vector<glm::vec3> found = solve_light(device, setting, options, stages)->irradiance;
+    const Prepared& world = setting.prepared;
+    const auto truth = [&](std::uint32_t seed) {
+        return reference_irradiance(
+            world.scene, world.rays, world.lumels,
+            {.samples_per_lumel = 2048, .seed = seed, .parts = Parts::indirect});
+    };
+    const std::vector<glm::vec3> first = truth(99), second = truth(100);
+    const double error = support::error_alone(found, first, second);
+    RecordProperty("error", std::to_string(error));
+    EXPECT_LE(error, 0.06);  // noise of both
+    for (const std::uint32_t surface : {0, 1}) {
+        const double bias =
+            support::lumel_error(world.lumels, found, support::mean_of(first, second),
+                                 [&](const Lumel& lumel) { return lumel.instance == surface; })
+                .bias;
+        RecordProperty("bias_" + std::to_string(surface), std::to_string(bias));
+        EXPECT_LE(std::abs(bias), 0.01) << "surface " << surface;
+    }
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 /// The plate and the wall from an eye that sees the sun, the lamps and the sky in the plate.
 class PictureOfHighlights : public testing::Test {
 protected:
