@@ -1,7 +1,7 @@
 // What edits cost of a scene that is kept lit over links.
 
 #include <algorithm>
-#include <functional>
+#include <cmath>
 
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -64,7 +64,7 @@ Moved make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t
                        shifted(live.scene(), edit.name,
                                glm::distance(rays.still().low(), rays.still().high()), n));
     else {
-        const Box& box = rays.box(std::uint32_t(thing));
+        const ThingBox& box = rays.box(std::uint32_t(thing));
         const float size = std::max(box.high.x - box.low.x, box.high.z - box.low.z);
         const glm::mat4 shift = glm::translate(
             glm::mat4(1.0f), glm::vec3(kStep * size * float(n % 2 + 1), 0.0f, kStep * size * wave));
@@ -75,6 +75,7 @@ Moved make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t
 
 struct Cost {
     double edit, good, rest;  ///< [ms] of the edit; with sweeps until good, and until at rest
+    double weigh;             ///< [ms] to make the weights of what is shown
     int good_sweeps, rest_sweeps;
     double links, direct;  ///< share that is found again
 };
@@ -90,10 +91,59 @@ void finish(LiveLinks& live, Stopwatch& watch, Cost& cost)
     cost.good = 1e3 * watch.cpu;
     cost.good_sweeps = state.sweeps;
     watch.start();
-    state = live.settle();
+    while (!state.at_rest && !state.weighing)
+        state = live.advance(0.0);
     watch.stop();
     cost.rest = 1e3 * watch.cpu;
     cost.rest_sweeps = state.sweeps;
+    Stopwatch own;
+    own.start();
+    live.settle();
+    own.stop();
+    cost.weigh = 1e3 * own.cpu;
+}
+
+/// What it costs to show the light, with the filter's weights as they are [ms].
+double time_shown(const LiveLinks& live)
+{
+    Stopwatch watch;
+    watch.start();
+    for (int n = 0; n < kTimes; ++n)
+        live.shown();
+    watch.stop();
+    return 1e3 * watch.cpu / kTimes;
+}
+
+/// RMSE as a part of the mean light.
+double error_of(const std::vector<glm::vec3>& light, const std::vector<glm::vec3>& truth)
+{
+    double squares = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const glm::dvec3 off(light[i] - truth[i]);
+        squares += glm::dot(off, off) / 3.0;
+        mean += double(truth[i].r + truth[i].g + truth[i].b) / 3.0;
+    }
+    return std::sqrt(squares * double(light.size())) / mean;
+}
+
+/// The error of the solution and of what is shown, against the mean of some of 256 rays each, whose
+/// direct light is the same.
+void compare(const LiveLinks& live, const LumelScene& laid_out, LiveLinksOptions options,
+             std::uint32_t seeds)
+{
+    const std::vector<glm::vec3> solved = live.irradiance(), shown = live.shown();
+    std::vector<glm::vec3> truth(solved.size());
+    options.rays = 256;
+    options.filter = false;
+    for (options.seed = 1; options.seed <= seeds; ++options.seed) {
+        LiveLinks one(laid_out, options);
+        one.settle();
+        const std::vector<glm::vec3> light = one.irradiance();
+        for (std::size_t i = 0; i < truth.size(); ++i)
+            truth[i] += light[i] / float(seeds);
+    }
+    fmt::print("error of the solution {:.2f} %, of what is shown {:.2f} %\n",
+               100.0 * error_of(solved, truth), 100.0 * error_of(shown, truth));
 }
 
 Cost median(std::vector<Cost> costs)
@@ -105,8 +155,8 @@ Cost median(std::vector<Cost> costs)
 
 void print(const std::string& what, const Cost& cost)
 {
-    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>10.2f} {:>11.1f}\n", what,
-               cost.edit, cost.good, cost.good_sweeps, cost.rest, cost.rest_sweeps,
+    fmt::print("{:<24} {:>9.1f} {:>9.1f} {:>7} {:>9.1f} {:>7} {:>9.1f} {:>10.2f} {:>11.1f}\n", what,
+               cost.edit, cost.good, cost.good_sweeps, cost.rest, cost.rest_sweeps, cost.weigh,
                100.0 * cost.links, 100.0 * cost.direct);
     std::fflush(stdout);
 }
@@ -133,9 +183,13 @@ void time_edits(const Settings& settings)
     finish(live, watch, first);
     fmt::print("{} at {}: {} lumels, {} rays each, {:.0f} MB\n", settings.scene, settings.size,
                live.lumels().lumels.size(), live.links().rays(), 1e-6 * double(live.bytes()));
-    fmt::print("{:<24} {:>9} {:>9} {:>7} {:>9} {:>7} {:>10} {:>11}\n", "processor time [ms] of",
-               "edit", "to 1 %", "sweeps", "to rest", "sweeps", "links [%]", "direct [%]");
+    fmt::print("{:<24} {:>9} {:>9} {:>7} {:>9} {:>7} {:>9} {:>10} {:>11}\n",
+               "processor time [ms] of", "edit", "to 1 %", "sweeps", "to rest", "sweeps", "weights",
+               "links [%]", "direct [%]");
     print("all anew", first);
+    fmt::print("{:<24} {:>9.1f}\n", "show", time_shown(live));
+    if (settings.edit_truth > 0)
+        compare(live, laid_out, options, settings.edit_truth);
     const LumelScene& scene = laid_out;
     std::vector<std::vector<std::uint32_t>> instances;
     for (const std::string& name : options.things)

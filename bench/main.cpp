@@ -50,6 +50,8 @@ void add_other_modes(CLI::App& app, Settings& settings)
         ->delimiter(',');
     app.add_option("--edit-rays", settings.edit_rays, "rays of a lumel in such a scene")
         ->capture_default_str();
+    app.add_option("--edit-truth", settings.edit_truth,
+                   "solutions of 256 rays whose mean such a scene's light is compared with");
 }
 
 void add_references(CLI::App& app, Settings& settings)

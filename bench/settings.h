@@ -45,7 +45,9 @@ struct Settings {
     std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
     std::vector<std::string> edits;  ///< to time instead, of a scene that is kept lit: dim:lamp
     std::uint32_t edit_rays = 64;    ///< of a lumel of such a scene
-    GivenMethod given;               ///< the method and its options
+    /// Solutions of 256 rays whose mean its light is compared with; 0: not.
+    std::uint32_t edit_truth = 0;
+    GivenMethod given;  ///< the method and its options
     std::string device;
     float near_radius = 0.0f;  ///< 0: as suits the solver
 };

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "core/error.h"
+
 namespace lumel {
 namespace {
 
@@ -28,6 +30,14 @@ std::string default_of(const MethodInfo& method, const std::string& option)
 bool among(const std::vector<std::string_view>& names, std::string_view name)
 {
     return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_omitted(const std::vector<OmittedOption>& omitted, std::string_view option,
+                std::string_view method)
+{
+    return std::any_of(omitted.begin(), omitted.end(), [&](const OmittedOption& one) {
+        return one.option == option && (one.method.empty() || one.method == method);
+    });
 }
 
 /// "links|stochastic|…"
@@ -63,7 +73,7 @@ std::string defaults_of(const SharedOption& shared)
 }  // namespace
 
 void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& some,
-                 const std::vector<std::string_view>& without)
+                 const std::vector<OmittedOption>& omitted)
 {
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
     app.option_defaults()->group(kMethodGroup);
@@ -73,9 +83,10 @@ void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::strin
     if (!some.empty())
         solver->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())));
     for (SharedOption shared : options_of_methods()) {
-        std::erase_if(shared.readers,
-                      [&](const MethodInfo* reader) { return !among(ids, reader->id); });
-        if (shared.readers.empty() || among(without, shared.info->name))
+        std::erase_if(shared.readers, [&](const MethodInfo* reader) {
+            return !among(ids, reader->id) || is_omitted(omitted, shared.info->name, reader->id);
+        });
+        if (shared.readers.empty())
             continue;
         std::string note;
         if (shared.readers.size() < ids.size()) {
@@ -85,6 +96,14 @@ void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::strin
         }
         add(app, given, *shared.info, defaults_of(shared), note);
     }
+}
+
+void refuse_omitted(const GivenMethod& given, const std::vector<OmittedOption>& omitted)
+{
+    for (const auto& [option, value] : given.values)
+        if (is_omitted(omitted, option, given.id))
+            throw Error(ErrorKind::input, "--" + option,
+                        "is not read by --solver " + given.id + " here");
 }
 
 void add_one_method(CLI::App& app, GivenMethod& given)

@@ -15,10 +15,18 @@ namespace lumel {
 /// The title that --help and docs/options.md put above these options.
 inline constexpr const char* kMethodGroup = "Method";
 
-/// --solver, and the options of all methods; or of those that `ids` names, but for the options
-/// `without`, which the command sets itself.
+/// An option that a command does not leave to a method, or to any.
+struct OmittedOption {
+    std::string_view option;
+    std::string_view method = {};
+};
+
+/// --solver, and the options of all methods; or of those that `ids` names, but for what is omitted.
 void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::string_view>& ids = {},
-                 const std::vector<std::string_view>& without = {});
+                 const std::vector<OmittedOption>& omitted = {});
+
+/// Throws Error{input} if a value was given for an option that is omitted.
+void refuse_omitted(const GivenMethod& given, const std::vector<OmittedOption>& omitted);
 
 /// The options of the one method that `given` names.
 void add_one_method(CLI::App& app, GivenMethod& given);

@@ -14,6 +14,10 @@
 namespace lumel {
 namespace {
 
+/// Directions follow light by the papers' scheme alone; links that are kept are traced on the host,
+/// from points of their lumels.
+const std::vector<OmittedOption> kOmitted = {{"scheme"}, {"sampling", "links"}, {"rays", "links"}};
+
 constexpr const char* kAnimationGroup = "Animation";
 
 constexpr int kMostFrames = 100'000;
@@ -23,6 +27,8 @@ constexpr double kMostFps = 1000.0;  // pictures a second
 
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
+
+const Choices<Film> kFilms = {{"mp4", Film::mp4}, {"webm", Film::webm}, {"none", Film::none}};
 
 /// What is played, and how closely the light follows.
 void add_play_options(CLI::App& app, PlayOptions& options)
@@ -51,6 +57,16 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->type_name("F")
         ->capture_default_str()
         ->check(between(kLeastLeak, kMostLeak));
+    app.add_option("--links", options.link_rays,
+                   "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check([](const std::string& text) -> std::string {
+            for (const char* const rays : {"4", "16", "64", "256"})
+                if (text == rays)
+                    return {};
+            return fmt::format("'{}' is none of 4, 16, 64, 256", text);
+        });
     app.add_option(
            "--budget", options.budget_ms,
            "Milliseconds for the light of each frame; where they are not enough it lags behind")
@@ -59,12 +75,15 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->check(positive());
     app.add_option_function<double>(
            "--residual", [&options](double percent) { options.residual = percent / 100.0; },
-           "Light left to be shot, as a part of all, at which a solution is at rest; with "
-           "--solver directions, what is left of the light before a change")
+           "Light left to be shot, or to bounce, as a part of all, at which a solution is at rest; "
+           "with --solver directions, what is left of the light before a change")
         ->type_name("PERCENT")
-        ->default_str(fmt::format("{:g}, {:g} with directions", 100.0 * options.residual,
-                                  100.0 * LeakyOptions{}.residual))
+        ->default_str(fmt::format("{:g}, {:g} with directions, {:g} with links",
+                                  100.0 * options.residual, 100.0 * LeakyOptions{}.residual,
+                                  100.0 * LiveLinksOptions{}.residual))
         ->check(positive());
+    add_choice(app, "--film", options.film, kFilms,
+               "Film of the frames, where ffmpeg is installed: play.mp4 (H.264), play.webm (VP9)");
     app.add_option("--exposure", options.exposure,
                    "Factor from cd/m2 to brightness, the same for all frames")
         ->type_name("F")
@@ -72,11 +91,23 @@ void add_play_options(CLI::App& app, PlayOptions& options)
         ->check(positive());
 }
 
-/// Throws Error{input} if an option was given that the method does not read.
-void refuse(const CLI::App& command, const std::string& option, const std::string& method)
+/// Throws Error{input} if an option was given that is of another method.
+void refuse_others(const CLI::App& command, const std::string& method)
 {
-    if (command.count(option) > 0)
-        throw Error(ErrorKind::input, option, "is not read by --solver " + method);
+    const std::pair<const char*, const char*> owners[] = {
+        {"--redistribution", "progressive"}, {"--leak", "directions"}, {"--links", "links"}};
+    for (const auto& [option, owner] : owners)
+        if (method != owner && command.count(option) > 0)
+            throw Error(ErrorKind::input, option, "is not read by --solver " + method);
+}
+
+/// Where the command does not say otherwise.
+double residual_of(const MethodOptions& method)
+{
+    if (std::holds_alternative<DirectionsOptions>(method))
+        return LeakyOptions{}.residual;
+    return std::holds_alternative<LinksOptions>(method) ? LiveLinksOptions{}.residual
+                                                        : LiveOptions{}.residual;
 }
 
 }  // namespace
@@ -97,23 +128,24 @@ Command play_command(CLI::App& program)
     add_play_options(command, options);
     add_picture_options(command, options.camera, options.width);
     add_atlas_options(command, options.atlas);
-    // Directions follow light by the papers' scheme alone.
     add_methods(command, *method,
-                {method_of(ProgressiveOptions{}).id, method_of(DirectionsOptions{}).id},
-                {"scheme"});
+                {method_of(ProgressiveOptions{}).id, method_of(LinksOptions{}).id,
+                 method_of(DirectionsOptions{}).id},
+                kOmitted);
     add_device_option(command, options.device);
     add_talk_options(command, play.talk);
     return {&command, [given, method, &command]() -> Arguments {
                 const MethodOptions chosen = method->options();
-                const auto* directions = std::get_if<DirectionsOptions>(&chosen);
-                refuse(command, directions ? "--redistribution" : "--leak", method->id);
-                if (directions) {
+                refuse_omitted(*method, kOmitted);
+                refuse_others(command, method->id);
+                if (command.count("--residual") == 0)
+                    given->options.residual = residual_of(chosen);
+                if (const auto* links = std::get_if<LinksOptions>(&chosen))
+                    given->options.solver = *links;
+                else if (const auto* directions = std::get_if<DirectionsOptions>(&chosen))
                     given->options.solver = *directions;
-                    if (command.count("--residual") == 0)
-                        given->options.residual = LeakyOptions{}.residual;
-                } else {
+                else
                     given->options.solver = std::get<ProgressiveOptions>(chosen);
-                }
                 return *given;
             }};
 }

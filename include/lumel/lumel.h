@@ -1,7 +1,7 @@
 // Lumel: lightmaps by radiosity, baked in memory, kept right while things move, or lit anew.
 //
 // This header is the whole interface; lumel/vulkan.h adds what hosts with a Vulkan device of their
-// own need. Start at bake(), LiveScene or Relight.
+// own need. Start at bake(), LiveScene, LiveLinks or Relight.
 //
 // Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
 //          irradiance in lx, luminance in cd/m², intensity of lamps in cd.
@@ -60,6 +60,7 @@ using Mat4 = std::array<float, 16>;
 struct DeviceImpl;
 struct SceneImpl;
 struct LiveImpl;
+struct LinksImpl;
 struct RelightImpl;
 struct Relightable;
 struct HostDevice;  // lumel/vulkan.h
@@ -369,7 +370,7 @@ struct LiveState {
     double milliseconds = 0.0;  ///< that the last update() took
 };
 
-/// A scene that stays lit while instances move and lamps change.
+/// A scene that stays lit while instances move and lamps change, by shooting on a device.
 class LUMEL_API LiveScene {
 public:
     /// Lays the scene out; the first updates find its light.
@@ -409,13 +410,83 @@ private:
     std::unique_ptr<LiveImpl> impl_;
 };
 
-// --------------------------------------------------------------------------------------- relight
-
 /// Where a lamp is.
 struct LampPlace {
     std::optional<Vec3> position;   ///< [m] not of directional lights
     std::optional<Vec3> direction;  ///< in which it shines, of any length
 };
+
+struct LiveLinksSettings {
+    AtlasSettings atlas;
+    std::vector<std::uint32_t> movers;  ///< instances that may move
+    std::uint32_t rays = 64;            ///< that each lumel keeps: 4, 16, 64 or 256
+    bool filter = true;                 ///< of the noise in what is shown
+    std::uint32_t seed = 1;
+    double residual = 0.0002;  ///< light still to bounce, as a part of all, to rest at
+};
+
+/// Where LiveLinks stand.
+struct LiveLinksState {
+    double residual = 1.0;       ///< light still to bounce, as a part of all
+    double dark_residual = 1.0;  ///< the same of lumels between 0.5 and 30 % of the mean, of theirs
+    bool under_way = false;      ///< a move is not wholly followed yet
+    bool at_rest = false;        ///< update() has nothing left to do
+    double milliseconds = 0.0;   ///< that the last update() took
+};
+
+/// A scene that stays lit while instances and lamps move, lamps are dimmed and surfaces painted.
+/// Every lumel traces its rays once, and what they met is kept: dimming and painting trace nothing,
+/// a move only the rays that it starts, ends or stops. At rest the light is that of a scene solved
+/// anew, within the residual. Works on the host, needs no Device, and takes about 4 × rays + 100
+/// bytes for each lumel, and 12 for each of them and each lamp.
+class LUMEL_API LiveLinks {
+public:
+    /// Lays the scene out, traces all links and finds all direct light. The scene is copied.
+    /// Throws Error{input} if nothing of it can be lit, a mover is no instance, all of it moves,
+    /// it has coloured glass, or a setting is out of its limits; Error{device} if rays cannot be
+    /// cast.
+    explicit LiveLinks(const Scene& scene, const LiveLinksSettings& settings = {});
+    ~LiveLinks();
+    LiveLinks(LiveLinks&&) noexcept;
+    LiveLinks& operator=(LiveLinks&&) noexcept;
+
+    /// Puts a mover elsewhere (mesh to world); takes effect in update(). Of several moves before
+    /// it is followed, the last counts. Turns and shifts only. Throws Error{input}.
+    void move(std::uint32_t instance, const Mat4& transform);
+    /// Moves or turns the lamps of that name; what of `place` is not set is as it is. Finds their
+    /// light at once. Throws Error{input} if there is none, for positions of directional lights,
+    /// and for what is no number.
+    void move_lamp(const std::string& name, const LampPlace& place);
+
+    /// All lights of that name, and all surfaces of a material of that name, send `factor` times
+    /// what the scene says. Throws Error{input} if there is none, or for factors that are negative
+    /// or no numbers.
+    void set_lamp(const std::string& name, const Vec3& factor);
+    /// The same of the sky. Throws Error{input} if there is none.
+    void set_sky(const Vec3& factor);
+    /// A material reflects with this base colour, 0…1, times its texture. The first time for each
+    /// material takes longer. Throws Error{input}.
+    void set_color(const std::string& material, const Vec3& color);
+
+    /// Works for about this long: moves first, then light that bounces. Takes longer by a few
+    /// milliseconds at most. Infinity: until at rest.
+    LiveLinksState update(double budget_ms);
+    const LiveLinksState& state() const;  ///< as the last update() left it
+
+    /// The lightmap after the last move that is wholly followed, finished as by bake(), which takes
+    /// time.
+    Map map() const;
+    /// H [lx] alone, without gutters and seams, which takes little: RGB, A is 1 where there is a
+    /// lumel, else 0; of front sides.
+    Map lumels() const;
+    const std::vector<Surface>& surfaces() const;   ///< by instance, then primitive
+    const std::vector<std::string>& notes() const;  ///< of the layout, for the user
+
+private:
+    std::unique_ptr<LinksImpl> impl_;
+};
+
+// --------------------------------------------------------------------------------------- relight
 
 /// A baked scene under any light, by one multiply: H = Σ f_s H_s over its sources s. All factors
 /// are 1 at first.

@@ -253,16 +253,19 @@ Report play_report(const PlayOptions& options, const Played& played, const gpu::
                        {"fps", options.fps},
                        {"budget", options.budget_ms},
                        {"residual", options.residual}};
+    report.solver = std::visit(
+        [](const auto& method) { return solver_settings({.method = method}); }, options.solver);
     if (std::holds_alternative<DirectionsOptions>(options.solver))
         report.settings["leak"] = options.leak;
-    else
+    else if (std::holds_alternative<LinksOptions>(options.solver)) {
+        report.settings["links"] = options.link_rays;
+        for (const char* unread : {"sampling", "rays"})
+            (*report.solver)["options"].erase(unread);
+    } else
         report.settings["redistribution"] =
             options.redistribution == Redistribution::cross ? "cross" : "incremental";
     report.settings.update(atlas_settings(options.atlas));
-    report.solver = std::visit(
-        [](const auto& method) { return solver_settings({.method = method}); }, options.solver);
-    for (const FrameRow& frame : frames)
-        report.shots += frame.hemicubes;
+    report.shots = played.shots;
     report.frames = std::move(frames);
     report.interrupted = stages.stopped();
     report.exposure = options.exposure;

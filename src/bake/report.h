@@ -46,6 +46,7 @@ struct Played {
     const Atlas& atlas;
     const Lumels& lumels;
     const gpu::StageTimes& times;
+    std::uint64_t shots;
 };
 
 /// The facts of a film. height: of the pictures [pixels].

@@ -9,7 +9,7 @@ namespace lumel {
 namespace {
 
 /// Lumels to either side, and the deviation of the bells over them, narrowest first.
-constexpr std::array<int, kBells> kReach = {2, 5};
+constexpr std::array<int, kBells> kReach = {kNearReach, 5};
 constexpr std::array<float, kBells> kSpread = {1.5f, 3.0f};
 /// Lumels to either side of two that are compared with each other.
 constexpr int kPatch = 1;
@@ -84,6 +84,12 @@ std::vector<Way> all_ways()
                 if (std::max(std::abs(x), std::abs(y)) == ring)
                     ways.push_back(way_to({x, y}, ways));
     return ways;
+}
+
+const std::vector<Way>& ways()
+{
+    static const std::vector<Way> kWays = all_ways();
+    return kWays;
 }
 
 /// Of each lumel within a tile: whether steps lead to the one at an offset.
@@ -260,6 +266,22 @@ void begin(const FilterTile& tile, std::uint32_t k, FilteredTile& filtered)
         }
 }
 
+/// visit(way, which lumels mix) for the first ways by which any are reached.
+template <class Visit>
+void for_each_way(const FilterTile& tile, std::size_t count, const Visit& visit)
+{
+    std::vector<Reached> reached(count);
+    std::vector<char> any(count, 1);
+    reached[0].fill(1);
+    Alike alike;
+    for (std::size_t w = 1; w < count; ++w) {
+        const Way& way = ways()[w];
+        any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);
+        if (any[w] && find_alike(tile, way.to, reached[w], alike))
+            visit(w, alike);
+    }
+}
+
 }  // namespace
 
 void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance)
@@ -291,22 +313,33 @@ void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance)
 
 void filter_tile(const FilterTile& tile, FilteredTiles& filtered)
 {
-    static const std::vector<Way> kWays = all_ways();
     for (std::array<FilteredTile, kSolutions>& bell : filtered)
         for (std::uint32_t k = 0; k < kSolutions; ++k)
             begin(tile, k, bell[k]);
-    std::vector<Reached> reached(kWays.size());
-    std::vector<char> any(kWays.size(), 1);
-    reached[0].fill(1);
-    Alike alike;
-    for (std::size_t w = 1; w < kWays.size(); ++w) {
-        const Way& way = kWays[w];
-        any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);
-        if (!any[w] || !find_alike(tile, way.to, reached[w], alike))
-            continue;
+    for_each_way(tile, ways().size(), [&](std::size_t w, const Alike& alike) {
         for (std::uint32_t k = 0; k < kSolutions; ++k)
-            add(tile, k, way, alike, filtered);
+            add(tile, k, ways()[w], alike, filtered);
+    });
+}
+
+void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights)
+{
+    for (std::size_t n = 0; n < kNearWays; ++n) {
+        weights.to[n] = ways()[n + 1].to;
+        weights.weight[n].fill(0.0f);
     }
+    Differences found;
+    for_each_way(tile, kNearWays + 1, [&](std::size_t w, const Alike& alike) {
+        const Way& way = ways()[w];
+        find_differences(tile, k, way.to, found);
+        for (int y = 0; y < kTile; ++y) {
+            Row look_alike;
+            find_weights(tile, k, way.to, found, y, look_alike);
+            const std::size_t row = std::size_t(y) * kTile;
+            for (std::size_t x = 0; x < kTile; ++x)
+                weights.weight[w - 1][row + x] = way.bell[0] * alike.all[row + x] * look_alike[x];
+        }
+    });
 }
 
 }  // namespace lumel

@@ -62,4 +62,17 @@ struct FilteredTile {
 using FilteredTiles = std::array<std::array<FilteredTile, kSolutions>, kBells>;
 void filter_tile(const FilterTile& tile, FilteredTiles& filtered);
 
+/// Lumels within reach of the narrow bell, beside the one in its middle.
+inline constexpr int kNearReach = 2;
+inline constexpr std::size_t kNearWays = (2 * kNearReach + 1) * (2 * kNearReach + 1) - 1;
+
+/// By which weights a tile's lumels mix with those at each offset, beside 1 with themselves.
+struct NearWeights {
+    std::array<Offset, kNearWays> to;
+    std::array<Inner, kNearWays> weight;
+};
+
+/// Those of the narrow bell by which filter_tile() takes the followers of solution k.
+void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights);
+
 }  // namespace lumel

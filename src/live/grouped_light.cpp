@@ -11,8 +11,8 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task.
-constexpr std::size_t kGrain = 256;
+/// Lumels worth a task: all of their light, and that which a move may change.
+constexpr std::size_t kGrain = 256, kFollowed = 64;
 /// A sender of more sources chooses among them for each ray, by what they may send.
 constexpr std::size_t kMostAlone = 8;
 /// Dimension pairs of a ray's random numbers.
@@ -44,11 +44,11 @@ void GroupedLight::list_senders()
         if (std::none_of(senders_.begin(), senders_.end(), is_it))
             senders_.push_back({.part = origin.part, .index = origin.index});
     }
-    list_sources();
+    place();
 }
 
 /// Surfaces that move may be split into other sources.
-void GroupedLight::list_sources()
+void GroupedLight::place()
 {
     for (Sender& sender : senders_)
         sender.sources.clear();
@@ -80,7 +80,7 @@ void GroupedLight::set_factor(LightSources::Part part, std::uint32_t index, cons
 
 void GroupedLight::find_again(LightSources::Part part, std::uint32_t index)
 {
-    list_sources();
+    place();
     const std::uint32_t sender = sender_of(part, index);
     if (sender < senders_.size())
         find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
@@ -96,16 +96,16 @@ void GroupedLight::find(Group& group)
     summed_ = false;
 }
 
-std::uint64_t GroupedLight::follow(std::uint32_t thing, const Box& before)
+std::uint64_t GroupedLight::follow(std::uint32_t thing, const ThingBox& before, std::size_t first,
+                                   std::size_t last)
 {
-    list_sources();
-    const Box now = place_.rays.box(thing);
+    const ThingBox now = place_.rays.box(thing);
     std::atomic<std::uint64_t> found = 0;
     for (Group& group : groups_) {
         const bool moved = is_moved(group, thing);
-        parallel_for(group.light.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        parallel_for(last - first, kFollowed, [&](std::size_t from, std::size_t to) {
             std::uint64_t count = 0;
-            for (std::size_t i = first; i < last; ++i)
+            for (std::size_t i = first + from; i < first + to; ++i)
                 if (moved || place_.thing_of(i) == thing || may_cross(group, i, before, now)) {
                     group.light[i] = light_of(group, i);
                     ++count;
@@ -129,8 +129,8 @@ bool GroupedLight::is_moved(const Group& group, std::uint32_t thing) const
     });
 }
 
-bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& before,
-                             const Box& now) const
+bool GroupedLight::may_cross(const Group& group, std::size_t i, const ThingBox& before,
+                             const ThingBox& now) const
 {
     return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
         const std::vector<std::uint32_t>& sources = senders_[s].sources;
@@ -142,7 +142,7 @@ bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& befor
 
 /// May a ray from a lumel to a source meet a box? All of them lie in the hull of two balls, around
 /// the lumel and around the source.
-bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
+bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const ThingBox& box) const
 {
     const LightSources::Origin origin = place_.sources.origin(source);
     const glm::vec3& from = place_.world[i].centre;

@@ -31,9 +31,13 @@ public:
     void set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
     /// A light of the scene has moved, and the sources know.
     void find_again(LightSources::Part part, std::uint32_t index);
-    /// A thing has moved from a box, and the sources know: finds again what changes. Light is then
-    /// as if all had been found. Returns for how many lumels one group was found again, in all.
-    std::uint64_t follow(std::uint32_t thing, const Box& before);
+    /// Surfaces have moved, and the sources know.
+    void place();
+    /// A thing has moved from a box, and this is placed: of these lumels, finds again what changes.
+    /// Once all lumels have followed, light is as if all had been found. Returns for how many
+    /// lumels one group was found again, in all.
+    std::uint64_t follow(std::uint32_t thing, const ThingBox& before, std::size_t first,
+                         std::size_t last);
 
     /// Σ over groups [N] [lx].
     const std::vector<glm::vec3>& sum();
@@ -56,7 +60,6 @@ private:
     };
 
     void list_senders();
-    void list_sources();
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
     void find(Group& group);
     glm::vec3 light_of(const Group& group, std::size_t lumel) const;
@@ -66,8 +69,9 @@ private:
     RayStart start_of(std::size_t lumel, std::uint32_t ray) const;
     glm::vec3 passing(const RayStart& start, const SourceSample& sample, std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;
-    bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
-    bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;
+    bool may_cross(const Group& group, std::size_t lumel, const ThingBox& before,
+                   const ThingBox& now) const;
+    bool may_cross(std::uint32_t source, std::size_t lumel, const ThingBox& box) const;
 
     const LivePlace place_;
     const GroupedLightOptions options_;

@@ -5,22 +5,26 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "live/still_part.h"
 
 namespace lumel {
 namespace {
 
-/// Lumels between two looks at the clock: about a tenth of a millisecond.
-constexpr std::size_t kStep = 4096;
+/// Lumels between two looks at the clock: of a sweep, about a tenth of a millisecond; that follow a
+/// move, 20 ms at most, where all of them are on the thing.
+constexpr std::size_t kStep = 4096, kPiece = 1024;
 /// Changes count as shrinking by this factor at least.
 constexpr double kSlowest = 1.0 - 1e-6;
 /// Sweeps after which settle() takes the light as it is.
 constexpr int kMostSweeps = 20000;
 
-std::vector<std::vector<std::uint32_t>> instances_of(const Scene& scene,
-                                                     const std::vector<std::string>& things)
+using Groups = std::vector<std::vector<std::uint32_t>>;
+
+Groups instances_of(const Scene& scene, const std::vector<std::string>& things,
+                    const Groups& groups)
 {
-    std::vector<std::vector<std::uint32_t>> result;
+    Groups result;
     for (const std::string& name : things) {
         find_instance(scene, name);  // or it throws
         std::vector<std::uint32_t>& instances = result.emplace_back();
@@ -28,7 +32,17 @@ std::vector<std::vector<std::uint32_t>> instances_of(const Scene& scene,
             if (scene.instances[i].name == name)
                 instances.push_back(i);
     }
+    result.insert(result.end(), groups.begin(), groups.end());
     return result;
+}
+
+/// Index of the first of that name, or how many there are.
+template <class Named>
+std::uint32_t index_of(const std::vector<Named>& all, const std::string& name)
+{
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    return std::uint32_t(found - all.begin());
 }
 
 const Scene& checked(const Scene& scene)
@@ -75,26 +89,46 @@ void check_factor(const glm::vec3& factor)
         throw Error(ErrorKind::input, "factor", "is negative, but light is not");
 }
 
-/// Changes that shrink by a factor q leave q / (1 - q) of the last to come.
+template <class All>
+void check_index(std::uint32_t index, const All& all, const std::string& what)
+{
+    if (index >= all.size())
+        throw Error(ErrorKind::input, what + " " + std::to_string(index), "is not in the scene");
+}
+
+/// Changes that shrink by a factor q leave q / (1 - q) of the last to come; all, where one sweep
+/// does not tell yet.
 double still_to_come(double change, double before)
 {
     const double factor = before > 0.0 ? std::min(change / before, kSlowest) : kSlowest;
-    return change * factor / (1.0 - factor);
+    return std::min(change * factor / (1.0 - factor), 1.0);
 }
 
 }  // namespace
 
 LumelScene lay_out(Scene scene, const AtlasOptions& options, const std::vector<std::string>& things)
 {
-    std::vector<char> movers(scene.instances.size(), 0);
-    for (const std::vector<std::uint32_t>& instances : instances_of(scene, things))
-        for (const std::uint32_t instance : instances)
-            movers[instance] = 1;
+    std::vector<std::uint32_t> movers;
+    for (const std::vector<std::uint32_t>& instances : instances_of(scene, things, {}))
+        movers.insert(movers.end(), instances.begin(), instances.end());
+    return lay_out_movers(std::move(scene), options, movers);
+}
+
+LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
+                          const std::vector<std::uint32_t>& movers)
+{
+    std::vector<char> moves(scene.instances.size(), 0);
+    for (const std::uint32_t instance : movers) {
+        if (instance >= moves.size())
+            throw Error(ErrorKind::input, scene.path,
+                        "has no instance " + std::to_string(instance) + " that could move");
+        moves[instance] = 1;
+    }
     Atlas atlas = make_atlas(scene, options);
     Lumels lumels = lift(scene, atlas);
     if (lumels.lumels.empty())
         throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
-    mark_buried_by_still(scene, movers, lumels);
+    mark_buried_by_still(scene, moves, lumels);
     return {std::move(scene), std::move(atlas), std::move(lumels)};
 }
 
@@ -102,7 +136,7 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
     : options_(options),
       laid_out_(std::move(laid_out)),
       given_(transforms_of(scene())),
-      rays_(checked(scene()), instances_of(scene(), options.things)),
+      rays_(checked(scene()), instances_of(scene(), options.things, options.groups)),
       surfaces_(scene()),
       world_(scene(), rays_.still(), lumels()),
       starts_(world_, nullptr, rays_.lift(), false),
@@ -111,7 +145,10 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
       links_(place(), atlas(), side_of(options.rays), options.seed),
       light_(place(), options.light),
       sweeps_(links_),
-      paint_(lumels())
+      paint_(lumels()),
+      filter_(place(), links_),
+      motions_(rays_.things(), glm::mat4(1.0f)),
+      requested_(rays_.things())
 {
 }
 
@@ -124,20 +161,35 @@ LivePlace LiveLinks::place() const
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
 {
-    check_factor(factor);
     bool found = false;
-    const auto set = [&](Part part, const auto& named) {
-        for (std::uint32_t n = 0; n < named.size(); ++n)
-            if (named[n].name == name) {
-                light_.set_factor(part, n, factor);
-                found = true;
-            }
-    };
-    set(Part::light, scene().lights);
-    set(Part::material, scene().materials);
+    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
+        if (scene().lights[l].name == name) {
+            set_light(l, factor);
+            found = true;
+        }
+    for (std::uint32_t m = 0; m < scene().materials.size(); ++m)
+        if (scene().materials[m].name == name) {
+            set_emission(m, factor);
+            found = true;
+        }
     if (!found)
         throw Error(ErrorKind::input, scene().path,
                     "has no light and no material named \"" + name + "\"");
+}
+
+void LiveLinks::set_light(std::uint32_t light, const glm::vec3& factor)
+{
+    check_index(light, scene().lights, "light");
+    check_factor(factor);
+    light_.set_factor(Part::light, light, factor);
+    edited_ = true;
+}
+
+void LiveLinks::set_emission(std::uint32_t material, const glm::vec3& factor)
+{
+    check_index(material, scene().materials, "material");
+    check_factor(factor);
+    light_.set_factor(Part::material, material, factor);
     edited_ = true;
 }
 
@@ -153,31 +205,40 @@ void LiveLinks::set_sky(const glm::vec3& factor)
 
 void LiveLinks::set_albedo(const std::string& name, const glm::vec3& colour)
 {
-    const std::vector<Material>& materials = scene().materials;
-    const auto found = std::find_if(materials.begin(), materials.end(),
-                                    [&](const Material& one) { return one.name == name; });
-    if (found == materials.end())
+    const std::uint32_t material = index_of(scene().materials, name);
+    if (material == scene().materials.size())
         throw Error(ErrorKind::input, scene().path, "has no material named \"" + name + "\"");
+    set_albedo(material, colour);
+}
+
+void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
+{
+    check_index(material, scene().materials, "material");
     if (glm::clamp(colour, 0.0f, 1.0f) != colour)
-        throw Error(ErrorKind::input, "colour of \"" + name + "\"", "is not from 0 to 1");
-    paint_.set(scene(), atlas(), int(found - materials.begin()), colour);
+        throw Error(ErrorKind::input, "colour of \"" + scene().materials[material].name + "\"",
+                    "is not from 0 to 1");
+    paint_.set(scene(), atlas(), int(material), colour);
     edited_ = true;
 }
 
 void LiveLinks::move_lamp(const std::string& name, const glm::mat4& transform)
 {
-    std::vector<PunctualLight>& lights = laid_out_.scene.lights;
-    std::vector<std::uint32_t> moved;
-    for (std::uint32_t l = 0; l < lights.size(); ++l)
-        if (lights[l].name == name) {
-            lights[l].transform = transform;
-            moved.push_back(l);
+    bool found = false;
+    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
+        if (scene().lights[l].name == name) {
+            move_light(l, transform);
+            found = true;
         }
-    if (moved.empty())
+    if (!found)
         throw Error(ErrorKind::input, scene().path, "has no light named \"" + name + "\"");
+}
+
+void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
+{
+    check_index(light, scene().lights, "light");
+    laid_out_.scene.lights[light].transform = transform;
     sources_.place();
-    for (const std::uint32_t light : moved)
-        light_.find_again(Part::light, light);
+    light_.find_again(Part::light, light);
     edited_ = true;
 }
 
@@ -192,26 +253,83 @@ std::uint32_t LiveLinks::thing(const std::string& name) const
 /// Places begin from those of the scene that was given, so that no rounding adds up.
 void LiveLinks::put(std::uint32_t thing, const glm::mat4& motion)
 {
+    motions_[thing] = motion;
     for (const std::uint32_t instance : rays_.instances(thing))
         laid_out_.scene.instances[instance].transform = motion * given_[instance];
     rays_.place(thing);
     world_.place(scene(), lumels(), lumels_of_[thing]);
-    sources_.place();
 }
 
 Moved LiveLinks::move(const std::string& name, const glm::mat4& motion)
 {
-    const std::uint32_t moved = thing(name);
+    const Moved before = state_.found;
+    request(thing(name), motion);
+    while (is_under_way())
+        if (following_.empty())
+            put_requested();
+        else
+            follow();
+    const Moved& now = state_.found;
+    return {.links = {now.links.started - before.links.started,
+                      now.links.ended - before.links.ended,
+                      now.links.crossed - before.links.crossed},
+            .direct = now.direct - before.direct};
+}
+
+void LiveLinks::request(std::uint32_t thing, const glm::mat4& motion)
+{
+    check_index(thing, motions_, "thing");
     if (!is_rigid(glm::mat4(1.0f), motion))
-        throw Error(ErrorKind::input, "\"" + name + "\"", "would be stretched by its motion");
-    const Box before = rays_.box(moved);
-    put(moved, motion);
-    Moved again{.links = links_.follow(moved)};
-    const double all = double(lumels().lumels.size() * light_.groups());
-    const double found = double(light_.follow(moved, before));
-    again.direct = all > 0.0 ? found / all : 0.0;
-    edited_ = true;
-    return again;
+        throw Error(ErrorKind::input,
+                    "\"" + scene().instances[rays_.instances(thing).front()].name + "\"",
+                    "would be stretched by its motion");
+    requested_[thing].reset();
+    if (motion != motions_[thing])
+        requested_[thing] = motion;
+}
+
+bool LiveLinks::is_under_way() const
+{
+    return !following_.empty() ||
+           std::any_of(requested_.begin(), requested_.end(),
+                       [](const std::optional<glm::mat4>& motion) { return motion.has_value(); });
+}
+
+/// All things first: rays that are traced again for one meet the others where they are.
+void LiveLinks::put_requested()
+{
+    for (std::uint32_t t = 0; t < requested_.size(); ++t)
+        if (requested_[t]) {
+            following_.push_back({.thing = t, .before = rays_.box(t)});
+            put(t, *requested_[t]);
+            requested_[t].reset();
+        }
+    sources_.place();
+    light_.place();
+}
+
+/// A piece of what has moved.
+void LiveLinks::follow()
+{
+    const std::size_t count = lumels().lumels.size();
+    Following& one = following_.front();
+    Moved& found = state_.found;
+    if (one.links < count) {
+        const std::size_t end = std::min(one.links + kPiece, count);
+        found.links += links_.follow(one.thing, one.links, end);
+        one.links = end;
+    } else {
+        const std::size_t end = std::min(one.direct + kPiece, count);
+        const double all = double(count * std::max<std::size_t>(light_.groups(), 1));
+        found.direct += double(light_.follow(one.thing, one.before, one.direct, end)) / all;
+        one.direct = end;
+    }
+    if (one.direct == count)
+        following_.erase(following_.begin());
+    if (following_.empty()) {
+        edited_ = true;
+        swept_ = false;
+    }
 }
 
 std::vector<glm::vec3> LiveLinks::direct()
@@ -227,8 +345,40 @@ void LiveLinks::begin()
 {
     sweeps_.begin(direct(), paint_.albedo());
     before_ = {};
-    state_ = {};
+    weighing_ = false;
+    state_ = {.found = state_.found, .all_sweeps = state_.all_sweeps};
     edited_ = false;
+}
+
+/// A part of what there is to do. What has moved is shown before things move on.
+void LiveLinks::work()
+{
+    if (!following_.empty())
+        follow();
+    else if (swept_ && is_under_way())
+        put_requested();
+    else if (edited_ || !weighing_)
+        sweep();
+    else if (filter_.step()) {
+        weighing_ = false;
+        state_.at_rest = true;
+    }
+}
+
+/// A part of a sweep.
+void LiveLinks::sweep()
+{
+    if (edited_)
+        begin();
+    if (!sweeps_.step(kStep))
+        return;
+    swept_ = true;
+    ++state_.all_sweeps;
+    const bool still = is_at_rest();
+    state_.at_rest = still && !options_.filter;
+    weighing_ = still && options_.filter;
+    if (weighing_)
+        filter_.begin(sweeps_, sky_factor_);
 }
 
 LiveLinksState LiveLinks::advance(double budget_ms)
@@ -238,14 +388,14 @@ LiveLinksState LiveLinks::advance(double budget_ms)
     const auto spent = [&] {
         return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
     };
-    if (edited_)
-        begin();
-    while (!state_.at_rest) {
-        if (sweeps_.step(kStep))
-            state_.at_rest = is_at_rest();
+    while (edited_ || is_under_way() || !state_.at_rest) {
+        work();
         if (spent() >= budget_ms)
             break;
     }
+    state_.under_way = is_under_way();
+    state_.weighing = weighing_ && !edited_;
+    state_.at_rest = state_.at_rest && !edited_ && !state_.under_way;
     return state_;
 }
 
@@ -268,7 +418,17 @@ LiveLinksState LiveLinks::settle()
 
 std::uint64_t LiveLinks::bytes() const
 {
-    return links_.bytes() + light_.bytes() + sweeps_.bytes();
+    return links_.bytes() + light_.bytes() + sweeps_.bytes() + filter_.bytes();
+}
+
+std::vector<glm::vec3> LiveLinks::shown() const
+{
+    std::vector<glm::vec3> result(lumels().lumels.size());
+    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = filter_.irradiance(sweeps_, sky_factor_, i);
+    });
+    return result;
 }
 
 std::vector<glm::vec3> LiveLinks::irradiance() const

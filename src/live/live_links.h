@@ -1,6 +1,7 @@
 #pragma once
 // A lit scene that is edited while it is seen: light over links that are kept.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "live/lumel_links.h"
 #include "live/lumel_sweeps.h"
 #include "live/paint.h"
+#include "live/shown_filter.h"
 
 namespace lumel {
 
@@ -16,9 +18,12 @@ struct LiveLinksOptions {
     GroupedLightOptions light;
     /// Names of what may move: of all instances of that name.
     std::vector<std::string> things;
+    /// What else may move: instances that move together. Their numbers follow those of the names.
+    std::vector<std::vector<std::uint32_t>> groups;
     std::uint32_t seed = 0;
     /// Light still to come, as a part of all and of dark lumels' own, to rest at.
     double residual = 2e-4;
+    bool filter = true;  ///< makes weights for shown()
 };
 
 /// A scene with its lumels.
@@ -31,8 +36,11 @@ struct LumelScene {
 /// Lays a scene out. What lies under or in what stays is buried. Throws Error.
 LumelScene lay_out(Scene scene, const AtlasOptions& options,
                    const std::vector<std::string>& things);
+/// The same by instances.
+LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
+                          const std::vector<std::uint32_t>& movers);
 
-/// What a move has found again.
+/// What moves have found again.
 struct Moved {
     Retraced links;
     double direct = 0.0;  ///< share of direct light: of lumels, each for each group
@@ -42,8 +50,12 @@ struct LiveLinksState {
     /// Light still to come, as far as the last sweeps tell: of all lumels by their mean, and of
     /// dark ones by theirs.
     double residual = 1.0, dark_residual = 1.0;
-    int sweeps = 0;  ///< since the last edit
-    bool at_rest = false;
+    int sweeps = 0;                ///< since the last edit
+    bool under_way = false;        ///< links or direct light do not know all requests yet
+    bool weighing = false;         ///< light is at rest, and the weights of shown() are being made
+    bool at_rest = false;          ///< advance() has nothing left to do
+    Moved found;                   ///< again for all moves, from the beginning on
+    std::uint64_t all_sweeps = 0;  ///< from the beginning on
 };
 
 /// Every lumel has traced its rays once, and what they met is kept. So a lamp that is dimmed or a
@@ -54,6 +66,9 @@ struct LiveLinksState {
 /// At rest the light is that of a scene that is solved anew with the same seed: links and direct
 /// light in every bit, what bounces within the residual. Works on the host; not safe for use from
 /// several threads. Closed rooms of albedo 0.99 take hundreds of sweeps.
+///
+/// move() traces at once. request() leaves that to advance(), within its budget; until a request is
+/// wholly followed, irradiance() is that of the places before it.
 class LiveLinks {
 public:
     /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
@@ -65,18 +80,26 @@ public:
     /// What lights of that name, or surfaces of a material of that name, send is `factor` times
     /// their value in the scene. Throws Error{input} if there is none, or a factor is negative.
     void set_lamp(const std::string& name, const glm::vec3& factor);
+    /// The same of one light, or of the surfaces of one material, by their indices.
+    void set_light(std::uint32_t light, const glm::vec3& factor);
+    void set_emission(std::uint32_t material, const glm::vec3& factor);
     /// The same of the sky.
     void set_sky(const glm::vec3& factor);
     /// A material reflects with this base colour, 0 to 1, times its texture. The first time for
     /// each material takes longer. Throws Error{input} if there is no such material.
     void set_albedo(const std::string& material, const glm::vec3& colour);
+    void set_albedo(std::uint32_t material, const glm::vec3& colour);
     /// Lights of that name shine from elsewhere (light to world).
     void move_lamp(const std::string& name, const glm::mat4& transform);
+    void move_light(std::uint32_t light, const glm::mat4& transform);
     /// A thing stands where `motion` takes it from its place in the scene (world to world).
     /// Throws Error{input} if it is no thing of the options, or would be stretched.
     Moved move(const std::string& thing, const glm::mat4& motion);
+    /// The same, in advance(). Of several requests for a thing the last counts.
+    void request(std::uint32_t thing, const glm::mat4& motion);
 
-    /// Sweeps for about so many milliseconds, or until at rest; a part of a sweep at least.
+    /// Works for about so many milliseconds, or until at rest: follows what was requested, then
+    /// sweeps. Longer by a few milliseconds at most; a part of a sweep at least.
     LiveLinksState advance(double budget_ms);
     /// Until at rest.
     LiveLinksState settle();
@@ -84,6 +107,9 @@ public:
     const LiveLinksState& state() const { return state_; }
     /// H [N] [lx]
     std::vector<glm::vec3> irradiance() const;
+    /// The same for the eye: what rays bring is filtered (live/shown_filter.h) by weights of the
+    /// last light that was at rest. Takes as long as a part of a sweep.
+    std::vector<glm::vec3> shown() const;
 
     const Scene& scene() const { return laid_out_.scene; }
     const Atlas& atlas() const { return laid_out_.atlas; }
@@ -96,11 +122,22 @@ public:
 
 private:
     using Part = LightSources::Part;
+    /// A thing that has moved, and the lumels that know.
+    struct Following {
+        std::uint32_t thing;
+        ThingBox before;
+        std::size_t links = 0, direct = 0;
+    };
 
     LivePlace place() const;
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
+    void put_requested();
+    bool is_under_way() const;
+    void follow();
+    void work();
     void begin();
+    void sweep();
     bool is_at_rest();
 
     LiveLinksOptions options_;
@@ -116,9 +153,15 @@ private:
     GroupedLight light_;
     LumelSweeps sweeps_;
     Paint paint_;
+    ShownFilter filter_;
     glm::vec3 sky_factor_{1.0f};
-    bool edited_ = true;  ///< since the last sweep
-    SweepChange before_;  ///< of the sweep before the last
+    std::vector<glm::mat4> motions_;                   ///< [things] from where they were given
+    std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
+    std::vector<Following> following_;
+    bool edited_ = true;     ///< since the last sweep
+    bool swept_ = true;      ///< wholly, since a move was followed
+    bool weighing_ = false;  ///< light is at rest, but not the filter's weights
+    SweepChange before_;     ///< of the sweep before the last
     LiveLinksState state_;
 };
 

@@ -13,7 +13,6 @@
 #include <array>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "core/frame.h"
 #include "core/parallel.h"
@@ -24,8 +23,8 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task.
-constexpr std::size_t kGrain = 256;
+/// Lumels worth a task: all of their links, and those that a move may change.
+constexpr std::size_t kGrain = 256, kFollowed = 64;
 /// Random numbers of a ray: places within its cells of directions and of starts.
 constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3;
 
@@ -88,7 +87,8 @@ LumelLinks::LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t
       lumels_(std::uint32_t(place.lumels.lumels.size())),
       links_(std::size_t(lumels_) * rays()),
       on_thing_(lumels_ + 2, ThingRays::kStays),
-      sky_light_(lumels_)
+      sky_light_(lumels_),
+      white_sky_light_(lumels_)
 {
     for (std::uint32_t i = 0; i < lumels_; ++i)
         on_thing_[i] = place_.thing_of(i);
@@ -132,42 +132,42 @@ void LumelLinks::trace(std::size_t i)
     const Rays rays_of(*this, i);
     for (std::uint32_t k = 0; k < rays(); ++k)
         links[k] = end_of(rays_of, k);
-    sky_light_[i] = light_of_sky(rays_of, i);
+    find_sky(rays_of, i);
 }
 
-glm::vec3 LumelLinks::light_of_sky(const Rays& rays_of, std::size_t i) const
+void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
 {
-    glm::vec3 sum(0.0f);
     if (place_.scene.sky.empty())
-        return sum;
+        return;
+    glm::vec3 sums[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
     const std::span<const std::uint32_t> links = of(i);
     for (std::uint32_t k = 0; k < rays(); ++k)
         if (links[k] == sky())
-            sum += place_.sources.rest_of_sky(rays_of.direction(k));
-    return sum * (std::numbers::pi_v<float> / float(rays()));
+            sums[half_of(k)] += place_.sources.rest_of_sky(rays_of.direction(k));
+    const float share = std::numbers::pi_v<float> / float(rays());
+    sky_light_[i] = share * (sums[0] + sums[1]);
+    white_sky_light_[i] = share * sums[0];
 }
 
-Retraced LumelLinks::follow(std::uint32_t thing)
+Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
 {
-    const Box box = place_.rays.box(thing);
-    std::vector<Retraced> blocks((lumels_ + kGrain - 1) / kGrain);
-    parallel_for(blocks.size(), 1, [&](std::size_t first, std::size_t last) {
-        for (std::size_t b = first; b < last; ++b)
-            for (std::size_t i = b * kGrain; i < std::min<std::size_t>((b + 1) * kGrain, lumels_);
-                 ++i) {
-                const Retraced one = follow(i, thing, box);
-                blocks[b].started += one.started;
-                blocks[b].ended += one.ended;
-                blocks[b].crossed += one.crossed;
-            }
+    const ThingBox box = place_.rays.box(thing);
+    std::vector<Retraced> blocks((last - first + kFollowed - 1) / kFollowed);
+    parallel_for(blocks.size(), 1, [&](std::size_t from, std::size_t to) {
+        for (std::size_t b = from; b < to; ++b) {
+            const std::size_t begin = first + b * kFollowed,
+                              end = std::min(begin + kFollowed, last);
+            for (std::size_t i = begin; i < end; ++i)
+                blocks[b] += follow(i, thing, box);
+        }
     });
-    return std::accumulate(
-        blocks.begin(), blocks.end(), Retraced{}, [](const Retraced& a, const Retraced& b) {
-            return Retraced{a.started + b.started, a.ended + b.ended, a.crossed + b.crossed};
-        });
+    Retraced sum;
+    for (const Retraced& block : blocks)
+        sum += block;
+    return sum;
 }
 
-Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
+Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const ThingBox& box)
 {
     Retraced count;
     if (place_.lumels.lumels[i].flags & kLumelBuried)
@@ -202,7 +202,7 @@ Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
         ++count.crossed;
     });
     if (sky_changed)
-        sky_light_[i] = light_of_sky(rays_of, i);
+        find_sky(rays_of, i);
     return count;
 }
 

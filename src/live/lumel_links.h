@@ -17,6 +17,13 @@ struct Retraced {
     std::uint64_t crossed = 0;  ///< met it in its new place
 
     std::uint64_t all() const { return started + ended + crossed; }
+    Retraced& operator+=(const Retraced& other)
+    {
+        started += other.started;
+        ended += other.ended;
+        crossed += other.crossed;
+        return *this;
+    }
 };
 
 /// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
@@ -26,9 +33,9 @@ public:
     /// Traces all of them. What is given must outlive it. side: a power of two.
     LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed);
 
-    /// A thing has moved: traces again what starts on it, ended on it, or meets it now. Links are
-    /// then as if all had been traced.
-    Retraced follow(std::uint32_t thing);
+    /// A thing has moved: of these lumels, traces again what starts on it, ended on it, or meets it
+    /// now. Once all lumels have followed, links are as if all had been traced.
+    Retraced follow(std::uint32_t thing, std::size_t first, std::size_t last);
 
     std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
     /// What the rays of a lumel have met [side²]: a lumel or one of the ends below.
@@ -46,12 +53,16 @@ public:
     std::uint64_t bytes() const
     {
         return (links_.size() + on_thing_.size()) * sizeof(std::uint32_t) +
-               sky_light_.size() * sizeof(glm::vec3);
+               (sky_light_.size() + white_sky_light_.size()) * sizeof(glm::vec3);
     }
 
     /// What the rays of a lumel bring from the sky, without the bright parts that are a source
     /// [lx].
     const std::vector<glm::vec3>& sky_light() const { return sky_light_; }
+    /// The part of it by rays of the white half.
+    const std::vector<glm::vec3>& white_sky_light() const { return white_sky_light_; }
+    /// Of rays whose cells lie on the white (0) and on the black fields (1) of a board.
+    std::uint32_t half_of(std::uint32_t ray) const { return (ray % side_ + ray / side_) % 2; }
 
 private:
     class Rays;
@@ -59,15 +70,15 @@ private:
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
     std::uint32_t end_at(const RayHit& hit) const;
     void trace(std::size_t lumel);
-    Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
-    glm::vec3 light_of_sky(const Rays& rays, std::size_t lumel) const;
+    Retraced follow(std::size_t lumel, std::uint32_t thing, const ThingBox& box);
+    void find_sky(const Rays& rays, std::size_t lumel);
 
     const LivePlace place_;
     NearLumels near_;
     std::uint32_t side_, seed_, lumels_;
-    std::vector<std::uint32_t> links_;     ///< [N][side²]
-    std::vector<std::uint32_t> on_thing_;  ///< [ends] a thing, or ThingRays::kStays
-    std::vector<glm::vec3> sky_light_;     ///< [N]
+    std::vector<std::uint32_t> links_;                    ///< [N][side²]
+    std::vector<std::uint32_t> on_thing_;                 ///< [ends] a thing, or ThingRays::kStays
+    std::vector<glm::vec3> sky_light_, white_sky_light_;  ///< [N]
 };
 
 }  // namespace lumel

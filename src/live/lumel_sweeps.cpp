@@ -33,6 +33,11 @@ double LumelSweeps::Sums::relative() const
 void LumelSweeps::begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo)
 {
     mean_ = 0.0;
+    // Light that nothing sends any more would take tens of sweeps to fade.
+    const bool dark = std::all_of(direct.begin(), direct.end(),
+                                  [](const glm::vec3& one) { return one == glm::vec3(0.0f); });
+    if (dark)
+        std::fill(received_.begin(), received_.end(), glm::vec4(0.0f));
     for (std::size_t i = 0; i < direct_.size(); ++i) {
         direct_[i] = glm::vec4(direct[i], 0.0f);
         albedo_[i] = glm::vec4(albedo[i], 0.0f);

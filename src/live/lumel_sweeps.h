@@ -37,6 +37,10 @@ public:
     {
         return glm::vec3(direct_[lumel] + received_[lumel]);
     }
+    /// The part of it that has bounced [lx].
+    glm::vec3 received(std::size_t lumel) const { return glm::vec3(received_[lumel]); }
+    /// B of a lumel, or what comes from another end of a link: none.
+    const glm::vec4& sent(std::size_t end) const { return sent_[end]; }
     std::uint64_t bytes() const;
 
 private:

@@ -30,8 +30,8 @@ std::vector<std::uint32_t> those_that_stay(const std::vector<std::uint32_t>& thi
 
 }  // namespace
 
-bool Box::may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
-                   float margin) const
+bool ThingBox::may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
+                        float margin) const
 {
     float enter = 0.0f, leave = far;
     for (int c = 0; c < 3; ++c) {

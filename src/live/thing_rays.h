@@ -12,7 +12,7 @@
 namespace lumel {
 
 /// A box along the axes [m].
-struct Box {
+struct ThingBox {
     glm::vec3 low{0.0f}, high{0.0f};
 
     glm::vec3 centre() const { return 0.5f * (low + high); }
@@ -44,7 +44,7 @@ public:
 
     std::size_t things() const { return trees_.size(); }
     const std::vector<std::uint32_t>& instances(std::size_t thing) const { return things_[thing]; }
-    const Box& box(std::size_t thing) const { return boxes_[thing]; }
+    const ThingBox& box(std::size_t thing) const { return boxes_[thing]; }
     /// How far off a surface rays should start, wherever things are [m].
     float lift() const { return lift_; }
     const RayScene& still() const { return still_; }
@@ -62,7 +62,7 @@ private:
     RayScene still_;
     float lift_;                   ///< [m]
     std::vector<RayScene> trees_;  ///< [things]
-    std::vector<Box> boxes_;       ///< [things] around them
+    std::vector<ThingBox> boxes_;  ///< [things] around them
 };
 
 }  // namespace lumel

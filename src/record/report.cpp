@@ -96,13 +96,17 @@ Json solution(const Report& report)
 Json frames(const Report& report)
 {
     Json rows = Json::array();
-    for (const FrameRow& frame : report.frames)
-        rows.push_back({{"file", frame.file},
-                        {"time_s", frame.seconds},
-                        {"update_ms", frame.update_ms},
-                        {"hemicubes", frame.hemicubes},
-                        {"residual", frame.residual},
-                        {"at_rest", frame.at_rest}});
+    for (const FrameRow& frame : report.frames) {
+        Json& row = rows.emplace_back(
+            Json{{"file", frame.file}, {"time_s", frame.seconds}, {"update_ms", frame.update_ms}});
+        if (frame.links)
+            row.update({{"links", frame.links->retraced},
+                        {"direct", frame.links->direct},
+                        {"sweeps", frame.links->sweeps}});
+        else
+            row["hemicubes"] = frame.hemicubes;
+        row.update({{"residual", frame.residual}, {"at_rest", frame.at_rest}});
+    }
     return rows;
 }
 

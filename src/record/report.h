@@ -32,14 +32,22 @@ struct ConvergencePoint {
     double error = 0.0;    ///< estimated relative error
 };
 
+/// What a picture took over kept links.
+struct LinksRow {
+    std::uint64_t retraced = 0;  ///< links
+    double direct = 0.0;         ///< share of direct light that was found again
+    std::uint64_t sweeps = 0;
+};
+
 /// A picture of a moving scene.
 struct FrameRow {
     std::string file;
-    double seconds = 0.0;         ///< of the scene's own time
-    double update_ms = 0.0;       ///< that the light took to follow
-    std::uint64_t hemicubes = 0;  ///< for it
-    double residual = 0.0;        ///< light still to be shot, as a part of all
-    bool at_rest = false;         ///< nothing was left to do
+    double seconds = 0.0;           ///< of the scene's own time
+    double update_ms = 0.0;         ///< that the light took to follow
+    std::uint64_t hemicubes = 0;    ///< for it
+    double residual = 0.0;          ///< light still to be shot, as a part of all
+    bool at_rest = false;           ///< nothing was left to do
+    std::optional<LinksRow> links;  ///< in place of hemicubes
 };
 
 /// Form factors between patches, as they were found, before reciprocity and row sums were enforced.

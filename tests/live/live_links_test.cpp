@@ -289,6 +289,60 @@ TEST(LiveLinks, BudgetEndsACallAndLaterCallsFinish)
     EXPECT_EQ(live.irradiance(), at_once.irradiance());
 }
 
+TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
+{
+    const LiveLinksOptions options = options_for({kBlock, kLight});
+    LiveLinks at_once(laid_out(open_box(), options.things), options);
+    LiveLinks spread(laid_out(open_box(), options.things), options);
+    at_once.settle();
+    spread.settle();
+    const Lights before = spread.irradiance();
+    const glm::mat4 block = motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f)),
+                    light = motion(glm::vec3(0.0f), 0.0f, glm::vec3(0, 1, 0),
+                                   glm::vec3(0.05f, -0.02f, 0.0f));
+    at_once.move(kBlock, block);
+    at_once.move(kLight, light);
+    spread.request(0, block);
+    spread.request(1, light);
+    int calls = 1;
+    while (spread.advance(0.0).under_way) {
+        EXPECT_EQ(spread.irradiance(), before) << "what moves is shown once it is wholly followed";
+        ++calls;
+    }
+    EXPECT_GT(calls, 10);
+    EXPECT_EQ(different(at_once, spread), 0u);
+    at_once.settle();
+    spread.settle();
+    EXPECT_EQ(spread.irradiance(), at_once.irradiance());
+}
+
+TEST(LiveLinks, RequestsThatComeFasterThanTheyAreFollowedEndInTheLast)
+{
+    const LiveLinksOptions options = options_for({kBlock});
+    LiveLinks live(laid_out(open_box(), options.things), options);
+    live.settle();
+    const Lights before = live.irradiance();
+    int shown = 0;
+    glm::mat4 last(1.0f);
+    for (int k = 1; k <= 120; ++k) {
+        const float far = 0.002f * float(k);
+        last = motion(glm::vec3(0.2f), far, glm::vec3(0, 1, 0), glm::vec3(far));
+        live.request(0, last);
+        live.advance(0.0);
+        shown += live.irradiance() != before;
+    }
+    EXPECT_GT(shown, 0) << "things that never stop are shown all the same";
+    EXPECT_FALSE(live.state().at_rest);
+    EXPECT_TRUE(live.settle().at_rest);
+    LiveLinks fresh = anew(live, options);
+    EXPECT_EQ(different(live, fresh), 0u);
+    fresh.settle();
+    EXPECT_LT(farthest(live.irradiance(), fresh.irradiance()), 1e-3);
+    const std::uint32_t block = find_instance(live.scene(), kBlock);
+    EXPECT_EQ(live.scene().instances[block].transform,
+              last * open_box().instances[block].transform);
+}
+
 TEST(LiveLinks, CellsHoldAllDirectionsThatMeetABall)
 {
     std::mt19937 random(3);
@@ -331,6 +385,9 @@ TEST(LiveLinks, RefusesWhatItCannotDo)
     EXPECT_THROW(live.set_lamp(kLight, glm::vec3(-1.0f)), Error);
     EXPECT_THROW(live.set_sky(glm::vec3(1.0f)), Error);
     EXPECT_THROW(live.set_albedo("red", glm::vec3(1.5f)), Error);
+    EXPECT_THROW(live.request(1, glm::mat4(1.0f)), Error);
+    EXPECT_THROW(live.set_emission(99, glm::vec3(1.0f)), Error);
+    EXPECT_THROW(live.set_light(0, glm::vec3(1.0f)), Error);
     EXPECT_THROW(live.move("tall block", glm::mat4(1.0f)), Error);
     EXPECT_THROW(live.move(kBlock, glm::scale(glm::mat4(1.0f), glm::vec3(2.0f))), Error);
 }

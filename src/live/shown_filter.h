@@ -1,0 +1,75 @@
+#pragma once
+// Less noise in what is shown: weights by which lumels mix with those around them, kept while the
+// light changes.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "live/lumel_links.h"
+#include "live/lumel_sweeps.h"
+
+namespace lumel {
+
+struct FilterTile;
+
+/// The narrow filter of charts (links/filter_tile.h): two lumels to either side. Its weights come
+/// from light that was at rest once, and serve what follows. Lumels of which it has none are shown
+/// as they are.
+class ShownFilter {
+public:
+    /// What is given must outlive it.
+    ShownFilter(const LivePlace& place, const LumelLinks& links);
+
+    /// Light by rays is that of the links and sweeps now, and of the sky, times a factor: makes all
+    /// weights anew in the steps that follow.
+    void begin(const LumelSweeps& sweeps, const glm::vec3& sky);
+    /// A piece of that. True when all is done.
+    bool step();
+
+    /// H at a lumel [lx]: direct light, which is sharp, as it is, and light by rays filtered.
+    glm::vec3 irradiance(const LumelSweeps& sweeps, const glm::vec3& sky, std::size_t lumel) const;
+    std::uint64_t bytes() const;
+
+private:
+    struct Weight {
+        std::uint32_t lumel;
+        float weight;  ///< beside 1 of its own
+    };
+    /// A tile of one side of the atlas.
+    struct Tile {
+        int left = 0, top = 0, side = 0;
+        std::vector<std::uint32_t> first;  ///< [lumels + 1] into weights
+        std::vector<Weight> weights;
+    };
+    struct Place {
+        std::uint32_t tile = ~0u, number = 0;
+    };
+
+    std::uint32_t lumel_at(int x, int y, int side) const;
+    float nearest_of(std::size_t lumel) const;
+    std::uint8_t steps_of(std::size_t lumel) const;
+    bool may_step(std::size_t i, std::size_t j) const;
+    void find_half(std::size_t lumel);
+    void fill(const Tile& of, FilterTile& tile) const;
+    void find_noise(FilterTile& tile);
+    void weigh(Tile& of, FilterTile& tile);
+    template <class Work>
+    bool do_tiles(const Work& work);
+
+    const LivePlace place_;
+    const LumelLinks& links_;
+    const LumelSweeps* sweeps_ = nullptr;  ///< that weights are made for
+    glm::vec3 sky_{0.0f};
+    std::vector<std::uint32_t> by_side_;  ///< [texels][2]
+    std::vector<Tile> tiles_;
+    std::vector<Place> places_;  ///< [N]
+    enum class Stage { halves, steps, noise, weights, done } stage_ = Stage::done;
+    std::size_t next_ = 0;  ///< lumel or tile of the stage
+    // Light by rays from every other direction, and by the others: empty when done.
+    std::array<std::vector<glm::vec3>, 2> halves_;  ///< [N] [lx]
+    std::vector<float> nearest_, noise_;            ///< [N] [m], and the variance of a half
+    std::vector<std::uint8_t> steps_;               ///< [N] bit s: light may mix over kSteps[s]
+};
+
+}  // namespace lumel

@@ -1,0 +1,170 @@
+// Scenes kept lit by a host over links.
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "boxes.h"
+
+namespace lumel::v0 {
+namespace {
+
+using test::expect_error;
+using test::mean_of;
+using test::scene_path;
+
+constexpr int kSize = 32;  // of the atlas [texels]
+constexpr double kUntilAtRest = std::numeric_limits<double>::infinity();
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+
+/// A room with a box that may move, and a lamp of its own beside the shining ceiling.
+Scene room()
+{
+    return Scene::load(scene_path("moving-large-lamp"));
+}
+
+LiveLinksSettings settings_for(const Scene& scene)
+{
+    return {.atlas = {.size = kSize}, .movers = {scene.find_instance("box")}};
+}
+
+Mat4 shifted(const Mat4& transform, const Vec3& by)
+{
+    Mat4 result = transform;
+    for (std::size_t c = 0; c < 3; ++c)
+        result[12 + c] += by[c];
+    return result;
+}
+
+/// The six sides of a cube of white paint with a lamp in it.
+SceneContent lit_cube()
+{
+    SceneContent content =
+        test::closed_cube({.name = "paint", .base_color = {0.5f, 0.5f, 0.5f, 1}});
+    content.lights = {{.name = "bulb", .intensity = 10.0f}};
+    return content;
+}
+
+TEST(LiveLinkScenes, AreAsBrightAsTheirLamps)
+{
+    LiveLinks live(Scene(lit_cube()), {.atlas = {.size = kSize}});
+    EXPECT_TRUE(live.update(kUntilAtRest).at_rest);
+    const double bright = mean_of(live.map());
+    EXPECT_GT(bright, 0.0);
+    live.set_lamp("bulb", {2.0f, 2.0f, 2.0f});
+    EXPECT_FALSE(live.state().at_rest);
+    EXPECT_LE(live.update(0.0).residual, 1.0);
+    EXPECT_TRUE(live.update(kUntilAtRest).at_rest);
+    EXPECT_NEAR(mean_of(live.map()), 2.0 * bright, 2e-3 * bright);
+    live.set_lamp("bulb", {0.0f, 0.0f, 0.0f});
+    live.update(kUntilAtRest);
+    EXPECT_EQ(mean_of(live.map()), 0.0);
+    EXPECT_EQ(live.surfaces().size(), 1u);
+}
+
+/// All the light of the lamp falls on the walls, which return the share that they reflect, and so
+/// on: H = D / (1 - ρ), but for lumels that lie half outside of their wall and count as whole.
+TEST(LiveLinkScenes, PaintReflectsAsMuchAsItSays)
+{
+    LiveLinks live(Scene(lit_cube()), {.atlas = {.size = 2 * kSize}});
+    const auto mean_with = [&](float albedo) {
+        live.set_color("paint", {albedo, albedo, albedo});
+        live.update(kUntilAtRest);
+        return mean_of(live.lumels());
+    };
+    const double direct = mean_with(0.0f);
+    constexpr double kFlux = 4.0 * 3.14159265358979 * 10.0, kArea = 24.0;
+    EXPECT_NEAR(direct * kArea / kFlux, 1.0, 0.05);
+    for (const float albedo : {0.5f, 0.2f, 0.8f})
+        EXPECT_NEAR(mean_with(albedo) * (1.0 - double(albedo)) / direct, 1.0, 0.03);
+}
+
+TEST(LiveLinkScenes, MovedAndMovedBackAreLitAsBefore)
+{
+    const Scene scene = room();
+    const std::uint32_t box = scene.find_instance("box");
+    const Mat4 start = scene.instances()[box].transform;
+    LiveLinks live(scene, settings_for(scene));
+    live.update(kUntilAtRest);
+    const Map before = live.lumels();
+    live.move(box, shifted(start, {0.3f, 0.0f, 0.2f}));
+    EXPECT_FALSE(live.state().at_rest);
+    EXPECT_EQ(live.lumels().rgba, before.rgba) << "until the move is followed";
+    int calls = 1;
+    while (live.update(0.0).under_way)
+        ++calls;
+    EXPECT_GT(calls, 1);
+    live.update(kUntilAtRest);
+    EXPECT_NE(live.lumels().rgba, before.rgba);
+
+    live.move(box, start);
+    live.update(kUntilAtRest);
+    const Map after = live.lumels();
+    double squares = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < after.rgba.size(); ++i) {
+        squares += std::pow(double(after.rgba[i] - before.rgba[i]), 2.0);
+        count += 1.0;
+    }
+    EXPECT_LT(std::sqrt(squares / count), 5e-4 * mean_of(before));
+}
+
+TEST(LiveLinkScenes, LampsShineFromWhereTheyAreMovedTo)
+{
+    LiveLinks live(Scene(lit_cube()), {.atlas = {.size = kSize}});
+    live.update(kUntilAtRest);
+    const double middle = mean_of(live.lumels());
+    live.move_lamp("bulb", {.position = Vec3{0.6f, 0.0f, 0.0f}});
+    live.update(kUntilAtRest);
+    const Map aside = live.lumels();
+    // A closed room swallows the same light wherever the lamp is; the wall beside it gets most.
+    EXPECT_NEAR(mean_of(aside), middle, 0.1 * middle);
+    double brightest = 0.0;
+    for (const float one : aside.rgba)
+        brightest = std::max(brightest, double(one));
+    EXPECT_GT(brightest, 10.0 / (0.4 * 0.4) / 2.0);  // half of I / r² at the foot
+}
+
+TEST(LiveLinkScenes, RefuseWhatTheyCannotFollow)
+{
+    const Scene scene = room();
+    const std::uint32_t box = scene.find_instance("box");
+    LiveLinks live(scene, settings_for(scene));
+    Mat4 stretched = scene.instances()[box].transform;
+    stretched[0] *= 2.0f;
+    const Mat4 nowhere = shifted(scene.instances()[box].transform, {kNoNumber, 0, 0});
+    expect_error(ErrorKind::input, {"stretched"}, [&] { live.move(box, stretched); });
+    expect_error(ErrorKind::input, {"no number"}, [&] { live.move(box, nowhere); });
+    expect_error(ErrorKind::input, {"instance 99"}, [&] { live.move(99, kIdentity); });
+    expect_error(ErrorKind::input, {"no such"}, [&] {
+        live.set_lamp("no such", {1.0f, 1.0f, 1.0f});
+    });
+    expect_error(ErrorKind::input, {"sky"}, [&] { live.set_sky({1, 1, 1}); });
+    expect_error(ErrorKind::input, {"no such"}, [&] { live.move_lamp("no such", {}); });
+    expect_error(ErrorKind::input, {"red", "0 to 1"}, [&] { live.set_color("red", {2, 0, 0}); });
+    const auto made_with = [&](const LiveLinksSettings& settings) {
+        LiveLinks(scene, settings).update(0.0);
+    };
+    LiveLinksSettings settings = settings_for(scene);
+    settings.movers = {99};
+    expect_error(ErrorKind::input, {"99"}, [&] { made_with(settings); });
+    settings.movers = {box, box};
+    expect_error(ErrorKind::input, {"twice"}, [&] { made_with(settings); });
+    settings = settings_for(scene);
+    settings.rays = 50;
+    expect_error(ErrorKind::input, {"50"}, [&] { made_with(settings); });
+    settings = settings_for(scene);
+    settings.residual = 0.0;
+    expect_error(ErrorKind::input, {"residual"}, [&] { made_with(settings); });
+    LiveLinks lit(Scene(lit_cube()), {.atlas = {.size = kSize}});
+    expect_error(ErrorKind::input, {"bulb", "number"}, [&] {
+        lit.move_lamp("bulb", {.position = Vec3{kNoNumber, 0, 0}});
+    });
+    expect_error(ErrorKind::input, {"bulb", "nowhere"}, [&] {
+        lit.move_lamp("bulb", {.direction = Vec3{0, 0, 0}});
+    });
+    expect_error(ErrorKind::input, {"bulb"}, [&] { lit.set_lamp("bulb", {-1, 0, 0}); });
+}
+
+}  // namespace
+}  // namespace lumel::v0
