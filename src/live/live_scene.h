@@ -15,6 +15,7 @@
 #include "live/live_state.h"
 #include "live/remaining_light.h"
 #include "live/visibility_rows.h"
+#include "nearfield/moving_near_field.h"
 
 namespace lumel {
 
@@ -87,7 +88,7 @@ private:
     void work();
     void begin_move();
     void end_move();
-    void find_crossing_pairs();
+    void follow_move();
     void shoot();
     void show();
     void upload_surfaces();
@@ -106,7 +107,9 @@ private:
     std::vector<char> movers_;  ///< [instances]
     Atlas atlas_;
     Lumels lumels_;
-    NearField near_;  ///< with Redistribution::cross: among what stays
+    RayScene rays_;
+    NearField still_near_;  ///< with Redistribution::cross: among what stays
+    MovingNearField near_;  ///< of all pairs; with Redistribution::cross: of those that move
     World world_;
     LiveLamps lamps_;
     ProgressiveRadiosity solver_;

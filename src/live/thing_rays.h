@@ -5,24 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
-
+#include "core/box.h"
 #include "rays/ray_scene.h"
 
 namespace lumel {
-
-/// A box along the axes [m].
-struct Box {
-    glm::vec3 low{0.0f}, high{0.0f};
-
-    glm::vec3 centre() const { return 0.5f * (low + high); }
-    float radius() const { return 0.5f * glm::distance(low, high); }  ///< of the ball around it
-
-    /// May a ray along `direction` (unit) meet the box, grown by `margin` [m] to all sides, before
-    /// `far` [m]?
-    bool may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
-                  float margin) const;
-};
 
 /// What moves has a tree of its own, what stays has another; the nearest hit counts. So the tree of
 /// the scene is never built again, and what one thing alone does to a ray can be asked.
