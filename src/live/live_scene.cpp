@@ -162,7 +162,10 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         incremental_.emplace(device, world_, lumels_, solver_, rows_,
                              options.solver.views.projection);
     moving_share_ = share_of(movers_, lumels_);
-    find_lamps();
+    if (!lamps_.empty()) {
+        lamps_.find(device, world_, lumels_);
+        upload_surfaces();
+    }
     world_.show_movers(!cross_);
     show();
 }
@@ -208,14 +211,13 @@ void LiveScene::set_sky(const glm::vec3& factor)
     light_changes();
 }
 
-/// What lamps send with things where they are now.
-void LiveScene::find_lamps()
+/// To find what lamps send with things where they are now.
+void LiveScene::begin_lamps()
 {
     if (lamps_.empty())
         return;
     world_.show_movers(true);
-    lamps_.find(*device_, world_, lumels_);
-    upload_surfaces();
+    lamps_.begin(*device_, world_, lumels_);
 }
 
 void LiveScene::upload_surfaces()
@@ -254,6 +256,11 @@ bool LiveScene::is_move_requested() const
 }
 
 bool LiveScene::is_under_way() const
+{
+    return lamps_.is_under_way() || is_redistributing();
+}
+
+bool LiveScene::is_redistributing() const
 {
     return cross_ ? cross_->is_under_way() : incremental_->is_under_way();
 }
@@ -334,7 +341,14 @@ void LiveScene::end_move()
         solver_.set_near_field(near_.table());
     }
     if (!move_.boxes.empty())
-        find_lamps();
+        begin_lamps();
+    if (!lamps_.is_under_way())
+        settle_move();
+}
+
+/// What is left to be shot once lamps are known.
+void LiveScene::settle_move()
+{
     state_.residual = solver_.residual();
     corrects_ = state_.residual <= kMostToCorrect;
     remaining_.drop();
@@ -342,7 +356,12 @@ void LiveScene::end_move()
 
 void LiveScene::work()
 {
-    if (is_under_way()) {
+    if (lamps_.is_under_way()) {
+        if (!lamps_.step()) {
+            upload_surfaces();
+            settle_move();
+        }
+    } else if (is_redistributing()) {
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
     } else if (is_move_requested() ||

@@ -32,7 +32,8 @@ struct LiveOptions {
     double target_error = SolverOptions{}.target_error;  ///< of the near field alone
     std::vector<std::uint32_t> movers;                   ///< instances that may move; empty: all
     bool still = false;                                  ///< none may, whatever `movers` holds
-    /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
+    /// Of sky, sun and lamps: their direct light is found anew after each move, a few views at a
+    /// time.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.0005;  ///< light still to be shot, as a part of all, to rest at
     /// Kept of what patches see, so that it is not rendered again; 0: nothing, as in the thesis.
@@ -92,9 +93,11 @@ private:
     void shoot();
     void show();
     void upload_surfaces();
-    void find_lamps();
+    void begin_lamps();
+    void settle_move();
     void light_changes();
     bool is_under_way() const;
+    bool is_redistributing() const;
     bool is_move_requested() const;
     bool is_at_rest() const;
     bool is_crossed() const;
