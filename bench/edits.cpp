@@ -64,7 +64,7 @@ Moved make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t
                        shifted(live.scene(), edit.name,
                                glm::distance(rays.still().low(), rays.still().high()), n));
     else {
-        const ThingBox& box = rays.box(std::uint32_t(thing));
+        const Box& box = rays.box(std::uint32_t(thing));
         const float size = std::max(box.high.x - box.low.x, box.high.z - box.low.z);
         const glm::mat4 shift = glm::translate(
             glm::mat4(1.0f), glm::vec3(kStep * size * float(n % 2 + 1), 0.0f, kStep * size * wave));

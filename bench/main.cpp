@@ -48,6 +48,9 @@ void add_other_modes(CLI::App& app, Settings& settings)
                    "times edits of a scene that is kept lit over links instead: dim:LAMP, "
                    "shift:LAMP, paint:MATERIAL, move:THING")
         ->delimiter(',');
+    app.add_option("--moves", settings.moves,
+                   "times what rays and close pairs take to follow this thing instead")
+        ->type_name("THING");
     app.add_option("--edit-rays", settings.edit_rays, "rays of a lumel in such a scene")
         ->capture_default_str();
     app.add_option("--edit-truth", settings.edit_truth,
@@ -132,6 +135,8 @@ int main(int argc, char** argv)
             compare_projections(settings);
         else if (!settings.edits.empty())
             time_edits(settings);
+        else if (!settings.moves.empty())
+            time_moves(settings);
         else if (!settings.growth.empty())
             grow(settings);
         else

@@ -17,4 +17,7 @@ void compare_projections(const Settings& settings);
 /// Processor time of edits of a scene that is kept lit over links.
 void time_edits(const Settings& settings);
 
+/// Processor time that rays and close pairs take to follow a thing that moves.
+void time_moves(const Settings& settings);
+
 }  // namespace lumel::bench

@@ -68,7 +68,7 @@ void LiveScene::move(std::uint32_t instance, const Mat4& transform)
 {
     translated([&] {
         const glm::mat4 place = to_glm(transform);
-        if (!is_finite(transform) || reaches_too_far(Box{}, place))
+        if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, "instance " + std::to_string(instance),
                                "is moved to a place that is no number, or too far out");
         impl_->live.move(instance, place);

@@ -1,6 +1,7 @@
 #include "lights/direct_light.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "lights/lamps.h"
 #include "lights/parallel_light.h"
@@ -51,33 +52,112 @@ std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float
     return sums + pixels * sizeof(float);
 }
 
+struct DirectLightSearch::Data {
+    const gpu::Device* device;
+    const World* world;
+    const Scene* scene;
+    DirectLightOptions options;
+    ParallelLightOptions parallel_options;
+    std::vector<std::vector<ParallelSource>> sources;
+    SummedLight summed;
+    std::size_t part = 0;  ///< of the sources; then all lamps are one
+    std::optional<ParallelLight> parallel;
+    std::optional<LampLight> lamps;
+
+    bool is_done() const { return part > sources.size(); }
+
+    /// Goes on to the next part that has anything to do.
+    void begin()
+    {
+        parallel.reset();
+        lamps.reset();
+        while (part < sources.size() && sources[part].empty())
+            ++part;
+        if (part < sources.size())
+            parallel.emplace(*device, *world, sources[part], parallel_options, summed);
+        if (part != sources.size())
+            return;
+        lamps.emplace(*device, *world, *scene,
+                      LampOptions{.seed = options.seed, .centre = options.centre}, summed);
+        if (lamps->is_done())
+            ++part;
+    }
+};
+
+DirectLightSearch::DirectLightSearch(const gpu::Device& device, const World& world,
+                                     const Scene& scene, const Lumels& lumels,
+                                     const DirectLightOptions& options)
+    : data_(new Data{
+          .device = &device,
+          .world = &world,
+          .scene = &scene,
+          .options = options,
+          .parallel_options = {.side = parallel_side(lumels, world.diagonal(), kPixelsPerLumel,
+                                                     device.max_image_side()),
+                               .seed = options.seed,
+                               .centre = options.centre},
+          .sources = parallel_sources(scene, options),
+          .summed = {device, lumels.lumels.size()}})
+{
+    data_->begin();
+}
+
+DirectLightSearch::~DirectLightSearch() = default;
+
+void DirectLightSearch::step(std::uint64_t pixels)
+{
+    if (data_->parallel)
+        data_->parallel->step(pixels);
+    else
+        data_->lamps->step(pixels);
+    if (data_->parallel ? !data_->parallel->is_done() : !data_->lamps->is_done())
+        return;
+    ++data_->part;
+    data_->begin();
+}
+
+void DirectLightSearch::wait()
+{
+    if (data_->parallel)
+        data_->parallel->wait();
+    else if (!data_->is_done())
+        data_->lamps->wait();
+}
+
+bool DirectLightSearch::is_done() const
+{
+    return data_->is_done();
+}
+
+double DirectLightSearch::done() const
+{
+    if (is_done())
+        return 1.0;
+    const double of_part = data_->parallel ? data_->parallel->done() : data_->lamps->done();
+    return (double(data_->part) + of_part) / (double(data_->sources.size()) + 1.0);
+}
+
+DirectLight DirectLightSearch::take()
+{
+    const bool finished = is_done();
+    if (!finished && data_->parallel)
+        data_->parallel->finish();
+    else if (!finished)
+        data_->lamps->finish();
+    return {data_->summed.irradiance(), data_->summed.times(), finished};
+}
+
 DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
                          const Lumels& lumels, const DirectLightOptions& options,
                          const std::function<bool(double)>& go_on)
 {
-    SummedLight summed(device, lumels.lumels.size());
-    const std::vector<std::vector<ParallelSource>> sources = parallel_sources(scene, options);
-    const double parts = double(sources.size()) + 1.0;  // the lamps are one
-    double part = 0.0;
-    const auto go_on_part = [&](double fraction) {
-        return !go_on || go_on((part + fraction) / parts);
-    };
-    const ParallelLightOptions parallel{
-        .side = parallel_side(lumels, world.diagonal(), kPixelsPerLumel, device.max_image_side()),
-        .seed = options.seed,
-        .centre = options.centre};
-    DirectLight light;
-    for (const std::vector<ParallelSource>& directions : sources) {
-        light.finished = light.finished && add_parallel_light(device, world, directions, parallel,
-                                                              summed, go_on_part);
-        part += 1.0;
+    DirectLightSearch search(device, world, scene, lumels, options);
+    bool going = true;
+    while (!search.is_done() && going) {
+        search.step(kMostLightPixels);
+        going = !go_on || go_on(search.done());
     }
-    light.finished = light.finished && add_lamps(device, world, scene,
-                                                 {.seed = options.seed, .centre = options.centre},
-                                                 summed, go_on_part);
-    light.irradiance = summed.irradiance();
-    light.times = summed.times();
-    return light;
+    return search.take();
 }
 
 }  // namespace lumel

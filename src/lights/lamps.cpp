@@ -108,23 +108,31 @@ std::uint32_t batch_of(const LampOptions& options)
         kMostLightPixels / view_pixels(Projection::hemicube, options.hemicube), 1));
 }
 
+}  // namespace
+
+std::uint64_t lamp_pixels(const LampOptions& options)
+{
+    return batch_of(options) * view_pixels(Projection::hemicube, options.hemicube);
+}
+
 /// Buffers that lamps use in turn.
-struct LampStage {
-    LampStage(const gpu::Device& on, const World& in, const Scene& scene,
-              const std::vector<Lamp>& all, const LampOptions& given)
+struct LampLight::Stage {
+    Stage(const gpu::Device& on, const World& in, const Scene& scene, const std::vector<Lamp>& all,
+          const LampOptions& given)
         : device(&on),
           world(&in),
-          options(&given),
+          options(given),
           lamps(on, std::span<const Lamp>(all)),
           profiles(on, std::span<const float>(profiles_of(scene))),
           views(on, in, Projection::hemicube, given.hemicube, batch_of(given)),
-          receive(on, std::uint32_t(Projection::hemicube))
+          receive(on, std::uint32_t(Projection::hemicube)),
+          pacer(on)
     {
     }
 
     /// Adds the light of some of a lamp's eyes. first: of them among the lamp's.
-    void take(gpu::Pacer& pacer, std::span<const Eye> batch, std::uint32_t lamp,
-              std::uint32_t first, const SummedLight& light)
+    void take(std::span<const Eye> batch, std::uint32_t lamp, std::uint32_t first,
+              const SummedLight& light)
     {
         const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch, "lamps.eyes");
         views.look_from(pacer, eyes, std::uint32_t(batch.size()));
@@ -136,8 +144,8 @@ struct LampStage {
                                                       .lamp = lamp,
                                                       .first_eye = first,
                                                       .eyes = std::uint32_t(batch.size()),
-                                                      .seed = options->seed,
-                                                      .centre = options->centre ? 1u : 0u};
+                                                      .seed = options.seed,
+                                                      .centre = options.centre ? 1u : 0u};
                        commands.dispatch(receive,
                                          {.lumels = world->lumels(),
                                           .pieces = world->pieces(),
@@ -152,58 +160,73 @@ struct LampStage {
 
     const gpu::Device* device;
     const World* world;
-    const LampOptions* options;
+    LampOptions options;
     gpu::Array<Lamp> lamps;
     gpu::Array<float> profiles;
     EyeViews views;
     gpu::Kernel<shaders::LampsReceive> receive;
     std::deque<gpu::Array<Eye>> in_flight;  ///< until the pacer has finished
+    gpu::Pacer pacer;                       ///< after all that its work uses: it waits when it ends
 };
 
-}  // namespace
-
-std::uint64_t lamp_pixels(const LampOptions& options)
-{
-    return batch_of(options) * view_pixels(Projection::hemicube, options.hemicube);
-}
-
-bool add_lamps(const gpu::Device& device, const World& world, const Scene& scene,
-               const LampOptions& options, SummedLight& light,
-               const std::function<bool(double)>& go_on)
+LampLight::LampLight(const gpu::Device& device, const World& world, const Scene& scene,
+                     const LampOptions& options, SummedLight& light)
+    : light_(&light)
 {
     std::vector<Lamp> lamps;
-    std::vector<std::vector<Eye>> eyes;
     for (const PunctualLight& lamp : scene.lights) {
         if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
             continue;
         const auto key = options.seed + kLampKeys * std::uint32_t(lamps.size());
-        eyes.push_back(eyes_of(lamp, options, key));
+        eyes_.push_back(eyes_of(lamp, options, key));
         lamps.push_back(lamp_of(lamp));
         if (world.has_coloured_glass()) {
-            eyes.back() = in_channels(eyes.back());
+            eyes_.back() = in_channels(eyes_.back());
             lamps.back().eyes_per_look *= kChannels;
         }
-        lamps.back().share = float(lamps.back().eyes_per_look) / float(eyes.back().size());
+        lamps.back().share = float(lamps.back().eyes_per_look) / float(eyes_.back().size());
     }
-    if (lamps.empty())
-        return true;
-    LampStage stage(device, world, scene, lamps, options);
-    gpu::Pacer pacer(device);  // after all that its work uses: it waits when it ends
-    bool going = true;
-    for (std::size_t lamp = 0; lamp < lamps.size(); ++lamp) {
-        const std::span<const Eye> all(eyes[lamp]);
-        for (std::size_t first = 0; first < all.size() && going; first += stage.views.capacity()) {
-            const std::size_t count =
-                std::min<std::size_t>(stage.views.capacity(), all.size() - first);
-            stage.take(pacer, all.subspan(first, count), std::uint32_t(lamp), std::uint32_t(first),
-                       light);
-            going =
-                go_on((double(lamp) + double(first) / double(all.size())) / double(lamps.size()));
-        }
-        light.finish_source(pacer);
-    }
-    light.finish(pacer);
-    return going;
+    if (!lamps.empty())
+        stage_ = std::make_unique<Stage>(device, world, scene, lamps, options);
+}
+
+LampLight::~LampLight() = default;
+
+void LampLight::step(std::uint64_t pixels)
+{
+    const std::span<const Eye> all(eyes_[lamp_]);
+    const std::uint64_t fit = std::max<std::uint64_t>(
+        pixels / view_pixels(Projection::hemicube, stage_->options.hemicube), 1);
+    const std::size_t count =
+        std::min<std::size_t>({fit, stage_->views.capacity(), all.size() - next_});
+    stage_->take(all.subspan(next_, count), std::uint32_t(lamp_), std::uint32_t(next_), *light_);
+    next_ += count;
+    if (next_ < all.size())
+        return;
+    light_->finish_source(stage_->pacer);
+    next_ = 0;
+    if (++lamp_ == eyes_.size())
+        light_->finish(stage_->pacer);
+}
+
+void LampLight::wait()
+{
+    stage_->pacer.finish();
+    stage_->in_flight.clear();
+}
+
+double LampLight::done() const
+{
+    if (is_done())
+        return 1.0;
+    const double of_lamp = double(next_) / double(eyes_[lamp_].size());
+    return (double(lamp_) + of_lamp) / double(eyes_.size());
+}
+
+void LampLight::finish()
+{
+    light_->finish_source(stage_->pacer);
+    light_->finish(stage_->pacer);
 }
 
 }  // namespace lumel

@@ -18,7 +18,6 @@
 #include "core/frame.h"
 #include "core/lattice.h"
 #include "core/sphere.h"
-#include "lights/parallel_light.receive.comp.h"
 
 namespace lumel {
 namespace {
@@ -50,6 +49,11 @@ ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uin
                             .random = index + options.seed * 0x9e3779b9u,
                             .channel = channel};
     return fit_view(world.low(), world.high(), options.side, pose);
+}
+
+std::uint32_t views_per_source(const World& world)
+{
+    return world.has_coloured_glass() ? kChannels : 1;
 }
 
 /// One view of each source, or where there is coloured glass three, alike but for their channel.
@@ -116,50 +120,57 @@ std::uint64_t parallel_light_pixels(const ParallelLightOptions& options)
     return std::uint64_t(batch_of(options)) * options.side * options.side;
 }
 
-bool add_parallel_light(const gpu::Device& device, const World& world,
-                        const std::vector<ParallelSource>& sources,
-                        const ParallelLightOptions& options, SummedLight& light,
-                        const std::function<bool(double)>& go_on)
+ParallelLight::ParallelLight(const gpu::Device& device, const World& world,
+                             const std::vector<ParallelSource>& sources,
+                             const ParallelLightOptions& options, SummedLight& light)
+    : world_(&world),
+      options_(options),
+      light_(&light),
+      total_(std::uint32_t(sources.size()) * views_per_source(world)),
+      views_per_source_(views_per_source(world)),
+      views_(device, std::span<const ParallelView>(views_of(sources, world, options))),
+      sources_(device, std::span<const ParallelSource>(sources)),
+      images_(device, world, options.side, batch_of(options)),
+      receive_(device),
+      pacer_(device)
 {
-    if (sources.empty())
-        return true;
-    const std::vector<ParallelView> views = views_of(sources, world, options);
-    const gpu::Array<ParallelView> view_array(device, std::span<const ParallelView>(views));
-    const gpu::Array<ParallelSource> source_array(device, std::span<const ParallelSource>(sources));
-    ParallelViews images(device, world, options.side, batch_of(options));
-    const gpu::Kernel<shaders::ParallelLightReceive> receive(device);
-    gpu::Pacer pacer(device);  // after all that its work uses: it waits when it ends
+}
 
-    const auto total = std::uint32_t(views.size());
-    const auto views_per_source = std::uint32_t(views.size() / sources.size());
-    bool going = true;
-    for (std::uint32_t begin = 0; begin < total && going; begin += images.capacity()) {
-        const std::uint32_t count = std::min(images.capacity(), total - begin);
-        images.look_along(pacer, view_array, begin, count);
-        pacer.work("parallel light", light.lumels(), kProbeLumels,
-                   [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                       const ParallelReceiveParams params{.tiling = images.layout(),
-                                                          .first = first,
-                                                          .last = last,
-                                                          .first_view = begin,
-                                                          .views = count,
-                                                          .views_per_source = views_per_source,
-                                                          .seed = options.seed,
-                                                          .centre = options.centre ? 1u : 0u};
-                       commands.dispatch(receive,
-                                         {.lumels = world.lumels(),
-                                          .pieces = world.pieces(),
-                                          .views = view_array,
-                                          .sources = source_array,
-                                          .parallel_image = {images.image(), images.sampler()},
-                                          .sums = light.sums()},
-                                         params, last - first);
-                   });
-        going = go_on(double(begin + count) / double(total));
-    }
-    light.finish_source(pacer);
-    light.finish(pacer);
-    return going;
+void ParallelLight::step(std::uint64_t pixels)
+{
+    const auto fit = std::uint32_t(
+        std::max<std::uint64_t>(pixels / (std::uint64_t(options_.side) * options_.side), 1));
+    const std::uint32_t begin = next_;
+    const std::uint32_t count = std::min({fit, images_.capacity(), total_ - begin});
+    images_.look_along(pacer_, views_, begin, count);
+    pacer_.work("parallel light", light_->lumels(), kProbeLumels,
+                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                    const ParallelReceiveParams params{.tiling = images_.layout(),
+                                                       .first = first,
+                                                       .last = last,
+                                                       .first_view = begin,
+                                                       .views = count,
+                                                       .views_per_source = views_per_source_,
+                                                       .seed = options_.seed,
+                                                       .centre = options_.centre ? 1u : 0u};
+                    commands.dispatch(receive_,
+                                      {.lumels = world_->lumels(),
+                                       .pieces = world_->pieces(),
+                                       .views = views_,
+                                       .sources = sources_,
+                                       .parallel_image = {images_.image(), images_.sampler()},
+                                       .sums = light_->sums()},
+                                      params, last - first);
+                });
+    next_ += count;
+    if (is_done())
+        finish();
+}
+
+void ParallelLight::finish()
+{
+    light_->finish_source(pacer_);
+    light_->finish(pacer_);
 }
 
 }  // namespace lumel

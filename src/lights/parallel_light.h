@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lights/light_sums.h"
+#include "lights/parallel_light.receive.comp.h"
 #include "lights/parallel_light.shared.h"
 #include "scene/scene.h"
 #include "visibility/parallel_views.h"
@@ -27,12 +28,36 @@ struct ParallelLightOptions {
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds the direct light of these directions at the lumels to `light`, as one source. `go_on`
-/// receives the fraction done and returns false to stop. Returns false if it was stopped.
-bool add_parallel_light(const gpu::Device& device, const World& world,
-                        const std::vector<ParallelSource>& sources,
-                        const ParallelLightOptions& options, SummedLight& light,
-                        const std::function<bool(double)>& go_on);
+/// Adds the direct light of some directions at the lumels to a sum, as one source, some of them at
+/// a time. How they are cut does not change the result.
+class ParallelLight {
+public:
+    /// device, world and light must outlive it, and the world stay as it is.
+    ParallelLight(const gpu::Device& device, const World& world,
+                  const std::vector<ParallelSource>& sources, const ParallelLightOptions& options,
+                  SummedLight& light);
+
+    /// Draws views of about `pixels` in all, one at least, and adds their light. Waits for the
+    /// device after the last.
+    void step(std::uint64_t pixels);
+    void wait() { pacer_.finish(); }
+    bool is_done() const { return next_ == total_; }
+    /// Part of the whole.
+    double done() const { return total_ > 0 ? double(next_) / double(total_) : 1.0; }
+    /// Counts what has been found as the whole. Waits for the device.
+    void finish();
+
+private:
+    const World* world_;
+    ParallelLightOptions options_;
+    SummedLight* light_;
+    std::uint32_t total_, views_per_source_, next_ = 0;
+    gpu::Array<ParallelView> views_;
+    gpu::Array<ParallelSource> sources_;
+    ParallelViews images_;
+    gpu::Kernel<shaders::ParallelLightReceive> receive_;
+    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+};
 
 /// Pixels of the views of one batch.
 std::uint64_t parallel_light_pixels(const ParallelLightOptions& options);

@@ -96,10 +96,10 @@ void GroupedLight::find(Group& group)
     summed_ = false;
 }
 
-std::uint64_t GroupedLight::follow(std::uint32_t thing, const ThingBox& before, std::size_t first,
+std::uint64_t GroupedLight::follow(std::uint32_t thing, const Box& before, std::size_t first,
                                    std::size_t last)
 {
-    const ThingBox now = place_.rays.box(thing);
+    const Box now = place_.rays.box(thing);
     std::atomic<std::uint64_t> found = 0;
     for (Group& group : groups_) {
         const bool moved = is_moved(group, thing);
@@ -129,8 +129,8 @@ bool GroupedLight::is_moved(const Group& group, std::uint32_t thing) const
     });
 }
 
-bool GroupedLight::may_cross(const Group& group, std::size_t i, const ThingBox& before,
-                             const ThingBox& now) const
+bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& before,
+                             const Box& now) const
 {
     return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
         const std::vector<std::uint32_t>& sources = senders_[s].sources;
@@ -142,7 +142,7 @@ bool GroupedLight::may_cross(const Group& group, std::size_t i, const ThingBox& 
 
 /// May a ray from a lumel to a source meet a box? All of them lie in the hull of two balls, around
 /// the lumel and around the source.
-bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const ThingBox& box) const
+bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
 {
     const LightSources::Origin origin = place_.sources.origin(source);
     const glm::vec3& from = place_.world[i].centre;

@@ -36,7 +36,7 @@ public:
     /// A thing has moved from a box, and this is placed: of these lumels, finds again what changes.
     /// Once all lumels have followed, light is as if all had been found. Returns for how many
     /// lumels one group was found again, in all.
-    std::uint64_t follow(std::uint32_t thing, const ThingBox& before, std::size_t first,
+    std::uint64_t follow(std::uint32_t thing, const Box& before, std::size_t first,
                          std::size_t last);
 
     /// Σ over groups [N] [lx].
@@ -69,9 +69,8 @@ private:
     RayStart start_of(std::size_t lumel, std::uint32_t ray) const;
     glm::vec3 passing(const RayStart& start, const SourceSample& sample, std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;
-    bool may_cross(const Group& group, std::size_t lumel, const ThingBox& before,
-                   const ThingBox& now) const;
-    bool may_cross(std::uint32_t source, std::size_t lumel, const ThingBox& box) const;
+    bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
+    bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;
 
     const LivePlace place_;
     const GroupedLightOptions options_;

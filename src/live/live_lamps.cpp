@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t kSky = std::numeric_limits<std::uint32_t>::max();
 
+/// Of the views that are drawn before a caller may look at the clock: about one hemicube of a lamp.
+constexpr std::uint64_t kPixelsAStep = 1u << 20;
+
 }  // namespace
 
 LiveLamps::LiveLamps(const Scene& scene, const DirectLightOptions& options) : options_(options)
@@ -46,10 +49,48 @@ void LiveLamps::set_sky(const glm::vec3& factor)
     set(kSky, factor, "the sky");
 }
 
+void LiveLamps::begin(const gpu::Device& device, const World& world, const Lumels& lumels)
+{
+    device_ = &device;
+    world_ = &world;
+    lumels_ = &lumels;
+    at_ = 0;
+    search();
+}
+
 void LiveLamps::find(const gpu::Device& device, const World& world, const Lumels& lumels)
 {
+    begin(device, world, lumels);
+    while (is_under_way())
+        step();
+}
+
+/// Begins with the next source.
+void LiveLamps::search()
+{
+    search_.reset();
+    if (at_ < sources_.size())
+        search_.emplace(*device_, *world_, sources_[at_].scene, *lumels_, options_);
+}
+
+bool LiveLamps::step()
+{
+    if (!search_)
+        return false;
+    if (!search_->is_done()) {
+        search_->step(kPixelsAStep);
+        search_->wait();
+    }
+    if (search_->is_done()) {
+        sources_[at_].fresh = search_->take().irradiance;
+        ++at_;
+        search();
+    }
+    if (search_)
+        return true;
     for (Source& source : sources_)
-        source.irradiance = direct_light(device, world, source.scene, lumels, options_).irradiance;
+        source.irradiance = std::move(source.fresh);
+    return false;
 }
 
 std::vector<glm::vec3> LiveLamps::irradiance() const

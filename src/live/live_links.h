@@ -125,7 +125,7 @@ private:
     /// A thing that has moved, and the lumels that know.
     struct Following {
         std::uint32_t thing;
-        ThingBox before;
+        Box before;
         std::size_t links = 0, direct = 0;
     };
 

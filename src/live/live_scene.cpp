@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "core/error.h"
 #include "live/live.shared.h"
@@ -80,19 +81,29 @@ std::vector<char> open_meshes(const Scene& scene)
     return open;
 }
 
-/// Of all pairs; or, where what moves is lit apart, of pairs that stay, as if nothing else were
-/// there.
-NearField first_near_field(const Scene& scene, const Lumels& lumels,
-                           const std::vector<char>& movers, const LiveOptions& options)
+/// With cross redistribution: of pairs that stay, as if nothing else were there.
+NearField near_field_of_still(const Scene& scene, const Lumels& lumels,
+                              const std::vector<char>& movers, const LiveOptions& options)
 {
-    const NearFieldOptions near = near_field_options(options);
     if (options.redistribution == Redistribution::incremental)
-        return build_near_field(scene, RayScene(scene), lumels, near);
+        return {};
     const Scene still = without(scene, movers);
     std::vector<char> stays;
     for (const Lumel& lumel : lumels.lumels)
         stays.push_back(!movers[lumel.instance]);
-    return build_near_field_among(stays, still, RayScene(still), lumels, near);
+    return build_near_field_among(stays, still, RayScene(still), lumels,
+                                  near_field_options(options));
+}
+
+/// Of all pairs; with cross redistribution of those that move.
+MovingNearField near_field_of_moving(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                                     const std::vector<char>& movers, const LiveOptions& options)
+{
+    NearFieldOptions near = near_field_options(options);
+    if (options.redistribution == Redistribution::incremental)
+        return {scene, rays, lumels, near, movers, NearPairsOf::all};
+    near.most_pairs = std::numeric_limits<std::size_t>::max();  // as with those that stay
+    return {scene, rays, lumels, near, movers, NearPairsOf::movers};
 }
 
 /// Rows of lumels that stay from the one, rows of those that move from the other.
@@ -121,10 +132,14 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
       movers_(flags_of(scene_, options)),
       atlas_(make_atlas(scene_, options.atlas)),
       lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
-      near_(first_near_field(scene_, lumels_, movers_, options)),
+      rays_(scene_, movers_),
+      still_near_(near_field_of_still(scene_, lumels_, movers_, options)),
+      near_(near_field_of_moving(scene_, rays_, lumels_, movers_, options)),
       world_(device, scene_, lumels_, &atlas_, movers_),
       lamps_(scene_, options.lights),
-      solver_(device, world_, lumels_, near_, options.solver),
+      solver_(device, world_, lumels_,
+              options.redistribution == Redistribution::cross ? still_near_ : near_.table(),
+              options.solver),
       rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
       remaining_(solver_, rows_),
       requested_(scene_.instances.size()),
@@ -147,7 +162,10 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         incremental_.emplace(device, world_, lumels_, solver_, rows_,
                              options.solver.views.projection);
     moving_share_ = share_of(movers_, lumels_);
-    find_lamps();
+    if (!lamps_.empty()) {
+        lamps_.find(device, world_, lumels_);
+        upload_surfaces();
+    }
     world_.show_movers(!cross_);
     show();
 }
@@ -193,14 +211,13 @@ void LiveScene::set_sky(const glm::vec3& factor)
     light_changes();
 }
 
-/// What lamps send with things where they are now.
-void LiveScene::find_lamps()
+/// To find what lamps send with things where they are now.
+void LiveScene::begin_lamps()
 {
     if (lamps_.empty())
         return;
     world_.show_movers(true);
-    lamps_.find(*device_, world_, lumels_);
-    upload_surfaces();
+    lamps_.begin(*device_, world_, lumels_);
 }
 
 void LiveScene::upload_surfaces()
@@ -239,6 +256,11 @@ bool LiveScene::is_move_requested() const
 }
 
 bool LiveScene::is_under_way() const
+{
+    return lamps_.is_under_way() || is_redistributing();
+}
+
+bool LiveScene::is_redistributing() const
 {
     return cross_ ? cross_->is_under_way() : incremental_->is_under_way();
 }
@@ -279,10 +301,15 @@ void LiveScene::begin_move()
             end_move();
         return;
     }
-    if (!move_.boxes.empty())
+    if (!move_.boxes.empty()) {
         world_.place(move_.transforms);
-    if (!move_.boxes.empty() || !knows_crossing_pairs_)
-        find_crossing_pairs();
+        follow_move();
+    }
+    if (!move_.boxes.empty() || !knows_crossing_pairs_) {
+        solver_.set_near_field(joined(still_near_, near_.table(), lumels_));
+        cross_->set_near_field(near_.table());
+        knows_crossing_pairs_ = true;
+    }
     std::vector<MovedBox> boxes;
     for (std::uint32_t i = 0; i < movers_.size(); ++i)
         if (movers_[i])
@@ -290,22 +317,18 @@ void LiveScene::begin_move()
     cross_->begin(boxes, !move_.boxes.empty(), options_.residual);
 }
 
-void LiveScene::find_crossing_pairs()
+/// Rays and close pairs, at the cost of what has moved.
+void LiveScene::follow_move()
 {
-    // Pairs with a moving lumel: all close pairs around what may move, less those that stay.
-    std::vector<std::uint32_t> all(movers_.begin(), movers_.end());
-    std::vector<MovedBox> boxes;
-    for (std::uint32_t i = 0; i < movers_.size(); ++i)
-        if (movers_[i])
-            boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
-    NearFieldOptions options = near_field_options(options_);
-    options.radius = near_.radius;
-    const NearField around =
-        build_near_field_among(affected_lumels(scene_, lumels_, all, boxes, near_.radius), scene_,
-                               RayScene(scene_), lumels_, options);
-    solver_.set_near_field(joined(near_, around, lumels_));
-    cross_->set_near_field(around);
-    knows_crossing_pairs_ = true;
+    std::vector<std::uint32_t> moved;
+    for (std::uint32_t i = 0; i < move_.moved.size(); ++i)
+        if (move_.moved[i])
+            moved.push_back(i);
+    std::vector<Box> boxes;
+    for (const MovedBox& box : move_.boxes)
+        boxes.push_back({box.low, box.high});
+    rays_.place(moved);
+    near_.follow(scene_, rays_, moved, boxes);
 }
 
 void LiveScene::end_move()
@@ -314,14 +337,18 @@ void LiveScene::end_move()
         crossed_ = true;
         uncrossed_ = 0.0;
     } else {
-        const std::vector<char> affected =
-            affected_lumels(scene_, lumels_, move_.moved, move_.boxes, near_.radius);
-        near_ = update_near_field(near_, scene_, RayScene(scene_), lumels_,
-                                  near_field_options(options_), affected);
-        solver_.set_near_field(near_);
+        follow_move();
+        solver_.set_near_field(near_.table());
     }
     if (!move_.boxes.empty())
-        find_lamps();
+        begin_lamps();
+    if (!lamps_.is_under_way())
+        settle_move();
+}
+
+/// What is left to be shot once lamps are known.
+void LiveScene::settle_move()
+{
     state_.residual = solver_.residual();
     corrects_ = state_.residual <= kMostToCorrect;
     remaining_.drop();
@@ -329,7 +356,12 @@ void LiveScene::end_move()
 
 void LiveScene::work()
 {
-    if (is_under_way()) {
+    if (lamps_.is_under_way()) {
+        if (!lamps_.step()) {
+            upload_surfaces();
+            settle_move();
+        }
+    } else if (is_redistributing()) {
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
     } else if (is_move_requested() ||

@@ -15,6 +15,7 @@
 #include "live/live_state.h"
 #include "live/remaining_light.h"
 #include "live/visibility_rows.h"
+#include "nearfield/moving_near_field.h"
 
 namespace lumel {
 
@@ -31,7 +32,8 @@ struct LiveOptions {
     double target_error = SolverOptions{}.target_error;  ///< of the near field alone
     std::vector<std::uint32_t> movers;                   ///< instances that may move; empty: all
     bool still = false;                                  ///< none may, whatever `movers` holds
-    /// Of sky, sun and lamps: their direct light is found anew after each move, a batch of its own.
+    /// Of sky, sun and lamps: their direct light is found anew after each move, a few views at a
+    /// time.
     DirectLightOptions lights{.sky_directions = 256, .sun_directions = 64, .disc_directions = 64};
     double residual = 0.0005;  ///< light still to be shot, as a part of all, to rest at
     /// Kept of what patches see, so that it is not rendered again; 0: nothing, as in the thesis.
@@ -87,13 +89,15 @@ private:
     void work();
     void begin_move();
     void end_move();
-    void find_crossing_pairs();
+    void follow_move();
     void shoot();
     void show();
     void upload_surfaces();
-    void find_lamps();
+    void begin_lamps();
+    void settle_move();
     void light_changes();
     bool is_under_way() const;
+    bool is_redistributing() const;
     bool is_move_requested() const;
     bool is_at_rest() const;
     bool is_crossed() const;
@@ -106,7 +110,9 @@ private:
     std::vector<char> movers_;  ///< [instances]
     Atlas atlas_;
     Lumels lumels_;
-    NearField near_;  ///< with Redistribution::cross: among what stays
+    RayScene rays_;
+    NearField still_near_;  ///< with Redistribution::cross: among what stays
+    MovingNearField near_;  ///< of all pairs; with Redistribution::cross: of those that move
     World world_;
     LiveLamps lamps_;
     ProgressiveRadiosity solver_;

@@ -151,7 +151,7 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
 {
-    const ThingBox box = place_.rays.box(thing);
+    const Box box = place_.rays.box(thing);
     std::vector<Retraced> blocks((last - first + kFollowed - 1) / kFollowed);
     parallel_for(blocks.size(), 1, [&](std::size_t from, std::size_t to) {
         for (std::size_t b = from; b < to; ++b) {
@@ -167,7 +167,7 @@ Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t 
     return sum;
 }
 
-Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const ThingBox& box)
+Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
 {
     Retraced count;
     if (place_.lumels.lumels[i].flags & kLumelBuried)

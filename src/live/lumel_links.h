@@ -70,7 +70,7 @@ private:
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
     std::uint32_t end_at(const RayHit& hit) const;
     void trace(std::size_t lumel);
-    Retraced follow(std::size_t lumel, std::uint32_t thing, const ThingBox& box);
+    Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
     void find_sky(const Rays& rays, std::size_t lumel);
 
     const LivePlace place_;

@@ -20,12 +20,6 @@ float volume_of(const MovedBox& box)
     return size.x * size.y * size.z;
 }
 
-float distance2_to(const MovedBox& box, const glm::vec3& x)
-{
-    const glm::vec3 d = x - glm::clamp(x, box.low, box.high);
-    return glm::dot(d, d);
-}
-
 }  // namespace
 
 Scene without(const Scene& scene, const std::vector<char>& movers)
@@ -105,27 +99,6 @@ bool is_rigid(const glm::mat4& from, const glm::mat4& to)
             if (!(std::abs(square[c][r] - (c == r ? 1.0f : 0.0f)) <= kStretch))
                 return false;
     return glm::determinant(turn) > 0.0f;
-}
-
-std::vector<char> affected_lumels(const Scene& scene, const Lumels& lumels,
-                                  const std::vector<std::uint32_t>& moved,
-                                  const std::vector<MovedBox>& boxes, float radius)
-{
-    float largest = 0.0f;
-    for (const Lumel& lumel : lumels.lumels)
-        largest = std::max(largest, lumel.size);
-    const float reach2 = radius * largest * radius * largest;
-    std::vector<char> affected(lumels.lumels.size());
-    for (std::size_t i = 0; i < affected.size(); ++i) {
-        const Lumel& lumel = lumels.lumels[i];
-        const glm::vec3 x(scene.instances[lumel.instance].transform *
-                          glm::vec4(lumel.position, 1.0f));
-        affected[i] = moved[lumel.instance] != 0 ||
-                      std::any_of(boxes.begin(), boxes.end(), [&](const MovedBox& box) {
-                          return distance2_to(box, x) < reach2;
-                      });
-    }
-    return affected;
 }
 
 }  // namespace lumel

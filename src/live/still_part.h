@@ -30,10 +30,4 @@ bool is_open(const Scene& scene, std::uint32_t instance);
 /// Does one transform become the other without stretching and shearing?
 bool is_rigid(const glm::mat4& from, const glm::mat4& to);
 
-/// Lumels [N] that a move affects: those that move, and those no farther from where something moved
-/// than `radius` times the largest lumel's size.
-std::vector<char> affected_lumels(const Scene& scene, const Lumels& lumels,
-                                  const std::vector<std::uint32_t>& moved,
-                                  const std::vector<MovedBox>& boxes, float radius);
-
 }  // namespace lumel

@@ -1,13 +1,7 @@
 #include "live/thing_rays.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace lumel {
 namespace {
-
-/// Directions have no smaller parts, so that their inverses are finite.
-constexpr float kLeastPart = 1e-20f;
 
 std::vector<std::uint32_t> things_by_instance(const Scene& scene,
                                               const std::vector<std::vector<std::uint32_t>>& things)
@@ -29,20 +23,6 @@ std::vector<std::uint32_t> those_that_stay(const std::vector<std::uint32_t>& thi
 }
 
 }  // namespace
-
-bool ThingBox::may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
-                        float margin) const
-{
-    float enter = 0.0f, leave = far;
-    for (int c = 0; c < 3; ++c) {
-        const float part = std::abs(direction[c]) > kLeastPart ? direction[c] : kLeastPart;
-        const float a = (low[c] - margin - origin[c]) / part;
-        const float b = (high[c] + margin - origin[c]) / part;
-        enter = std::max(enter, std::min(a, b));
-        leave = std::min(leave, std::max(a, b));
-    }
-    return enter <= leave;
-}
 
 ThingRays::ThingRays(const Scene& scene, std::vector<std::vector<std::uint32_t>> things)
     : scene_(&scene),

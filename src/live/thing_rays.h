@@ -5,24 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/glm.hpp>
-
+#include "core/box.h"
 #include "rays/ray_scene.h"
 
 namespace lumel {
-
-/// A box along the axes [m].
-struct ThingBox {
-    glm::vec3 low{0.0f}, high{0.0f};
-
-    glm::vec3 centre() const { return 0.5f * (low + high); }
-    float radius() const { return 0.5f * glm::distance(low, high); }  ///< of the ball around it
-
-    /// May a ray along `direction` (unit) meet the box, grown by `margin` [m] to all sides, before
-    /// `far` [m]?
-    bool may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
-                  float margin) const;
-};
 
 /// What moves has a tree of its own, what stays has another; the nearest hit counts. So the tree of
 /// the scene is never built again, and what one thing alone does to a ray can be asked.
@@ -44,7 +30,7 @@ public:
 
     std::size_t things() const { return trees_.size(); }
     const std::vector<std::uint32_t>& instances(std::size_t thing) const { return things_[thing]; }
-    const ThingBox& box(std::size_t thing) const { return boxes_[thing]; }
+    const Box& box(std::size_t thing) const { return boxes_[thing]; }
     /// How far off a surface rays should start, wherever things are [m].
     float lift() const { return lift_; }
     const RayScene& still() const { return still_; }
@@ -62,7 +48,7 @@ private:
     RayScene still_;
     float lift_;                   ///< [m]
     std::vector<RayScene> trees_;  ///< [things]
-    std::vector<ThingBox> boxes_;  ///< [things] around them
+    std::vector<Box> boxes_;       ///< [things] around them
 };
 
 }  // namespace lumel

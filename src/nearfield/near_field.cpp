@@ -1,332 +1,20 @@
-// Near pairs of lumels: exact polygon form factors × visible fraction, in compressed rows.
-//
-// For receiver i and shooter j, with points x of i and y of j,
-//
-//     F_ij = mean over x of F(x → polygon of j) × o_j × Σ w V(x, y) / Σ w,
-//     w = cosθ_i cosθ_j / (|y - x|² + s_j² / 4π),   s_j the size of j
-//
-// F(x → polygon) is Lambert's edge sum, averaged over Gauss points x: no noise. Only visibility V
-// is sampled, by one ray for each x to a stratified y, and its mean is weighted by the light that
-// would pass; o_j is the opacity of a cut-out.
-
 #include "nearfield/near_field.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
-#include <numeric>
+#include <span>
 
-#include "core/parallel.h"
-#include "nearfield/sequence.h"
-#include "nearfield/world_lumels.h"
+#include "nearfield/near_factors.h"
 
 namespace lumel {
-
-namespace {
-
-/// Factors below this are not worth an entry.
-constexpr float kLeastFactor = 1e-7f;
-/// Pairs farther apart than this, in sizes of the larger, take half as many points along each side.
-constexpr float kDistant = 2.0f;
-
-/// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
-/// varies little, and as many as there are of them, their noise averages out.
-constexpr float kPointwise = 4.0f;
-/// Then one pair of points replaces this number of NearFieldOptions::samples, and more beyond
-/// kOnePoint.
-constexpr int kPointPart = 8, kDistantPart = 16;
-constexpr float kOnePoint = 6.0f;
-/// A lumel that lies over more facets than this (foliage, ornaments) is seen through a sample.
-constexpr std::uint32_t kMostFacets = 8;
-
-/// Points of one receiver: for close pairs and for distant ones.
-struct ReceiverPoints {
-    std::vector<WeightedPoint> close;
-    std::vector<WeightedPoint> distant;
-    std::vector<WeightedPoint> torn;  ///< for pairs that only a part of the lumel sees, if any
-};
-
-/// Fills the rows of one table.
-class Builder {
-public:
-    Builder(const RayScene& rays, const WorldLumels& world, const Lumels& lumels,
-            const NearFieldOptions& options)
-        : rays_(rays),
-          world_(world),
-          lumels_(lumels),
-          options_(options),
-          close_(std::clamp(int(std::sqrt(float(options.samples))), 1, kMostSide)),
-          distant_((close_ + 1) / 2),
-          torn_(std::min(2 * close_, kMostSide))
-    {
-    }
-
-    ReceiverPoints spread(std::size_t i) const
-    {
-        return {spread(i, close_), spread(i, distant_), {}};
-    }
-
-    /// True if the pair's factors are those of pointwise(), which is the same from both sides.
-    bool is_pointwise(std::uint32_t i, std::uint32_t j) const
-    {
-        const float size = std::max(world_[i].size, world_[j].size);
-        return !is_near(world_[i].centre, size, world_[j].centre, size, kPointwise);
-    }
-
-    /// Mean of V cosθ_i cosθ_j / πr² over a few pairs of points [1/m²]: F_ij is this × A_j.
-    float pointwise(std::uint32_t i, std::uint32_t j) const
-    {
-        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        const float size = std::max(world_[i].size, world_[j].size);
-        const bool is_distant = !is_near(world_[i].centre, size, world_[j].centre, size, kOnePoint);
-        const int samples =
-            std::max(options_.samples / (is_distant ? kDistantPart : kPointPart), 1);
-        float sum = 0.0f;
-        for (int k = 0; k < samples; ++k) {
-            // Every second pair is opposite to the one before, about the lumels' middles.
-            const bool opposite = k % 2 == 1;
-            const glm::vec2 s = sobol_pair(std::uint32_t(k / 2), key);
-            const glm::vec2 t = sobol_pair(std::uint32_t(k / 2), hash_two(key, 1));
-            const glm::vec2 one(1.0f);
-            const LumelPoint x = options_.centre ? LumelPoint{world_[i].centre, world_[i].normal}
-                                                 : world_.point_on(i, opposite ? one - s : s);
-            const LumelPoint y = world_.point_on(j, opposite ? one - t : t);
-            const glm::vec3 offset = y.position - x.position;
-            const float toward_j = glm::dot(x.normal, offset),
-                        toward_i = -glm::dot(y.normal, offset);
-            if (toward_j <= 0.0f || toward_i <= 0.0f ||
-                !visible(x, world_[i], y, world_[j], key + std::uint32_t(k)))
-                continue;
-            const float distance2 = glm::dot(offset, offset);
-            sum += toward_j * toward_i / (distance2 * distance2);
-        }
-        return sum / (float(samples) * std::numbers::pi_v<float>);
-    }
-
-    /// F_ij × visible fraction. Takes more points where some see the shooter and others do not.
-    float factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
-    {
-        if (is_pointwise(i, j))  // the higher index takes it from the lower, in make_reciprocal
-            return i < j || options_.centre ? pointwise(i, j) * lumels_.lumels[j].area : 0.0f;
-        const float size = std::max(world_[i].size, world_[j].size);
-        const bool is_close = is_near(world_[i].centre, size, world_[j].centre, size, kDistant);
-        const Sample first = sample(i, j, is_close ? receiver.close : receiver.distant);
-        if (!first.torn)
-            return first.whole * first.visible;
-        return first.whole * torn_fraction(i, j, receiver, is_close);
-    }
-
-    /// F_ij with the most points, for pairs that are known to see each other in part.
-    float torn_factor(std::uint32_t i, std::uint32_t j) const
-    {
-        const Sample best = sample(i, j, spread(i, torn_));
-        return best.whole * best.visible;
-    }
-
-private:
-    struct Sample {
-        float whole;    ///< F_ij with nothing between
-        float visible;  ///< fraction of it
-        bool torn;      ///< some of the points see the shooter, others do not
-    };
-
-    /// What a pair's points saw of each other, by weight.
-    struct Seen {
-        float lit = 0.0f;
-        float looked_at = 0.0f;
-        float fraction() const { return looked_at > 0.0f ? lit / looked_at : 0.0f; }
-    };
-
-    /// Visible fraction, from more points.
-    float torn_fraction(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver,
-                        bool is_close) const
-    {
-        if (is_close && receiver.torn.empty())
-            receiver.torn = spread(i, torn_);
-        const std::vector<WeightedPoint>& points = is_close ? receiver.torn : receiver.close;
-        Seen seen;
-        for (std::uint32_t k = 0; k < points.size(); ++k)
-            look(i, j, points[k], k, seen);
-        return seen.fraction();
-    }
-
-    /// Tests the k-th point of i against one of j. Returns true if it is seen.
-    bool look(std::uint32_t i, std::uint32_t j, const WeightedPoint& from, std::uint32_t k,
-              Seen& seen) const
-    {
-        const std::uint32_t key = hash_two(hash_two(options_.seed, i), j);
-        const LumelPoint y = world_.point_on(j, sobol_pair(k, key));
-        const float weight = from.weight * kernel(from.point, y, world_[j]);
-        const bool is_seen = weight > 0.0f && visible(from.point, world_[i], y, world_[j], key + k);
-        seen.looked_at += weight;
-        seen.lit += is_seen ? weight : 0.0f;
-        return is_seen;
-    }
-
-    Sample sample(std::uint32_t i, std::uint32_t j, const std::vector<WeightedPoint>& points) const
-    {
-        float whole = 0.0f, unoccluded = 0.0f;
-        bool some = false, all = true;
-        Seen seen;
-        for (std::uint32_t k = 0; k < points.size(); ++k) {
-            if (k == 0 || !options_.centre)
-                unoccluded = seen_from(points[k].point, world_[j], k);
-            whole += points[k].weight * unoccluded;
-            const bool is_seen = unoccluded > 0.0f && look(i, j, points[k], k, seen);
-            some |= is_seen;
-            all &= is_seen;
-        }
-        return {whole * world_[j].opacity, seen.fraction(), some && !all};
-    }
-
-    std::vector<WeightedPoint> spread(std::size_t i, int side) const
-    {
-        return options_.centre ? world_.centroids(i, side) : world_.gauss_points(i, side);
-    }
-
-    /// F(x → polygons of j). Of many, only some count, drawn by area; which, changes with k.
-    float seen_from(const LumelPoint& x, const WorldLumel& j, std::uint32_t k) const
-    {
-        const auto form_factor = [&x](const Facet& facet) {
-            return polygon_form_factor(x.position, x.normal, facet.corner, facet.count);
-        };
-        if (j.facet_count <= kMostFacets)
-            return std::accumulate(
-                world_.begin(j), world_.end(j), 0.0f,
-                [&](float sum, const Facet& facet) { return sum + form_factor(facet); });
-
-        const std::span<const Piece> pieces = world_.pieces(j);
-        const float start = sobol_pair(k % 256, j.first_facet).x;
-        float sum = 0.0f;
-        for (std::uint32_t pick = 0; pick < kMostFacets; ++pick) {
-            const float at = (float(pick) + start) / float(kMostFacets);
-            const auto piece = std::upper_bound(
-                pieces.begin(), pieces.end() - 1, at,
-                [](float share, const Piece& candidate) { return share < candidate.share; });
-            const float below = piece == pieces.begin() ? 0.0f : (piece - 1)->share;
-            sum += form_factor(world_.begin(j)[piece - pieces.begin()]) / (piece->share - below);
-        }
-        return sum / float(kMostFacets);
-    }
-
-    static float kernel(const LumelPoint& x, const LumelPoint& y, const WorldLumel& j)
-    {
-        const glm::vec3 offset = y.position - x.position;
-        const float distance2 = glm::dot(offset, offset);
-        const float cosines = std::max(0.0f, glm::dot(x.normal, offset)) *
-                              std::max(0.0f, -glm::dot(y.normal, offset));
-        const float softening = j.size * j.size * float(0.25 / std::numbers::pi);
-        return cosines / (std::max(distance2, 1e-30f) * (distance2 + softening));
-    }
-
-    bool visible(const LumelPoint& x, const WorldLumel& i, const LumelPoint& y, const WorldLumel& j,
-                 std::uint32_t seed) const
-    {
-        const float lift = std::min(i.lift, j.lift);
-        return rays_.sees(x.position + lift * x.normal, y.position + lift * y.normal, lift, seed);
-    }
-
-    const RayScene& rays_;
-    const WorldLumels& world_;
-    const Lumels& lumels_;
-    const NearFieldOptions& options_;
-    const int close_, distant_, torn_;  ///< points along each side of a lumel
-};
-
-/// Makes A_i F_ij = A_j F_ji hold by averaging the two estimates, which halves their noise. Only
-/// for flat lumels: where shading normals bend, irradiance is not quite reciprocal. Pointwise
-/// pairs were estimated once for both.
-void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lumels& lumels,
-                     const NearPairs& pairs, std::vector<float>& factors)
-{
-    const auto average = [&](std::uint32_t i, std::uint32_t j, float& ij, float& ji) {
-        if (builder.is_pointwise(i, j)) {
-            const float back = lumels.lumels[j].area;
-            ji = back > 0.0f ? ij * lumels.lumels[i].area / back : 0.0f;
-            return;
-        }
-        if (!world[i].flat || !world[j].flat)
-            return;
-        // If only one estimate found the other lumel visible, the other is repeated.
-        if (ij <= 0.0f && ji > 0.0f)
-            ij = builder.torn_factor(i, j);
-        else if (ji <= 0.0f && ij > 0.0f)
-            ji = builder.torn_factor(j, i);
-        const float area_i = lumels.lumels[i].area, area_j = lumels.lumels[j].area;
-        const float exchange = 0.5f * (area_i * ij + area_j * ji);
-        ij = area_i > 0.0f ? exchange / area_i : 0.0f;
-        ji = area_j > 0.0f ? exchange / area_j : 0.0f;
-    };
-    parallel_for(world.size(), 256, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            for (std::size_t k = pairs.middle[i]; k < pairs.first[i + 1]; ++k)
-                average(std::uint32_t(i), pairs.partner[k], factors[k], factors[pairs.mirror[k]]);
-    });
-}
-
-/// Scales rows that add up to more than 1 down to 1. In gaps much narrower than a lumel the
-/// quadrature may overshoot, and a bright surface there would then multiply its own light.
-void limit_rows(const NearPairs& pairs, std::vector<float>& factors)
-{
-    for (std::size_t i = 0; i + 1 < pairs.first.size(); ++i) {
-        const auto begin = factors.begin() + std::ptrdiff_t(pairs.first[i]);
-        const auto end = factors.begin() + std::ptrdiff_t(pairs.first[i + 1]);
-        const float sum = std::accumulate(begin, end, 0.0f);
-        if (sum > 1.0f)
-            std::for_each(begin, end, [sum](float& factor) { factor /= sum; });
-    }
-}
-
-/// The largest radius of a few that keeps the table within its limit, judged by the neighbours of
-/// some of the lumels. Half of the neighbours, about, lie in the same plane and make no pair.
-float fitting_radius(const WorldLumels& world, const NearFieldOptions& options)
-{
-    constexpr std::size_t kJudged = 512;
-    constexpr float kShrink = 0.75f, kLeastRadius = 1.5f;
-    const std::size_t step = std::max<std::size_t>(world.size() / kJudged, 1);
-    for (float radius = options.radius;; radius *= kShrink) {
-        std::size_t neighbours = 0, judged = 0;
-        for (std::size_t i = 0; i < world.size(); i += step, ++judged)
-            for (std::size_t j = 0; j < world.size(); ++j)
-                neighbours += is_near(world[i].centre, world[i].size, world[j].centre,
-                                      world[j].size, radius) &&
-                              std::abs(glm::dot(world[i].normal,
-                                                world[j].centre - world[i].centre)) > world[i].lift;
-        const double pairs =
-            double(neighbours) / double(std::max<std::size_t>(judged, 1)) * double(world.size());
-        if (pairs <= double(options.most_pairs) || radius <= kLeastRadius)
-            return radius;
-    }
-}
-
-}  // namespace
 
 NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                            const NearFieldOptions& options)
 {
     const WorldLumels world(scene, rays, lumels);
-    const float radius = fitting_radius(world, options);
+    const float radius = fitting_radius(world, options.radius, options.most_pairs);
     const NearPairs pairs = find_near_pairs(world, lumels, radius);
-    const Builder builder(rays, world, lumels, options);
+    const std::vector<float> factors = near_factors(pairs, rays, world, lumels, options);
 
-    // Compute every pair in place, row by row.
-    std::vector<float> factors(pairs.partner.size());
-    parallel_for(world.size(), 32, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            if (pairs.first[i] == pairs.first[i + 1])
-                continue;
-            ReceiverPoints points = builder.spread(i);
-            for (std::size_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k)
-                factors[k] = builder.factor(std::uint32_t(i), pairs.partner[k], points);
-        }
-    });
-
-    if (!options.centre)
-        make_reciprocal(builder, world, lumels, pairs, factors);
-    limit_rows(pairs, factors);
-
-    // Keep what counts.
     NearField table;
     if (options.surroundings)
         table.around = find_surroundings(scene, rays, lumels);
@@ -336,9 +24,10 @@ NearField build_near_field(const Scene& scene, const RayScene& rays, const Lumel
     for (std::size_t i = 0; i < world.size(); ++i) {
         for (std::size_t k = pairs.first[i]; k < pairs.first[i + 1]; ++k)
             if (factors[k] >= kLeastFactor) {
-                table.column.push_back(pairs.partner[k]);
+                table.column.push_back(pairs.partner_of(k));
                 table.factor.push_back(factors[k]);
             }
+        limit_row(std::span(table.factor).subspan(table.first.back()));
         table.first.push_back(std::uint32_t(table.column.size()));
     }
     return table;
@@ -348,7 +37,8 @@ std::uint64_t count_near_pairs(const Scene& scene, const RayScene& rays, const L
                                const NearFieldOptions& options)
 {
     const WorldLumels world(scene, rays, lumels);
-    return find_near_pairs(world, lumels, fitting_radius(world, options)).partner.size();
+    return find_near_pairs(world, lumels, fitting_radius(world, options.radius, options.most_pairs))
+        .partner.size();
 }
 
 NearField build_near_field_among(const std::vector<char>& chosen, const Scene& scene,
@@ -362,31 +52,6 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
             some.lumels[i].flags |= kLumelBuried;
     options.most_pairs = std::numeric_limits<std::size_t>::max();
     return build_near_field(scene, rays, some, options);
-}
-
-NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
-                            const Lumels& lumels, NearFieldOptions options,
-                            const std::vector<char>& affected)
-{
-    options.radius = before.radius;
-    const NearField fresh = build_near_field_among(affected, scene, rays, lumels, options);
-
-    NearField table;
-    table.radius = before.radius;
-    table.first.push_back(0);
-    const auto append = [&](const NearField& from, std::size_t i, const auto& chosen) {
-        for (std::uint32_t k = from.first[i]; k < from.first[i + 1]; ++k)
-            if (chosen(from.column[k])) {
-                table.column.push_back(from.column[k]);
-                table.factor.push_back(from.factor[k]);
-            }
-    };
-    for (std::size_t i = 0; i < affected.size(); ++i) {
-        append(before, i, [&](std::uint32_t j) { return !affected[i] || !affected[j]; });
-        append(fresh, i, [](std::uint32_t) { return true; });
-        table.first.push_back(std::uint32_t(table.column.size()));
-    }
-    return table;
 }
 
 }  // namespace lumel

@@ -48,13 +48,6 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
                                  const RayScene& rays, const Lumels& lumels,
                                  NearFieldOptions options);
 
-/// The table after some of the scene has moved: pairs of which both lumels are affected (moved, or
-/// closer to where something moved than the table reaches) are built anew, the others kept.
-/// affected: [N]. Columns do not ascend: those built anew stand behind those kept.
-NearField update_near_field(const NearField& before, const Scene& scene, const RayScene& rays,
-                            const Lumels& lumels, NearFieldOptions options,
-                            const std::vector<char>& affected);
-
 /// Irradiance per radiosity (form factor) at point x with unit normal n from a convex polygon
 /// with uniform radiosity, clipped to x's horizon: Lambert's edge sum. The polygon emits from
 /// the side that sees its corners counter-clockwise; from the other side the result is 0.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -20,19 +22,21 @@ constexpr float kAbove = 2.0f;
 /// The lumels of one octave of sizes, sorted by cell.
 class Grid {
 public:
-    Grid(std::vector<std::uint32_t> members, const WorldLumels& world, float cell)
+    /// members: rows, of these lumels.
+    Grid(std::vector<std::uint32_t> members, const std::vector<std::uint32_t>& lumels,
+         const WorldLumels& world, float cell)
         : cell_(cell),
           members_(std::move(members))
     {
-        low_ = high_ = world[members_.front()].centre;
-        for (const std::uint32_t i : members_) {
-            low_ = glm::min(low_, world[i].centre);
-            high_ = glm::max(high_, world[i].centre);
+        low_ = high_ = world[lumels[members_.front()]].centre;
+        for (const std::uint32_t row : members_) {
+            low_ = glm::min(low_, world[lumels[row]].centre);
+            high_ = glm::max(high_, world[lumels[row]].centre);
         }
         std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
         order.reserve(members_.size());
-        for (const std::uint32_t i : members_)
-            order.emplace_back(key(cell_of(world[i].centre)), i);
+        for (const std::uint32_t row : members_)
+            order.emplace_back(key(cell_of(world[lumels[row]].centre)), row);
         std::sort(order.begin(), order.end());
         for (std::size_t k = 0; k < order.size(); ++k) {
             members_[k] = order[k].second;
@@ -144,37 +148,73 @@ NearPairs enter_both_sides(const std::vector<std::vector<std::uint32_t>>& found)
 
 NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float radius)
 {
-    // Sort the lumels into octaves of size.
-    std::map<int, std::vector<std::uint32_t>> octaves;
-    for (std::uint32_t i = 0; i < world.size(); ++i)
-        if ((lumels.lumels[i].flags & kLumelBuried) == 0 && world[i].size > 0.0f)
-            octaves[std::ilogb(world[i].size)].push_back(i);
-    std::map<int, Grid> grids;
-    for (auto& [octave, members] : octaves)
-        grids.try_emplace(octave, std::move(members), world, radius * std::ldexp(1.0f, octave + 1));
+    std::vector<std::uint32_t> all(world.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return find_near_pairs(world, lumels, radius, std::move(all), {});
+}
 
-    // Every pair is found once, by the smaller octave, and within one octave by the lower index.
-    std::vector<std::vector<std::uint32_t>> found(world.size());
-    parallel_for(world.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const WorldLumel& a = world[i];
-            if ((lumels.lumels[i].flags & kLumelBuried) != 0 || !(a.size > 0.0f))
+NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float radius,
+                          std::vector<std::uint32_t> some, const WantsPair& wants)
+{
+    const auto has_partners = [&](std::uint32_t i) {
+        return (lumels.lumels[i].flags & kLumelBuried) == 0 && world[i].size > 0.0f;
+    };
+    // Sort the rows into octaves of size.
+    std::map<int, std::vector<std::uint32_t>> octaves;
+    for (std::uint32_t row = 0; row < some.size(); ++row)
+        if (has_partners(some[row]))
+            octaves[std::ilogb(world[some[row]].size)].push_back(row);
+    std::map<int, Grid> grids;
+    for (auto& [octave, rows] : octaves)
+        grids.try_emplace(octave, std::move(rows), some, world,
+                          radius * std::ldexp(1.0f, octave + 1));
+
+    // Every pair is found once, by the smaller octave, and within one octave by the lower row.
+    std::vector<std::vector<std::uint32_t>> found(some.size());
+    parallel_for(some.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+            if (!has_partners(some[row]))
                 continue;
+            const WorldLumel& a = world[some[row]];
             const int octave = std::ilogb(a.size);
             for (auto grid = grids.lower_bound(octave); grid != grids.end(); ++grid)
-                grid->second.around(a.centre, [&](std::uint32_t j) {
-                    if (grid->first == octave && j <= i)
+                grid->second.around(a.centre, [&](std::uint32_t other) {
+                    if (grid->first == octave && other <= row)
                         return;
-                    const WorldLumel& b = world[j];
+                    const WorldLumel& b = world[some[other]];
                     if (is_near(a.centre, a.size, b.centre, b.size, radius) &&
-                        may_see(world, a, b) && may_see(world, b, a))
-                        found[i].push_back(j);
+                        (!wants || wants(some[row], some[other])) && may_see(world, a, b) &&
+                        may_see(world, b, a))
+                        found[row].push_back(other);
                 });
         }
     });
 
     keep_at_lower(found);
-    return enter_both_sides(found);
+    NearPairs pairs = enter_both_sides(found);
+    pairs.lumel = std::move(some);
+    return pairs;
+}
+
+/// Half of the neighbours, about, lie in the same plane and make no pair.
+float fitting_radius(const WorldLumels& world, float radius, std::size_t most_pairs)
+{
+    constexpr std::size_t kJudged = 512;
+    constexpr float kShrink = 0.75f, kLeastRadius = 1.5f;
+    const std::size_t step = std::max<std::size_t>(world.size() / kJudged, 1);
+    for (;; radius *= kShrink) {
+        std::size_t neighbours = 0, judged = 0;
+        for (std::size_t i = 0; i < world.size(); i += step, ++judged)
+            for (std::size_t j = 0; j < world.size(); ++j)
+                neighbours += is_near(world[i].centre, world[i].size, world[j].centre,
+                                      world[j].size, radius) &&
+                              std::abs(glm::dot(world[i].normal,
+                                                world[j].centre - world[i].centre)) > world[i].lift;
+        const double pairs =
+            double(neighbours) / double(std::max<std::size_t>(judged, 1)) * double(world.size());
+        if (pairs <= double(most_pairs) || radius <= kLeastRadius)
+            return radius;
+    }
 }
 
 }  // namespace lumel

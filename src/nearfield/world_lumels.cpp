@@ -36,13 +36,18 @@ WorldLumels::WorldLumels(const Scene& scene, const RayScene& rays, const Lumels&
 {
     for (int side = 1; side <= kMostSide; ++side)
         rules_.push_back(gauss_legendre(side));
-    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
-    extent_ = std::max({reach.x, reach.y, reach.z});
+    fit(rays);
     const std::vector<Placement> placements = placements_of(scene);
     parallel_for(lumels_.size(), 1024, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             place(i, lumels, placements[lumels.lumels[i].instance]);
     });
+}
+
+void WorldLumels::fit(const RayScene& rays)
+{
+    const glm::vec3 reach = glm::max(glm::abs(rays.low()), glm::abs(rays.high()));
+    extent_ = std::max({reach.x, reach.y, reach.z});
 }
 
 void WorldLumels::place(const Scene& scene, const Lumels& lumels,

@@ -45,6 +45,9 @@ class WorldLumels {
 public:
     WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
 
+    /// Lumels placed from now on are lifted as it takes in a scene as large as this one now is.
+    void fit(const RayScene& rays);
+
     /// Places some lumels anew, where the scene now has their instances.
     void place(const Scene& scene, const Lumels& lumels, std::span<const std::uint32_t> chosen);
 

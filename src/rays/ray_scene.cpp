@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 
-#include <embree3/rtcore.h>
-
-#include "core/error.h"
+#include "rays/embree_trees.h"
 
 namespace lumel {
 
@@ -17,18 +16,9 @@ namespace {
 /// position (about 1e-7 of it), far below anything one could see.
 constexpr float kLift = 1e-5f;
 
-/// What Embree's geometry number stands for, which is the part's.
-struct Part {
-    const Scene* scene = nullptr;
-    const Primitive* source = nullptr;
-    std::uint32_t instance = 0;
-    std::uint32_t primitive = 0;
-    float winding = 1.0f;  ///< -1: the instance mirrors, the front is where vertices run clockwise
-};
-
 /// Coloured glass that a ray went through.
 struct PassedGlass {
-    std::uint32_t geometry = 0, triangle = 0;
+    std::uint32_t part = 0, triangle = 0;
     float distance = 0.0f;
     glm::vec3 tint{1.0f};
 };
@@ -43,14 +33,18 @@ struct QueryContext {
     void pass(const PassedGlass& glass)
     {
         const auto same = [&](const PassedGlass& other) {
-            return other.geometry == glass.geometry && other.triangle == glass.triangle;
+            return other.part == glass.part && other.triangle == glass.triangle;
         };
         if (std::none_of(passed.begin(), passed.end(), same))
             passed.push_back(glass);
     }
 
-    glm::vec3 tint_before(float distance) const
+    /// Multiplied in the order of the parts: that in which they are met differs from tree to tree.
+    glm::vec3 tint_before(float distance)
     {
+        std::sort(passed.begin(), passed.end(), [](const PassedGlass& a, const PassedGlass& b) {
+            return std::pair(a.part, a.triangle) < std::pair(b.part, b.triangle);
+        });
         glm::vec3 tint(1.0f);
         for (const PassedGlass& glass : passed)
             if (glass.distance < distance)
@@ -67,11 +61,6 @@ float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     state = (state ^ (state >> 15)) * 0x846ca68bu;
     state ^= state >> 16;
     return float(state >> 8) * 0x1p-24f;
-}
-
-glm::vec3 to_world(const glm::mat4& transform, const glm::vec3& position)
-{
-    return glm::vec3(transform * glm::vec4(position, 1.0f));
 }
 
 /// Look of a surface at a point of one of its triangles.
@@ -91,12 +80,11 @@ MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float 
 }
 
 /// The tint of what passes a triangle; empty if a ray of this seed meets it.
-std::optional<glm::vec3> tint_through(const Part& part, std::uint32_t geometry,
-                                      std::uint32_t triangle, const glm::vec2& barycentric,
-                                      std::uint32_t seed)
+std::optional<glm::vec3> tint_through(const Part& part, std::uint32_t triangle,
+                                      const glm::vec2& barycentric, std::uint32_t seed)
 {
     const MaterialSample look = look_at(part, triangle, barycentric.x, barycentric.y);
-    if (look.opacity >= 1.0f || hash_to_unit(seed, geometry, triangle) < look.opacity)
+    if (look.opacity >= 1.0f || hash_to_unit(seed, part.number, triangle) < look.opacity)
         return std::nullopt;
     return look.tint;
 }
@@ -108,17 +96,16 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
         return;
     const Part& part = *static_cast<const Part*>(candidate->geometryUserPtr);
     const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
-    const std::uint32_t geometry = RTCHitN_geomID(candidate->hit, candidate->N, 0);
     auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
     const std::optional<glm::vec3> tint = tint_through(
-        part, geometry, triangle,
+        part, triangle,
         {RTCHitN_u(candidate->hit, candidate->N, 0), RTCHitN_v(candidate->hit, candidate->N, 0)},
         context.seed);
     if (!tint)
         return;
     candidate->valid[0] = 0;
     if (*tint != glm::vec3(1.0f))
-        context.pass({geometry, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), *tint});
+        context.pass({part.number, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), *tint});
 }
 
 QueryContext query_context(std::uint32_t seed)
@@ -162,108 +149,32 @@ glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 
 }  // namespace
 
-struct RayScene::Data {
-    RTCDevice device = nullptr;
-    RTCScene tree = nullptr;
-    std::vector<Part> parts;  ///< by Embree's geometry number
-    glm::vec3 low{0.0f}, high{0.0f};
-
-    Data() = default;
-    Data(const Data&) = delete;
-    Data& operator=(const Data&) = delete;
-    ~Data()
-    {
-        if (tree)
-            rtcReleaseScene(tree);
-        if (device)
-            rtcReleaseDevice(device);
-    }
-
-    void check(const char* step) const
-    {
-        const RTCError code = rtcGetDeviceError(device);
-        if (code == RTC_ERROR_NONE)
-            return;
-        const char* reason = code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
-                             : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor lacks SSE2"
-                                                                 : "Embree failed";
-        throw Error(ErrorKind::device, "", std::string(step) + ": " + reason);
-    }
-
-    void add(const Scene& scene, std::uint32_t instance, std::uint32_t primitive);
-};
-
-/// Builds one geometry, its vertices moved to the world.
-void RayScene::Data::add(const Scene& scene, std::uint32_t instance, std::uint32_t primitive)
-{
-    const glm::mat4& transform = scene.instances[instance].transform;
-    const Primitive& source = scene.meshes[scene.instances[instance].mesh].primitives[primitive];
-    if (source.indices.empty())
-        return;
-
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                3 * sizeof(float), source.positions.size()));
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), source.indices.size() / 3));
-    if (!vertices || !indices) {
-        rtcReleaseGeometry(geometry);
-        check("storing the triangles for ray queries");
-    }
-    for (const glm::vec3& position : source.positions) {
-        const glm::vec3 world = to_world(transform, position);
-        for (int axis = 0; axis < 3; ++axis)
-            *vertices++ = world[axis];
-    }
-    std::copy(source.indices.begin(), source.indices.end(), indices);
-
-    const float winding = glm::determinant(glm::mat3(transform)) < 0.0f ? -1.0f : 1.0f;
-    parts.push_back({&scene, &source, instance, primitive, winding});
-    rtcSetGeometryUserData(geometry, &parts.back());
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    if (may_be_transparent(scene.materials[source.material], source)) {
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_through_cut_outs);
-        rtcSetGeometryOccludedFilterFunction(geometry, pass_through_cut_outs);
-    }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(tree, geometry, unsigned(parts.size() - 1));
-    rtcReleaseGeometry(geometry);
-}
-
-RayScene::RayScene(const Scene& scene) : RayScene(scene, all_instances(scene)) {}
+RayScene::RayScene(const Scene& scene) : RayScene(scene, all_instances(scene), {}) {}
 
 RayScene::RayScene(const Scene& scene, std::span<const std::uint32_t> instances)
-    : data_(std::make_unique<Data>())
+    : RayScene(scene, instances, {})
 {
-    data_->device = rtcNewDevice(nullptr);
-    if (!data_->device)
-        data_->check("starting Embree");
-    data_->tree = rtcNewScene(data_->device);
-    rtcSetSceneFlags(data_->tree, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(data_->tree, RTC_BUILD_QUALITY_HIGH);
+}
 
-    std::size_t part_count = 0;
-    for (const std::uint32_t i : instances)
-        part_count += scene.meshes[scene.instances[i].mesh].primitives.size();
-    data_->parts.reserve(part_count);  // Embree keeps pointers to the parts
-    for (const std::uint32_t i : instances)
-        for (std::uint32_t p = 0; p < scene.meshes[scene.instances[i].mesh].primitives.size(); ++p)
-            data_->add(scene, i, p);
-    rtcCommitScene(data_->tree);
-    data_->check("building the tree for ray queries");
-    if (!data_->parts.empty()) {
-        RTCBounds bounds;
-        rtcGetSceneBounds(data_->tree, &bounds);
-        data_->low = {bounds.lower_x, bounds.lower_y, bounds.lower_z};
-        data_->high = {bounds.upper_x, bounds.upper_y, bounds.upper_z};
-    }
+RayScene::RayScene(const Scene& scene, const std::vector<char>& movers)
+    : RayScene(scene, all_instances(scene), movers)
+{
+}
+
+RayScene::RayScene(const Scene& scene, std::span<const std::uint32_t> instances,
+                   const std::vector<char>& movers)
+    : trees_(std::make_unique<EmbreeTrees>(scene, instances, movers, pass_through_cut_outs))
+{
 }
 
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::place(std::span<const std::uint32_t> instances)
+{
+    trees_->place(instances);
+}
 
 RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed)
 {
@@ -283,7 +194,7 @@ glm::vec3 RayScene::passing(const RaySpan& ray) const
 {
     if (!(ray.far > ray.near))
         return glm::vec3(1.0f);
-    return tint_along(data_->tree, make_ray(ray.origin, ray.direction, ray.near, ray.far),
+    return tint_along(trees_->top(), make_ray(ray.origin, ray.direction, ray.near, ray.far),
                       ray.seed);
 }
 
@@ -318,12 +229,12 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(seed);
-    rtcIntersect1(data_->tree, &context.embree, &query);
+    rtcIntersect1(trees_->top(), &context.embree, &query);
     hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
 
-    const Part& part = data_->parts[query.hit.geomID];
+    const Part& part = trees_->part(query.hit);
     hit.instance = part.instance;
     hit.primitive = part.primitive;
     hit.triangle = query.hit.primID;
@@ -337,46 +248,44 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
 
 std::size_t RayScene::parts() const
 {
-    return data_->parts.size();
+    return trees_->parts().size();
 }
 
 std::vector<glm::vec3> RayScene::positions(std::size_t part) const
 {
-    const Part& from = data_->parts[part];
-    const glm::mat4& transform = from.scene->instances[from.instance].transform;
+    const Part& from = trees_->parts()[part];
     std::vector<glm::vec3> positions;
     positions.reserve(from.source->positions.size());
     for (const glm::vec3& position : from.source->positions)
-        positions.push_back(to_world(transform, position));
+        positions.push_back(from.to_world(position));
     return positions;
 }
 
 std::span<const std::uint32_t> RayScene::corners(std::size_t part) const
 {
-    return data_->parts[part].source->indices;
+    return trees_->parts()[part].source->indices;
 }
 
 bool RayScene::may_let_pass(std::size_t part) const
 {
-    const Part& from = data_->parts[part];
+    const Part& from = trees_->parts()[part];
     return may_be_transparent(from.scene->materials[from.source->material], *from.source);
 }
 
 std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t triangle,
                                            const glm::vec2& barycentric, std::uint32_t seed) const
 {
-    return tint_through(data_->parts[part], std::uint32_t(part), triangle, barycentric, seed);
+    return tint_through(trees_->parts()[part], triangle, barycentric, seed);
 }
 
 RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2& barycentric,
                      float distance, const glm::vec3& direction) const
 {
-    const Part& part = data_->parts[number];
-    const glm::mat4& transform = part.scene->instances[part.instance].transform;
+    const Part& part = trees_->parts()[number];
     glm::vec3 corner[3];
     for (std::size_t k = 0; k < 3; ++k)
-        corner[k] = to_world(
-            transform, part.source->positions[part.source->indices[3 * std::size_t(triangle) + k]]);
+        corner[k] = part.to_world(
+            part.source->positions[part.source->indices[3 * std::size_t(triangle) + k]]);
     const glm::vec3 normal =
         part.winding * glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
     return {.instance = part.instance,
@@ -390,12 +299,12 @@ RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2
 
 glm::vec3 RayScene::low() const
 {
-    return data_->low;
+    return trees_->low();
 }
 
 glm::vec3 RayScene::high() const
 {
-    return data_->high;
+    return trees_->high();
 }
 
 float RayScene::lift() const

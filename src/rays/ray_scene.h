@@ -14,6 +14,8 @@
 
 namespace lumel {
 
+class EmbreeTrees;
+
 /// What lies along a ray counts from `near` to `far`. One whose ends have met is clear.
 struct RaySpan {
     glm::vec3 origin{0.0f};     ///< [m]
@@ -53,9 +55,16 @@ public:
     explicit RayScene(const Scene& scene);
     /// Of some of its instances alone.
     RayScene(const Scene& scene, std::span<const std::uint32_t> instances);
+    /// Of all, those that may move [instances] (1) in trees of their own.
+    RayScene(const Scene& scene, const std::vector<char>& movers);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
+
+    /// Takes some of those that may move from where the scene has them now: only their trees, and
+    /// one over all trees, are built again. Rays then meet what they meet in a new RayScene; of two
+    /// surfaces in one plane they may meet the other. Nothing may query meanwhile.
+    void place(std::span<const std::uint32_t> instances);
 
     /// True if nothing lies between the two points (both ends are shortened by `offset` [m]).
     bool sees(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed) const;
@@ -102,8 +111,9 @@ public:
     float lift() const;
 
 private:
-    struct Data;
-    std::unique_ptr<Data> data_;
+    RayScene(const Scene& scene, std::span<const std::uint32_t> instances,
+             const std::vector<char>& movers);
+    std::unique_ptr<EmbreeTrees> trees_;
 };
 
 /// Of the library that traces the rays: "3.13.5".

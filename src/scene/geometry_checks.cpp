@@ -88,22 +88,22 @@ bool is_flat(const glm::dmat4& matrix)
     return !(std::abs(glm::dot(x, glm::cross(y, z))) > kSmallestRelativeVolume * box);
 }
 
-Box bounds_of(const Mesh& mesh)
+Bounds bounds_of(const Mesh& mesh)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+    Bounds box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (const Primitive& primitive : mesh.primitives)
         for (const glm::vec3& position : primitive.positions) {
             box.low = glm::min(box.low, glm::dvec3(position));
             box.high = glm::max(box.high, glm::dvec3(position));
         }
-    return mesh.primitives.empty() ? Box{} : box;
+    return mesh.primitives.empty() ? Bounds{} : box;
 }
 
-Box placed_box(const Box& box, const glm::dmat4& world)
+Bounds placed_box(const Bounds& box, const glm::dmat4& world)
 {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Box placed{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+    Bounds placed{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 point((corner & 1 ? box.high : box.low).x,
                                (corner & 2 ? box.high : box.low).y,
@@ -115,9 +115,9 @@ Box placed_box(const Box& box, const glm::dmat4& world)
     return placed;
 }
 
-bool reaches_too_far(const Box& box, const glm::dmat4& world)
+bool reaches_too_far(const Bounds& box, const glm::dmat4& world)
 {
-    const Box placed = placed_box(box, world);
+    const Bounds placed = placed_box(box, world);
     const glm::dvec3 reach = glm::max(glm::abs(placed.low), glm::abs(placed.high));
     return !(std::max({reach.x, reach.y, reach.z}) <= double(kLargestCoordinate));
 }

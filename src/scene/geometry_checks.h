@@ -20,18 +20,19 @@ std::size_t repair_normals(Primitive& primitive);
 /// A matrix whose columns (nearly) lie in a plane leaves no volume, nor normals.
 bool is_flat(const glm::dmat4& matrix);
 
-struct Box {
+/// Corners of a box along the axes, in doubles: of coordinates as a file has them.
+struct Bounds {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
 };
 
 /// In mesh space; empty for a mesh without primitives.
-Box bounds_of(const Mesh& mesh);
+Bounds bounds_of(const Mesh& mesh);
 
 /// Of a box so placed, in the world.
-Box placed_box(const Box& box, const glm::dmat4& world);
+Bounds placed_box(const Bounds& box, const glm::dmat4& world);
 
 /// True if float arithmetic breaks down somewhere in a box so placed.
-bool reaches_too_far(const Box& box, const glm::dmat4& world);
+bool reaches_too_far(const Bounds& box, const glm::dmat4& world);
 
 }  // namespace lumel

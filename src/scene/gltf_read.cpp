@@ -44,7 +44,7 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
     const std::size_t mesh_count = root.count("meshes");
     const int default_material = int(root.count("materials"));
     scene.meshes.resize(mesh_count);
-    std::vector<std::optional<Box>> bounds(mesh_count);
+    std::vector<std::optional<Bounds>> bounds(mesh_count);
     for (const PlacedNode& placed : nodes) {
         const JsonView node = root.get("nodes").at(placed.node);
         const auto reference = node.find("mesh");
@@ -75,7 +75,7 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
 /// Puts a scene that lies far out around 0. Its places are known as doubles yet.
 void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
 {
-    Box whole{glm::dvec3(kFar), glm::dvec3(-kFar)};
+    Bounds whole{glm::dvec3(kFar), glm::dvec3(-kFar)};
     const auto world_of = [&](const Instance& instance) -> const glm::dmat4& {
         const auto found = std::lower_bound(
             nodes.begin(), nodes.end(), std::size_t(instance.node),
@@ -83,7 +83,7 @@ void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
         return found->world;
     };
     for (const Instance& instance : scene.instances) {
-        const Box box =
+        const Bounds box =
             placed_box(bounds_of(scene.meshes[std::size_t(instance.mesh)]), world_of(instance));
         whole.low = glm::min(whole.low, box.low);
         whole.high = glm::max(whole.high, box.high);

@@ -11,7 +11,7 @@ constexpr double kFarAway = 64.0;
 
 }  // namespace
 
-glm::dvec3 origin_for(const Box& scene)
+glm::dvec3 origin_for(const Bounds& scene)
 {
     const double size = glm::distance(scene.low, scene.high);
     const glm::dvec3 middle = 0.5 * (scene.low + scene.high);

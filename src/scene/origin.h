@@ -8,7 +8,7 @@ namespace lumel {
 
 /// Where a scene in this box should have its 0 [m]: in its middle, to a power of two, if it lies
 /// far out for its size; else where it is.
-glm::dvec3 origin_for(const Box& scene);
+glm::dvec3 origin_for(const Bounds& scene);
 
 /// Moves the scene's 0, and all that stands in the scene the other way.
 void set_origin(Scene& scene, const glm::dvec3& origin);

@@ -1,6 +1,7 @@
 #include "world/world.h"
 
 #include <cmath>
+#include <limits>
 
 namespace lumel {
 namespace {
@@ -65,21 +66,18 @@ std::vector<Placement> placements_of(const Scene& scene)
     return placements;
 }
 
-struct Box {
-    glm::vec3 low{0.0f}, high{0.0f};
-};
-
-Box box_of(const Scene& scene)
+/// Around an instance's vertices; upside down if it has none.
+Box box_of(const Scene& scene, const Instance& instance)
 {
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (const Instance& instance : scene.instances)
-        for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
-            for (const glm::vec3& p : primitive.positions) {
-                const glm::vec3 world(instance.transform * glm::vec4(p, 1.0f));
-                low = glm::min(low, world);
-                high = glm::max(high, world);
-            }
-    return low.x > high.x ? Box{} : Box{low, high};
+    Box box{glm::vec3(std::numeric_limits<float>::max()),
+            glm::vec3(std::numeric_limits<float>::lowest())};
+    for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
+        for (const glm::vec3& p : primitive.positions) {
+            const glm::vec3 world(instance.transform * glm::vec4(p, 1.0f));
+            box.low = glm::min(box.low, world);
+            box.high = glm::max(box.high, world);
+        }
+    return box;
 }
 
 }  // namespace
@@ -147,9 +145,19 @@ void World::place(std::span<const glm::mat4> transforms)
 
 void World::bound(const Scene& scene)
 {
-    const Box box = box_of(scene);
-    low_ = box.low;
-    high_ = box.high;
+    bounded_.resize(scene.instances.size());
+    Box all{glm::vec3(std::numeric_limits<float>::max()),
+            glm::vec3(std::numeric_limits<float>::lowest())};
+    for (std::size_t i = 0; i < bounded_.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (!bounded_[i] || bounded_[i]->transform != instance.transform)
+            bounded_[i] = {instance.transform, box_of(scene, instance)};
+        all.low = glm::min(all.low, bounded_[i]->box.low);
+        all.high = glm::max(all.high, bounded_[i]->box.high);
+    }
+    const bool empty = all.low.x > all.high.x;
+    low_ = empty ? glm::vec3(0.0f) : all.low;
+    high_ = empty ? glm::vec3(0.0f) : all.high;
 }
 
 std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)

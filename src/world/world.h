@@ -2,10 +2,12 @@
 // The scene and its lumels, resident on the GPU.
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "atlas/atlas.h"
+#include "core/box.h"
 #include "gpu/commands.h"
 #include "world/occluders.h"
 #include "world/passage.shared.h"
@@ -38,7 +40,7 @@ public:
     void place(std::span<const glm::mat4> transforms);
 
     /// Takes the bounding box, to which views of sky and sun are fitted, from where the scene's
-    /// instances stand now.
+    /// instances stand now. Costs what has moved since.
     void bound(const Scene& scene);
 
     /// From now on views show movers, as they do at first, or not.
@@ -94,6 +96,12 @@ private:
     bool movers_shown_ = true;
     gpu::Kernel<shaders::WorldPlaceLumels> place_lumels_;
     gpu::Kernel<shaders::WorldPlaceVertices> place_vertices_;
+    /// An instance's box, where it stood when that was found.
+    struct Bounded {
+        glm::mat4 transform;
+        Box box;
+    };
+    std::vector<std::optional<Bounded>> bounded_;  ///< [instances]
     glm::vec3 low_{0.0f}, high_{0.0f};
 
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,

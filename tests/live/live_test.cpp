@@ -245,6 +245,52 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+// Sky, sun and a bulb are looked from a few views at a time.
+TEST_P(LiveScenes, LampsAndSkyFoundInShortBudgetsAreThoseOfOneLongCall)
+{
+    const gpu::Device device;
+    Scene scene = read_gltf(support::source_path("scenes/four-cubes.gltf"));
+    add_lights(scene, {.sky_color = glm::vec3(1.0f),
+                       .sun = SunPosition{.azimuth = 2.0, .elevation = 0.8}});
+    PunctualLight bulb;
+    bulb.intensity = 5.0f;
+    bulb.radius = 0.05f;
+    bulb.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.0f, 0.0f, 3.0f));
+    scene.lights.push_back(bulb);
+    LiveOptions options;
+    options.redistribution = GetParam();
+    options.atlas.size = kSmallSide;
+    options.solver.views.hemicube = kSmallHemicube;
+    options.lights = {.sky_directions = 32, .sun_directions = 16, .disc_directions = 16};
+    const std::uint32_t cube = find_instance(scene, "white cube");
+    options.movers = {cube};
+    const glm::mat4 place = glm::translate(glm::mat4(1.0f), glm::vec3(0.3f, 0.2f, 0.0f)) *
+                            scene.instances[cube].transform;
+    LiveScene at_once(device, scene, options), bit_by_bit(device, scene, options);
+    at_once.settle();
+    const auto first = at_once.irradiance();
+    at_once.move(cube, place);
+    at_once.settle();
+    bit_by_bit.settle();
+    bit_by_bit.move(cube, place);
+    int looks_from_lamps = 0;
+    std::uint64_t hemicubes = bit_by_bit.state().hemicubes;
+    auto shown = bit_by_bit.irradiance();
+    while (!bit_by_bit.update(0.0).at_rest) {
+        if (!bit_by_bit.state().under_way) {
+            shown = bit_by_bit.irradiance();
+            continue;
+        }
+        EXPECT_EQ(bit_by_bit.irradiance(), shown);  // nothing half-done
+        looks_from_lamps += bit_by_bit.state().hemicubes == hemicubes;
+        hemicubes = bit_by_bit.state().hemicubes;
+    }
+    EXPECT_GE(looks_from_lamps, 100);  // of the bulb's 128 points
+    EXPECT_NE(at_once.irradiance(), first);
+    EXPECT_EQ(bit_by_bit.irradiance(), at_once.irradiance());
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 TEST_P(LiveScenes, TheImageShowsTheIrradianceOfWholeMovesOnly)
 {
     const gpu::Device device;

@@ -1,5 +1,8 @@
 #include "rays/ray_scene.h"
 
+#include <random>
+#include <vector>
+
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
@@ -204,6 +207,86 @@ TEST(RayScene, KnowsItsBounds)
     rays = RayScene(scene);
     EXPECT_EQ(rays.low(), glm::vec3(2.0f, 3.0f, 4.0f));
     EXPECT_EQ(rays.high(), glm::vec3(3.0f, 4.0f, 4.0f));
+}
+
+/// A room with two boxes, coloured panes of glass and a veil in it; all but the room may move.
+struct Furnished {
+    Scene scene;
+    std::vector<std::uint32_t> movable;
+};
+
+Furnished furnished_room()
+{
+    Furnished room;
+    for (const Quad& wall : support::box_walls(glm::vec3(0.0f), glm::vec3(4.0f), true))
+        add_quad(room.scene, wall);
+    const auto first = std::uint32_t(room.scene.instances.size());
+    for (int box = 0; box < 2; ++box)
+        add_mesh(room.scene, {{0, 0, 0}, {0.7f, 0, 0}, {0, 0.8f, 0}, {0, 0, 0.9f}},
+                 {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}, {});
+    for (const glm::vec3& color : {glm::vec3(0.9f, 0.5f, 0.3f), glm::vec3(0.7f, 0.8f, 0.3f)}) {
+        Quad pane;
+        pane.albedo = color;
+        add_quad(room.scene, pane);
+        room.scene.materials.back().transmission = 1.0f;
+    }
+    add_quad(room.scene, unit_square());
+    room.scene.materials.back().alpha_mode = AlphaMode::blend;
+    room.scene.materials.back().base_color.a = 0.5f;
+    for (std::uint32_t i = first; i < room.scene.instances.size(); ++i)
+        room.movable.push_back(i);
+    return room;
+}
+
+/// Anywhere in that room, turned anyhow.
+glm::mat4 random_place(std::mt19937& random)
+{
+    std::uniform_real_distribution<float> place(0.5f, 3.0f), part(-1.0f, 1.0f);
+    const glm::vec3 to(place(random), place(random), place(random));
+    const glm::vec3 axis(part(random), part(random), 1.5f);
+    return glm::rotate(glm::translate(glm::mat4(1.0f), to), 3.0f * part(random), axis);
+}
+
+TEST(RayScene, WhatHasMovedIsMetAsInANewSceneBitForBit)
+{
+    constexpr int kMoves = 20, kRays = 2000;
+    Furnished room = furnished_room();
+    std::vector<char> movers(room.scene.instances.size(), 0);
+    std::mt19937 random(7);
+    for (const std::uint32_t i : room.movable) {
+        movers[i] = 1;
+        room.scene.instances[i].transform = random_place(random);  // none lies in a wall's plane
+    }
+    RayScene moved(room.scene, movers);
+    std::uniform_real_distribution<float> inside(0.1f, 3.9f);
+    const auto point = [&] { return glm::vec3(inside(random), inside(random), inside(random)); };
+    int on_movers = 0;
+    for (int move = 0; move < kMoves; ++move) {
+        std::vector<std::uint32_t> chosen{room.movable[random() % room.movable.size()],
+                                          room.movable[random() % room.movable.size()]};
+        for (const std::uint32_t i : chosen)
+            room.scene.instances[i].transform = random_place(random);
+        moved.place(chosen);
+        const RayScene fresh(room.scene);
+        EXPECT_EQ(moved.low(), fresh.low());
+        EXPECT_EQ(moved.high(), fresh.high());
+        for (std::uint32_t ray = 0; ray < kRays; ++ray) {
+            const glm::vec3 from = point(), to = point(), toward = glm::normalize(to - from);
+            ASSERT_EQ(moved.passing(from, to, 1e-4f, ray), fresh.passing(from, to, 1e-4f, ray));
+            RayHit a, b;
+            ASSERT_EQ(moved.closest(from, toward, 0.0f, kFar, ray, a),
+                      fresh.closest(from, toward, 0.0f, kFar, ray, b));
+            EXPECT_EQ(a.instance, b.instance);
+            EXPECT_EQ(a.triangle, b.triangle);
+            EXPECT_EQ(a.barycentric, b.barycentric);
+            EXPECT_EQ(a.distance, b.distance);
+            EXPECT_EQ(a.normal, b.normal);
+            EXPECT_EQ(a.front, b.front);
+            EXPECT_EQ(a.tint, b.tint);
+            on_movers += movers[a.instance];
+        }
+    }
+    EXPECT_GT(on_movers, kMoves * kRays / 20);
 }
 
 }  // namespace
