@@ -2,7 +2,8 @@
 #include "visibility/hemisphere.shared.h"
 #include "visibility/hemisphere.cut.glsl"
 
-// Counts the pieces and patches of each block of triangles: up to and with each triangle, and of all.
+// Counts the pieces and patches of each block of triangles: up to and with each triangle, and of
+// all.
 
 layout(local_size_x = kCutGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };

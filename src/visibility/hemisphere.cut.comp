@@ -21,8 +21,8 @@ const float kEdgeOn = 1.0 / 16.0;
 // only by discs of a radius above 996 pixels: at 2048 a half circle is 0.62 pixels off.
 const float kMostLevel = 6.0;
 
-// A piece of a strip may be turned over by this much [pixels]: what it then covers outside the outline
-// is as far from it at most.
+// A piece of a strip may be turned over by this much [pixels]: what it then covers outside the
+// outline is as far from it at most.
 const float kMostFold = 1.0 / 16.0;
 
 // A power of two: then the tessellator's rings fit one another, and inside no piece is much longer

@@ -21,7 +21,8 @@ struct DrawnVertices {
 };
 
 /// Push constants of hemisphere.cut.comp, hemisphere.count.comp and hemisphere.place.comp, which
-/// cut the triangles of one range for some eyes. Slots, one for each triangle, come in whole blocks.
+/// cut the triangles of one range for some eyes. Slots, one for each triangle, come in whole
+/// blocks.
 struct CutParams {
     uint first_eye;
     uint eyes;

@@ -67,8 +67,8 @@ std::vector<HemisphereCuts::Part> HemisphereCuts::parts() const
     return parts;
 }
 
-gpu::Drawing<shaders::HemisphereStrip>
-HemisphereCuts::use_strips(gpu::Commands& commands, const gpu::Array<Eye>& eyes) const
+gpu::Drawing<shaders::HemisphereStrip> HemisphereCuts::use_strips(gpu::Commands& commands,
+                                                                  const gpu::Array<Eye>& eyes) const
 {
     return commands.use(strips_.opaque, {.eyes = eyes,
                                          .vertices = world_->vertices(),
@@ -92,8 +92,8 @@ HemisphereCuts::use_strips(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
                                           .looks = world_->looks()});
 }
 
-gpu::Drawing<shaders::Hemisphere>
-HemisphereCuts::use_patches(gpu::Commands& commands, const gpu::Array<Eye>& eyes) const
+gpu::Drawing<shaders::Hemisphere> HemisphereCuts::use_patches(gpu::Commands& commands,
+                                                              const gpu::Array<Eye>& eyes) const
 {
     return commands.use(patches_.opaque, {.eyes = eyes,
                                           .vertices = world_->vertices(),
@@ -103,9 +103,9 @@ HemisphereCuts::use_patches(gpu::Commands& commands, const gpu::Array<Eye>& eyes
                                           .cuts = cuts_});
 }
 
-gpu::Drawing<shaders::HemisphereCutOut>
-HemisphereCuts::use_patches(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
-                            const CutOutDraw& cut_out) const
+gpu::Drawing<shaders::HemisphereCutOut> HemisphereCuts::use_patches(gpu::Commands& commands,
+                                                                    const gpu::Array<Eye>& eyes,
+                                                                    const CutOutDraw& cut_out) const
 {
     return commands.use(patches_.cut_out, {.eyes = eyes,
                                            .vertices = world_->vertices(),
@@ -148,9 +148,8 @@ void HemisphereCuts::cut(gpu::Commands& commands, const gpu::Array<Eye>& eyes, s
                            .indices = world_->indices(),
                            .cuts = cuts_},
                           params, blocks * kCutBlock);
-        commands.dispatch(count_,
-                          {.cuts = cuts_, .counts = counts_, .block_counts = block_counts_}, params,
-                          blocks);
+        commands.dispatch(count_, {.cuts = cuts_, .counts = counts_, .block_counts = block_counts_},
+                          params, blocks);
         commands.dispatch(place_, {.block_counts = block_counts_, .draws = draws_}, params, count);
     }
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What the eyes of hemispheres see: for each eye the device drops triangles that it does not see, cuts
-// the others into strips, and leaves to the tessellator those that no strip fills.
+// What the eyes of hemispheres see: for each eye the device drops triangles that it does not see,
+// cuts the others into strips, and leaves to the tessellator those that no strip fills.
 
 #include <cstdint>
 #include <functional>
@@ -29,8 +29,9 @@ public:
 
     std::uint32_t eyes_at_once() const { return eyes_at_once_; }
 
-    /// Cuts the world's triangles for eyes [first, first + count), outside of a pass. count: at most
-    /// eyes_at_once(). near [m], radius [pixels], chord [rad]: see LookParams and longest_chord().
+    /// Cuts the world's triangles for eyes [first, first + count), outside of a pass. count: at
+    /// most eyes_at_once(). near [m], radius [pixels], chord [rad]: see LookParams and
+    /// longest_chord().
     void cut(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
              std::uint32_t count, float near, float radius, float chord);
 
@@ -65,11 +66,11 @@ private:
 
     const World* world_;
     std::uint32_t eye_blocks_, eye_draws_, eyes_at_once_;
-    std::uint32_t first_eye_ = 0;  ///< of those last cut
-    gpu::Array<std::uint32_t> cuts_;       ///< [eyes_at_once][slots]
-    gpu::Array<CutCount> counts_;          ///< the same
-    gpu::Array<CutCount> block_counts_;    ///< [eyes_at_once][eye_blocks]
-    gpu::Array<DrawnVertices> draws_;      ///< [eyes_at_once][eye_draws]
+    std::uint32_t first_eye_ = 0;        ///< of those last cut
+    gpu::Array<std::uint32_t> cuts_;     ///< [eyes_at_once][slots]
+    gpu::Array<CutCount> counts_;        ///< the same
+    gpu::Array<CutCount> block_counts_;  ///< [eyes_at_once][eye_blocks]
+    gpu::Array<DrawnVertices> draws_;    ///< [eyes_at_once][eye_draws]
     gpu::Kernel<shaders::HemisphereCut> cut_;
     gpu::Kernel<shaders::HemisphereCount> count_;
     gpu::Kernel<shaders::HemispherePlace> place_;
