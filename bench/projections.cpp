@@ -89,7 +89,7 @@ Disagreement compare(const Pairs& pairs, const std::vector<std::vector<std::uint
     return {wrong / tested, wrong_light / seen_light};
 }
 
-/// Pieces of an edge between two directions, as hemisphere.tesc counts them.
+/// Pieces of an edge between two directions, as hemisphere.cut.comp counts them.
 double pieces_of(const glm::vec3& a, const glm::vec3& b, float chord)
 {
     constexpr double most = 64.0;
@@ -97,28 +97,24 @@ double pieces_of(const glm::vec3& a, const glm::vec3& b, float chord)
     return std::clamp(std::exp2(std::ceil(std::log2(double(angle / chord)))), 1.0, most);
 }
 
-/// Triangles that hemispheres of that side draw for each eye, on average: edges in a power of two
-/// of pieces, and rings of pieces inside.
+/// Triangles that hemispheres of that side draw for each eye, on average, if all are cut into
+/// strips: two less than their edges have pieces.
 double drawn_in_hemispheres(const World& world, const std::vector<Eye>& eyes, std::uint32_t side)
 {
     const std::vector<glm::vec3> vertices = world.vertices().download();
     const std::vector<std::uint32_t> indices = world.indices().download();
+    const gpu::Range range = world.drawn(world.opaque());
     const float chord = longest_chord(0.5f * float(side));
     double count = 0.0;
     for (const Eye& eye : eyes)
-        for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
+        for (std::size_t k = range.first; k < range.first + range.count; k += 3) {
             const glm::vec3 a = vertices[indices[k]] - eye.position,
                             b = vertices[indices[k + 1]] - eye.position,
                             c = vertices[indices[k + 2]] - eye.position;
             if (std::max({glm::dot(a, eye.normal), glm::dot(b, eye.normal),
-                          glm::dot(c, eye.normal)}) <= 0.0f)
-                continue;
-            const double outer[] = {pieces_of(b, c, chord), pieces_of(c, a, chord),
-                                    pieces_of(a, b, chord)};
-            const double inner = *std::max_element(std::begin(outer), std::end(outer));
-            const double rings = 0.5 * inner - 1.0;
-            count +=
-                inner == 1.0 ? 1.0 : outer[0] + outer[1] + outer[2] + 6.0 * rings * (rings + 1.0);
+                          glm::dot(c, eye.normal)}) > 0.0f)
+                count +=
+                    pieces_of(b, c, chord) + pieces_of(c, a, chord) + pieces_of(a, b, chord) - 2.0;
         }
     return count / double(eyes.size());
 }

@@ -12,7 +12,7 @@
 
 namespace lumel::gpu {
 
-/// Bytes in GPU memory, usable as storage, vertex, index and transfer buffer.
+/// Bytes in GPU memory, usable as storage, vertex, index, indirect and transfer buffer.
 class Buffer {
 public:
     /// host: mapped, for read-backs and uploads. addressed: on the device, for what triangle trees

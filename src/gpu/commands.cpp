@@ -327,24 +327,34 @@ void Commands::viewport(const Area& area)
     vkCmdSetScissor(buffer_, 0, 1, &scissor);
 }
 
-void Commands::use_pipeline(const Pipeline& raster, std::span<const Binding> given,
-                            std::span<const Binding> streams, const Buffer& indices)
+void Commands::use_pipeline(const Pipeline& raster, std::span<const Binding> given)
 {
     vkCmdBindPipeline(buffer_, VK_PIPELINE_BIND_POINT_GRAPHICS, raster.handle());
     bind(raster.layout(), VK_PIPELINE_BIND_POINT_GRAPHICS, given);
+    layout_in_use_ = &raster.layout();
+}
+
+void Commands::use_mesh(std::span<const Binding> streams, const Buffer& indices)
+{
     for (std::uint32_t i = 0; i < streams.size(); ++i) {
         const VkBuffer handle = streams[i].buffer->handle();
         const VkDeviceSize offset = 0;
         vkCmdBindVertexBuffers(buffer_, i, 1, &handle, &offset);
     }
     vkCmdBindIndexBuffer(buffer_, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-    layout_in_use_ = &raster.layout();
 }
 
 void Commands::draw(Bytes params, const Range& range)
 {
     push_params(*layout_in_use_, params);
     vkCmdDrawIndexed(buffer_, range.count, 1, range.first, 0, 0);
+    ++device_->recorded().draws;
+}
+
+void Commands::draw_indirect(Bytes params, const Buffer& arguments, std::uint64_t first_byte)
+{
+    push_params(*layout_in_use_, params);
+    vkCmdDrawIndirect(buffer_, arguments.handle(), first_byte, 1, sizeof(VkDrawIndirectCommand));
     ++device_->recorded().draws;
 }
 

@@ -37,6 +37,10 @@ template <class Shaders>
 class Drawing {
 public:
     void draw(const typename Shaders::Params& params, const Range& range) const;
+    /// As many vertices as the device wrote: element `index` of an array of Vulkan's arguments.
+    template <class Arguments>
+    void draw_indirect(const typename Shaders::Params& params, const Array<Arguments>& arguments,
+                       std::size_t index) const;
 
 private:
     friend class Commands;
@@ -93,8 +97,16 @@ public:
     Drawing<Shaders> use(const Raster<Shaders>& raster, const typename Shaders::Bindings& given,
                          const typename Shaders::Mesh& mesh, const Array<std::uint32_t>& indices)
     {
-        use_pipeline(raster.pipeline(), Shaders::list(given), Shaders::list(mesh),
-                     indices.buffer());
+        use_pipeline(raster.pipeline(), Shaders::list(given));
+        use_mesh(Shaders::list(mesh), indices.buffer());
+        return Drawing<Shaders>(*this);
+    }
+    /// The same of shaders that find their vertices themselves.
+    template <class Shaders>
+    Drawing<Shaders> use(const Raster<Shaders>& raster, const typename Shaders::Bindings& given)
+    {
+        static_assert(Shaders::kComponents.empty());
+        use_pipeline(raster.pipeline(), Shaders::list(given));
         return Drawing<Shaders>(*this);
     }
     void end_pass();
@@ -132,9 +144,10 @@ private:
     void push_params(const Layout& layout, Bytes params);
     void dispatch_groups(const Pipeline& kernel, std::span<const Binding> given, Bytes params,
                          std::size_t threads, std::uint32_t group_size);
-    void use_pipeline(const Pipeline& raster, std::span<const Binding> given,
-                      std::span<const Binding> streams, const Buffer& indices);
+    void use_pipeline(const Pipeline& raster, std::span<const Binding> given);
+    void use_mesh(std::span<const Binding> streams, const Buffer& indices);
     void draw(Bytes params, const Range& range);
+    void draw_indirect(Bytes params, const Buffer& arguments, std::uint64_t first_byte);
 
     const Device* device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
@@ -152,6 +165,16 @@ template <class Shaders>
 void Drawing<Shaders>::draw(const typename Shaders::Params& params, const Range& range) const
 {
     commands_->draw(Commands::bytes_of(params), range);
+}
+
+template <class Shaders>
+template <class Arguments>
+void Drawing<Shaders>::draw_indirect(const typename Shaders::Params& params,
+                                     const Array<Arguments>& arguments, std::size_t index) const
+{
+    static_assert(sizeof(Arguments) == sizeof(VkDrawIndirectCommand));
+    commands_->draw_indirect(Commands::bytes_of(params), arguments.buffer(),
+                             index * sizeof(Arguments));
 }
 
 }  // namespace lumel::gpu

@@ -50,19 +50,6 @@ use_cut_out(gpu::Commands& commands, const gpu::Raster<shaders::HemicubeCutOut>&
                         {.position = world.vertices(), .look = world.looks()}, world.indices());
 }
 
-gpu::Drawing<shaders::HemisphereCutOut>
-use_cut_out(gpu::Commands& commands, const gpu::Raster<shaders::HemisphereCutOut>& raster,
-            const World& world, const gpu::Array<Eye>& eyes, const CutOutDraw& cut_out)
-{
-    return commands.use(raster,
-                        {.eyes = eyes,
-                         .base_color = {*cut_out.color, *cut_out.sampler},
-                         .vertices = world.vertices(),
-                         .looks = world.looks(),
-                         .indices = world.indices()},
-                        {.position = world.vertices()}, world.indices());
-}
-
 }  // namespace
 
 std::uint64_t view_pixels(Projection projection, std::uint32_t side)
@@ -75,7 +62,8 @@ std::uint64_t view_pixels(Projection projection, std::uint32_t side)
 std::uint64_t EyeViews::device_bytes(Projection projection, std::uint32_t side,
                                      std::uint32_t capacity)
 {
-    return view_pixels(projection, side) * tiles_about_square(capacity) * sizeof(float);
+    return view_pixels(projection, side) * tiles_about_square(capacity) * sizeof(float) +
+           (projection == Projection::hemisphere ? HemisphereCuts::device_bytes() : 0);
 }
 
 float longest_chord(float radius)
@@ -94,14 +82,14 @@ EyeViews::EyeViews(const gpu::Device& device, const World& world, Projection pro
       image_(device, gpu::Pixel::depth, tiles_of(projection, layout_).image_width(),
              tiles_of(projection, layout_).image_height(capacity_)),
       sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
-      rasters_(make_rasters(device, projection))
+      rasters_(make_rasters(device))
 {
 }
 
-EyeViews::Rasters EyeViews::make_rasters(const gpu::Device& device, Projection projection)
+EyeViews::Rasters EyeViews::make_rasters(const gpu::Device& device) const
 {
-    if (projection == Projection::hemisphere)
-        return HemisphereRasters(device);
+    if (is_hemisphere())
+        return HemisphereCuts(device, *world_, capacity_);
     return HemicubeRasters(device);
 }
 
@@ -117,42 +105,71 @@ LookParams EyeViews::look_params(std::uint32_t eye, std::uint32_t face) const
             .face = face,
             .near = layout_.near,
             .corner = {tile.x, tile.y},
-            .radius = radius_,
-            .chord = chord_};
+            .radius = radius_};
+}
+
+LookParams EyeViews::begin_face(gpu::Commands& commands, std::uint32_t eye,
+                                std::uint32_t face) const
+{
+    commands.viewport(face_area(projection_, layout_, eye, face));
+    return look_params(eye, face);
+}
+
+void EyeViews::cut(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
+                   std::uint32_t last)
+{
+    std::get<HemisphereCuts>(rasters_).cut(commands, eyes, first, last - first, layout_.near,
+                                           radius_, chord_);
+}
+
+void EyeViews::draw_hemicubes(gpu::Commands& commands, const gpu::Array<Eye>& eyes,
+                              std::uint32_t first, std::uint32_t last)
+{
+    const HemicubeRasters& rasters = std::get<HemicubeRasters>(rasters_);
+    const auto draw_all = [&](const auto& drawing, const Passage& passage,
+                              const gpu::Range& range) {
+        for (std::uint32_t i = first; i < last; ++i) {
+            LookParams params = begin_face(commands, i / kHemicubeFaces, i % kHemicubeFaces);
+            params.passage = passage;
+            drawing.draw(params, range);
+        }
+    };
+    if (const gpu::Range range = world_->drawn(world_->opaque()); range.count > 0)
+        draw_all(commands.use(rasters.opaque, {.eyes = eyes}, {.position = world_->vertices()},
+                              world_->indices()),
+                 {}, range);
+    for (const CutOutDraw& cut_out : world_->cut_outs())
+        if (const gpu::Range range = world_->drawn(cut_out.range); range.count > 0)
+            draw_all(use_cut_out(commands, rasters.cut_out, *world_, eyes, cut_out),
+                     cut_out.passage, range);
 }
 
 void EyeViews::draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                           std::uint32_t last)
 {
-    const auto draw_all = [&](const auto& drawing, const Passage& passage,
-                              const gpu::Range& range) {
-        for (std::uint32_t i = first; i < last; ++i) {
-            const std::uint32_t eye = i / faces_per_eye(), face = i % faces_per_eye();
-            commands.viewport(face_area(projection_, layout_, eye, face));
-            LookParams params = look_params(eye, face);
-            params.passage = passage;
-            params.first_index = range.first;
-            drawing.draw(params, range);
-        }
-    };
-    const auto draw_surfaces = [&](const auto& rasters) {
-        if (const gpu::Range range = world_->drawn(world_->opaque()); range.count > 0)
-            draw_all(commands.use(rasters.opaque, {.eyes = eyes}, {.position = world_->vertices()},
-                                  world_->indices()),
-                     {}, range);
-        for (const CutOutDraw& cut_out : world_->cut_outs())
-            if (const gpu::Range range = world_->drawn(cut_out.range); range.count > 0)
-                draw_all(use_cut_out(commands, rasters.cut_out, *world_, eyes, cut_out),
-                         cut_out.passage, range);
-    };
-    std::visit(draw_surfaces, rasters_);
+    if (const auto* cuts = std::get_if<HemisphereCuts>(&rasters_))
+        cuts->draw(commands, eyes, first, last,
+                   [&](std::uint32_t eye) { return begin_face(commands, eye, 0); });
+    else
+        draw_hemicubes(commands, eyes, first, last);
+}
+
+std::uint32_t EyeViews::faces_at_once() const
+{
+    const auto* cuts = std::get_if<HemisphereCuts>(&rasters_);
+    return cuts ? cuts->eyes_at_once() : capacity_ * kHemicubeFaces;
 }
 
 void EyeViews::look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count)
 {
+    const std::uint32_t faces = count * faces_per_eye();
+    if (faces > faces_at_once())
+        return look_from_faces(commands, eyes, 0, faces);
+    if (is_hemisphere())
+        cut(commands, eyes, 0, count);
     const std::uint32_t height = tiles_of(projection_, layout_).image_height(count);
     commands.begin_pass(nullptr, image_, {0, 0, image_.width(), height});
-    draw_faces(commands, eyes, 0, count * faces_per_eye());
+    draw_faces(commands, eyes, 0, faces);
     commands.end_pass();
 }
 
@@ -172,6 +189,8 @@ void EyeViews::look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& e
                                std::uint32_t first, std::uint32_t last)
 {
     for (std::uint32_t i = first; i < last; ++i) {
+        if (is_hemisphere() && (i - first) % faces_at_once() == 0)
+            cut(commands, eyes, i, std::min(i + faces_at_once(), last));
         commands.begin_pass(
             nullptr, image_,
             face_area(projection_, layout_, i / faces_per_eye(), i % faces_per_eye()));

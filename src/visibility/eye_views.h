@@ -11,8 +11,7 @@
 #include "visibility/eye_views.shared.h"
 #include "visibility/hemicube.cut_out.raster.h"
 #include "visibility/hemicube.raster.h"
-#include "visibility/hemisphere.cut_out.raster.h"
-#include "visibility/hemisphere.raster.h"
+#include "visibility/hemisphere_cuts.h"
 #include "visibility/surface_rasters.h"
 #include "world/world.h"
 
@@ -64,10 +63,15 @@ public:
 
 private:
     using HemicubeRasters = SurfaceRasters<shaders::Hemicube, shaders::HemicubeCutOut>;
-    using HemisphereRasters = SurfaceRasters<shaders::Hemisphere, shaders::HemisphereCutOut>;
-    using Rasters = std::variant<HemicubeRasters, HemisphereRasters>;
+    using Rasters = std::variant<HemicubeRasters, HemisphereCuts>;
 
-    static Rasters make_rasters(const gpu::Device& device, Projection projection);
+    Rasters make_rasters(const gpu::Device& device) const;
+    void cut(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
+             std::uint32_t last);
+    LookParams begin_face(gpu::Commands& commands, std::uint32_t eye, std::uint32_t face) const;
+    void draw_hemicubes(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
+                        std::uint32_t last);
+    std::uint32_t faces_at_once() const;  ///< what one pass can hold
     void draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                     std::uint32_t last);
     LookParams look_params(std::uint32_t eye, std::uint32_t face) const;

@@ -37,9 +37,10 @@ struct LookParams {
     Passage passage;   ///< of cut-outs
     uint first_index;  ///< of the indices drawn
     // Of a hemisphere:
-    uvec2 corner;  ///< of the tile [pixels]
-    float radius;  ///< of the disc [pixels]
-    float chord;   ///< the longest arc that one straight line stands for [rad]
+    uvec2 corner;      ///< of the tile [pixels]
+    float radius;      ///< of the disc [pixels]
+    uint first_block;  ///< of the range's triangles, see hemisphere.shared.h
+    uint blocks;       ///< of the range
 };
 
 LUMEL_SHARED_END

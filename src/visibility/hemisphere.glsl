@@ -13,7 +13,7 @@
 // pieces of equal angle, an edge needs at most π/δ of them, however near the eye it passes.
 //
 // Differs from the paper, which projects the vertices of a scene that is tessellated as it comes:
-// - Triangles are tessellated for each eye, by what their edges subtend.
+// - Triangles are cut for each eye, by what their edges subtend.
 // - Stored is the distance, of the pixel's centre, not -z interpolated between vertices.
 
 // Any order that two triangles agree on for the edge they share.
@@ -53,6 +53,16 @@ vec2 on_disc(vec3 direction)
     const float kSmallest = 1e-6;  // straight down has no place: it is clipped
     const float reach = max(length(direction.xy), kSmallest);
     return direction.z >= 0.0 ? direction.xy : direction.xy * (2.0 / reach - 1.0);
+}
+
+// What lies deeper below the horizon than this [of a direction's length 1] is clipped: the disc is
+// torn there.
+const float kDeepest = 0.5;
+
+// Where a direction is drawn. The fragments write the depth; this one clips.
+vec4 projected(vec3 way)
+{
+    return vec4(on_disc(way), 0.5 * (way.z + kDeepest), 1.0);
 }
 
 // The ray through a point of the image, length 1; `at` in pixels from the tile's corner.

@@ -56,11 +56,7 @@ vec3 direction(vec3 part)
 
 void main()
 {
-    const vec3 way = direction(gl_TessCoord);
-    // The fragments write the depth; this one clips what lies deep below the horizon, where the
-    // disc is torn.
-    const float kDeepest = 0.5;
-    gl_Position = vec4(on_disc(way), 0.5 * (way.z + kDeepest), 1.0);
+    gl_Position = projected(direction(gl_TessCoord));
     plane_out = plane;
     triangle_out = triangle;
 }

@@ -132,28 +132,42 @@ void compare(const Triangle& local, const float* tile, std::size_t row, float ne
         }
 }
 
+/// What eyes see of a scene.
+struct Discs {
+    std::vector<float> image;
+    std::size_t row, columns;
+    float near;
+
+    const float* tile(std::size_t eye) const
+    {
+        return &image[eye / columns * 2 * kSide * row + eye % columns * 2 * kSide];
+    }
+};
+
+Discs look(const Scene& scene, const std::vector<Eye>& eyes)
+{
+    const gpu::Device device;
+    const World world(device, scene, Lumels{});
+    EyeViews views(device, world, Projection::hemisphere, kSide, std::uint32_t(eyes.size()));
+    const gpu::Array<Eye> eye_array(device, std::span<const Eye>(eyes));
+    gpu::Commands commands(device);
+    views.look_from(commands, eye_array, std::uint32_t(eyes.size()));
+    commands.run();
+    Discs discs{{}, views.image().width(), views.layout().columns, views.layout().near};
+    discs.image.resize(discs.row * views.image().height());
+    views.image().download(discs.image.data());
+    EXPECT_EQ(device.validation_messages(), "");
+    return discs;
+}
+
 Truth truth_of(const Triangle& triangle, std::uint32_t seed)
 {
     std::mt19937 random(seed);
-    const Scene scene = scene_of(triangle);
-    const gpu::Device device;
-    const World world(device, scene, Lumels{});
     const std::vector<Eye> eyes = eyes_around(triangle, random);
-    EyeViews views(device, world, Projection::hemisphere, kSide, kEyes);
-    const gpu::Array<Eye> eye_array(device, std::span<const Eye>(eyes));
-    gpu::Commands commands(device);
-    views.look_from(commands, eye_array, kEyes);
-    commands.run();
-    const std::size_t row = views.image().width();
-    std::vector<float> image(row * views.image().height());
-    views.image().download(image.data());
-    EXPECT_EQ(device.validation_messages(), "");
+    const Discs discs = look(scene_of(triangle), eyes);
     Truth truth;
-    for (std::size_t i = 0; i < kEyes; ++i) {
-        const std::size_t column = i % views.layout().columns, line = i / views.layout().columns;
-        compare(seen_from(eyes[i], triangle), &image[line * 2 * kSide * row + column * 2 * kSide],
-                row, views.layout().near, truth);
-    }
+    for (std::size_t i = 0; i < eyes.size(); ++i)
+        compare(seen_from(eyes[i], triangle), discs.tile(i), discs.row, discs.near, truth);
     return truth;
 }
 
@@ -169,6 +183,123 @@ TEST(Hemisphere, CurvedEdgesStayWithinHalfAPixel)
         EXPECT_LE(truth.deviation, 0.5);
         EXPECT_LE(truth.off_plane, 1e-6);
     }
+}
+
+// Where the lines run that cut the faces of the box below, so that they have large triangles,
+// small ones and slivers side by side, and meet corner to corner.
+constexpr float kLines[] = {-1.0f, -0.99f, -0.3f, -0.2f, -0.18f, 0.15f, 0.7f, 1.0f};
+constexpr float kShell = 3.0f;  ///< half the side of the box around it, which shows through a crack
+
+/// A face of a box [-half, half]³.
+void add_face(Scene& scene, int axis, float side, float half, const std::vector<float>& lines)
+{
+    const auto count = std::uint32_t(lines.size());
+    std::vector<glm::vec3> corners;
+    std::vector<std::uint32_t> indices;
+    for (const float v : lines)
+        for (const float u : lines) {
+            glm::vec3 corner;
+            corner[axis] = side * half;
+            corner[(axis + 1) % 3] = u * half;
+            corner[(axis + 2) % 3] = v * half;
+            corners.push_back(corner);
+        }
+    for (std::uint32_t j = 0; j + 1 < count; ++j)
+        for (std::uint32_t i = 0; i + 1 < count; ++i) {
+            const std::uint32_t a = j * count + i, b = a + 1, c = a + count, d = c + 1;
+            indices.insert(indices.end(), {a, b, c, b, d, c});
+        }
+    support::add_mesh(scene, corners, indices, Material{});
+}
+
+Scene box_in_a_shell()
+{
+    Scene scene;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            add_face(scene, axis, side, 1.0f, {std::begin(kLines), std::end(kLines)});
+            add_face(scene, axis, side, kShell, {-1.0f, 1.0f});
+        }
+    return scene;
+}
+
+/// Eyes in the box: on its walls and anywhere.
+std::vector<Eye> eyes_in_the_box(std::mt19937& random)
+{
+    constexpr float kOff = 1e-4f;  // the wall [m]
+    std::uniform_real_distribution<float> place(-0.97f, 0.97f);
+    std::normal_distribution<float> normal;
+    std::vector<Eye> eyes;
+    for (int i = 0; i < kEyes; ++i) {
+        glm::vec3 at(place(random), place(random), place(random));
+        glm::vec3 toward(normal(random), normal(random), normal(random));
+        if (i % 2 == 0) {
+            toward = glm::vec3(0.0f);
+            toward[i / 4 % 3] = i % 4 == 0 ? 1.0f : -1.0f;
+            at[i / 4 % 3] = (kOff - 1.0f) * toward[i / 4 % 3];
+        }
+        eyes.push_back(eye_at(at, glm::normalize(toward)));
+    }
+    return eyes;
+}
+
+/// From a point in the box, along a direction, to its wall [m].
+double to_the_wall(const glm::dvec3& from, const glm::dvec3& direction)
+{
+    double distance = 1e30;
+    for (int axis = 0; axis < 3; ++axis)
+        if (direction[axis] != 0.0)
+            distance = std::min(distance, (std::copysign(1.0, direction[axis]) - from[axis]) /
+                                              direction[axis]);
+    return distance;
+}
+
+struct Range {
+    double least = 1e30, most = 0.0;
+};
+
+/// Of the distances through a pixel and half a pixel around it, and as much again on either side:
+/// at an edge the plane of the wall beside it goes on.
+Range distances_about(const Eye& eye, const glm::dvec2& at)
+{
+    Range range;
+    for (double y = -0.5; y <= 0.5; y += 0.5)
+        for (double x = -0.5; x <= 0.5; x += 0.5) {
+            const glm::dvec2 q = (at + glm::dvec2(x, y)) / kRadius - 1.0;
+            const glm::dvec3 ray(q, std::sqrt(std::max(1.0 - glm::dot(q, q), 0.0)));
+            const double distance = to_the_wall(eye.position, glm::dmat3(glm::dvec3(eye.tangent),
+                                                                         glm::dvec3(eye.bitangent),
+                                                                         glm::dvec3(eye.normal)) *
+                                                                  ray);
+            range.least = std::min(range.least, distance);
+            range.most = std::max(range.most, distance);
+        }
+    const double width = range.most - range.least;
+    return {range.least - width, range.most + width};
+}
+
+// Triangles that are drawn whole, as strips, and by the tessellator, side by side.
+TEST(Hemisphere, NothingShowsThroughWhereTrianglesMeet)
+{
+    constexpr double kRounding = 1e-4;
+    std::mt19937 random(5);
+    const std::vector<Eye> eyes = eyes_in_the_box(random);
+    const Discs discs = look(box_in_a_shell(), eyes);
+    std::size_t tested = 0, wrong = 0;
+    for (std::size_t i = 0; i < eyes.size(); ++i)
+        for (std::size_t y = 0; y < 2 * kSide; ++y)
+            for (std::size_t x = 0; x < 2 * kSide; ++x) {
+                const glm::dvec2 at(double(x) + 0.5, double(y) + 0.5);
+                if (glm::length(at / kRadius - 1.0) > 1.0 - 0.5 / kRadius)
+                    continue;
+                const Range truth = distances_about(eyes[i], at);
+                const double found = double(discs.near) / double(discs.tile(i)[y * discs.row + x]);
+                ++tested;
+                wrong += !(found >= truth.least * (1.0 - kRounding) &&
+                           found <= truth.most * (1.0 + kRounding));
+            }
+    EXPECT_GT(tested, 10'000'000u);
+    EXPECT_EQ(wrong, 0u);
 }
 
 }  // namespace
