@@ -57,8 +57,8 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
             refuse("is a directional light: it has a direction and no position");
         const glm::vec3 position(glm::dvec3(to_glm(*place.position)) - origin);
         if (!is_finite(*place.position) ||
-            reaches_too_far(Box{}, glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0},
-                                             glm::vec4(position, 1.0f))))
+            reaches_too_far(Bounds{}, glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0},
+                                                glm::vec4(position, 1.0f))))
             refuse("is moved to a place that is no number, or too far out");
         result[3] = glm::vec4(position, 1.0f);
     }
@@ -102,7 +102,7 @@ void LiveLinks::move(std::uint32_t instance, const Mat4& transform)
         if (mover == impl_->movers.end())
             throw lumel::Error(lumel::ErrorKind::input, name, "is not one that may move");
         const glm::mat4 place = to_glm(transform), &given = impl_->given[instance];
-        if (!is_finite(transform) || reaches_too_far(Box{}, place))
+        if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, name,
                                "is moved to a place that is no number, or too far out");
         const glm::mat4 motion =
