@@ -51,6 +51,14 @@ foreach(package ${packages})
     endif()
 endforeach()
 
+# Pages for a browser have three.js in them, and what it reads textures with.
+set(modules ${CMAKE_CURRENT_LIST_DIR}/../build/npm/node_modules)
+foreach(module three ktx-parse)
+    if(EXISTS ${modules}/${module}/LICENSE)
+        file(COPY_FILE ${modules}/${module}/LICENSE ${stage}/licences/${module}.txt)
+    endif()
+endforeach()
+
 file(ARCHIVE_CREATE OUTPUT ${BUILD}/${NAME}.tar.gz PATHS ${NAME} FORMAT gnutar COMPRESSION GZip)
 file(SIZE ${BUILD}/${NAME}.tar.gz bytes)
 math(EXPR mebibytes "(${bytes} + 524288) / 1048576")

@@ -83,7 +83,7 @@ void add_play_options(CLI::App& app, PlayOptions& options)
                                   100.0 * LiveLinksOptions{}.residual))
         ->check(positive());
     add_choice(app, "--film", options.film, kFilms,
-               "Film of the frames, where ffmpeg is installed: play.mp4 (H.264), play.webm (VP9)");
+               "Film of the frames, where ffmpeg is installed: play.mp4 or play.webm");
     app.add_option("--exposure", options.exposure,
                    "Factor from cd/m2 to brightness, the same for all frames")
         ->type_name("F")

@@ -438,7 +438,7 @@ struct LiveLinksState {
 /// Every lumel traces its rays once, and what they met is kept: dimming and painting trace nothing,
 /// a move only the rays that it starts, ends or stops. At rest the light is that of a scene solved
 /// anew, within the residual. Works on the host, needs no Device, and takes about 4 × rays + 100
-/// bytes for each lumel, and 12 for each of them and each lamp.
+/// bytes for each lumel, 12 for each of them and each lamp, and up to 250 more with the filter.
 class LUMEL_API LiveLinks {
 public:
     /// Lays the scene out, traces all links and finds all direct light. The scene is copied.

@@ -67,15 +67,16 @@ std::uint32_t GroupedLight::sender_of(LightSources::Part part, std::uint32_t ind
     return std::uint32_t(found - senders_.begin());
 }
 
-void GroupedLight::set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor)
+bool GroupedLight::set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor)
 {
     const std::uint32_t sender = sender_of(part, index);
-    if (sender == senders_.size())
-        return;  // it sends nothing
+    if (sender == senders_.size() || senders_[sender].factor == factor)
+        return false;
     senders_[sender].factor = factor;
     if (groups_[std::min<std::size_t>(sender, groups_.size() - 1)].is_shared())
         find(groups_.back());
     summed_ = false;
+    return true;
 }
 
 void GroupedLight::find_again(LightSources::Part part, std::uint32_t index)

@@ -28,7 +28,7 @@ public:
     GroupedLight(const LivePlace& place, const GroupedLightOptions& options);
 
     /// All that a sender sends is `factor` times what the scene says.
-    void set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
+    bool set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
     /// A light of the scene has moved, and the sources know.
     void find_again(LightSources::Part part, std::uint32_t index);
     /// Surfaces have moved, and the sources know.

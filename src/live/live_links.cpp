@@ -181,16 +181,14 @@ void LiveLinks::set_light(std::uint32_t light, const glm::vec3& factor)
 {
     check_index(light, scene().lights, "light");
     check_factor(factor);
-    light_.set_factor(Part::light, light, factor);
-    edited_ = true;
+    edited_ |= light_.set_factor(Part::light, light, factor);
 }
 
 void LiveLinks::set_emission(std::uint32_t material, const glm::vec3& factor)
 {
     check_index(material, scene().materials, "material");
     check_factor(factor);
-    light_.set_factor(Part::material, material, factor);
-    edited_ = true;
+    edited_ |= light_.set_factor(Part::material, material, factor);
 }
 
 void LiveLinks::set_sky(const glm::vec3& factor)
@@ -198,6 +196,8 @@ void LiveLinks::set_sky(const glm::vec3& factor)
     check_factor(factor);
     if (scene().sky.empty())
         throw Error(ErrorKind::input, scene().path, "has no sky");
+    if (factor == sky_factor_)
+        return;
     sky_factor_ = factor;
     light_.set_factor(Part::sky, 0, factor);
     edited_ = true;
@@ -343,6 +343,11 @@ std::vector<glm::vec3> LiveLinks::direct()
 
 void LiveLinks::begin()
 {
+    if (!scene().sky.empty()) {
+        sky_light_ = links_.sky_light();
+        for (glm::vec3& light : sky_light_)
+            light *= sky_factor_;
+    }
     sweeps_.begin(direct(), paint_.albedo());
     before_ = {};
     weighing_ = false;
@@ -390,7 +395,7 @@ LiveLinksState LiveLinks::advance(double budget_ms)
     };
     while (edited_ || is_under_way() || !state_.at_rest) {
         work();
-        if (spent() >= budget_ms)
+        if (!(spent() < budget_ms))
             break;
     }
     state_.under_way = is_under_way();
@@ -418,7 +423,8 @@ LiveLinksState LiveLinks::settle()
 
 std::uint64_t LiveLinks::bytes() const
 {
-    return links_.bytes() + light_.bytes() + sweeps_.bytes() + filter_.bytes();
+    return links_.bytes() + light_.bytes() + sweeps_.bytes() + filter_.bytes() +
+           sky_light_.size() * sizeof(glm::vec3);
 }
 
 std::vector<glm::vec3> LiveLinks::shown() const
@@ -426,7 +432,7 @@ std::vector<glm::vec3> LiveLinks::shown() const
     std::vector<glm::vec3> result(lumels().lumels.size());
     parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            result[i] = filter_.irradiance(sweeps_, sky_factor_, i);
+            result[i] = filter_.irradiance(sweeps_, sky_light_, i);
     });
     return result;
 }

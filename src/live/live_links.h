@@ -155,7 +155,8 @@ private:
     Paint paint_;
     ShownFilter filter_;
     glm::vec3 sky_factor_{1.0f};
-    std::vector<glm::mat4> motions_;                   ///< [things] from where they were given
+    std::vector<glm::vec3> sky_light_;  ///< [N] [lx] of it when the sweeps began; empty: no sky
+    std::vector<glm::mat4> motions_;    ///< [things] from where they were given
     std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
     std::vector<Following> following_;
     bool edited_ = true;     ///< since the last sweep

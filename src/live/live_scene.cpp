@@ -351,6 +351,7 @@ void LiveScene::settle_move()
 {
     state_.residual = solver_.residual();
     corrects_ = state_.residual <= kMostToCorrect;
+    unseen_ = true;
     remaining_.drop();
 }
 
@@ -366,6 +367,8 @@ void LiveScene::work()
             end_move();
     } else if (is_move_requested() ||
                (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
+        if (unseen_)
+            show();  // what never stops is seen all the same
         begin_move();
     } else {
         shoot();
@@ -424,6 +427,7 @@ LiveState LiveScene::settle()
 
 void LiveScene::show()
 {
+    unseen_ = false;
     gpu::Pacer& pacer = solver_.pacer();
     pacer.work("show", [&](gpu::Commands& commands) {
         const ShowParams params{std::uint32_t(lumels_.lumels.size())};

@@ -136,6 +136,7 @@ private:
     gpu::Array<glm::vec4> texels_;   ///< [height][width] of the image
     std::array<gpu::Target, 2> images_;
     std::size_t shown_image_ = 0;
+    bool unseen_ = false;  ///< a move has ended since show()
     gpu::Kernel<shaders::LiveShow> show_;
 };
 

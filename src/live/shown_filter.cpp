@@ -232,7 +232,7 @@ void ShownFilter::weigh(Tile& of, FilterTile& tile)
     });
 }
 
-glm::vec3 ShownFilter::irradiance(const LumelSweeps& sweeps, const glm::vec3& sky,
+glm::vec3 ShownFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                                   std::size_t i) const
 {
     const glm::vec3 whole = sweeps.irradiance(i);
@@ -240,7 +240,7 @@ glm::vec3 ShownFilter::irradiance(const LumelSweeps& sweeps, const glm::vec3& sk
     if (place.tile == ~0u)
         return whole;
     const auto by_rays = [&](std::size_t lumel) {
-        return sweeps.received(lumel) + sky * links_.sky_light()[lumel];
+        return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
     };
     const Tile& tile = tiles_[place.tile];
     const glm::vec3 own = by_rays(i);

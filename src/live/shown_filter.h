@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "live/lumel_links.h"
@@ -27,8 +28,10 @@ public:
     /// A piece of that. True when all is done.
     bool step();
 
-    /// H at a lumel [lx]: direct light, which is sharp, as it is, and light by rays filtered.
-    glm::vec3 irradiance(const LumelSweeps& sweeps, const glm::vec3& sky, std::size_t lumel) const;
+    /// H at a lumel [lx]: direct light, which is sharp, as it is, and light by rays filtered. sky:
+    /// what of its light the sweeps began with [N] [lx]; empty: none.
+    glm::vec3 irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                         std::size_t lumel) const;
     std::uint64_t bytes() const;
 
 private:

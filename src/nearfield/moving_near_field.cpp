@@ -48,7 +48,8 @@ MovingNearField::MovingNearField(const Scene& scene, const RayScene& rays, const
 {
     for (std::size_t i = 0; i < world_.size(); ++i) {
         radius_of_.push_back(radius_of(world_, world_[i]));
-        most_radius_ = std::max(most_radius_, radius_of_[i] + world_[i].lift);
+        most_radius_ = std::max(most_radius_, radius_of_[i]);
+        most_lift_ = std::max(most_lift_, world_[i].lift);
         most_size_ = std::max(most_size_, world_[i].size);
     }
     table_.radius = fitting_radius(world_, options.radius, options.most_pairs);
@@ -71,6 +72,8 @@ void MovingNearField::follow(const Scene& scene, const RayScene& rays,
             placed.push_back(i);
     world_.fit(rays);
     world_.place(scene, *lumels_, placed);
+    for (const std::uint32_t i : placed)
+        most_lift_ = std::max(most_lift_, world_[i].lift);
     std::vector<std::uint32_t> some;
     const std::vector<std::uint32_t> near = lumels_near(boxes);
     std::set_union(near.begin(), near.end(), placed.begin(), placed.end(),
@@ -102,10 +105,13 @@ bool MovingNearField::may_cross(std::uint32_t i, std::uint32_t j, std::span<cons
     });
 }
 
-/// All with a pair that may look through a box, or that has a lumel in it.
+/// Both lumels of each pair that may look through a box, and more: a way that may_cross() a box
+/// comes as near to it as a corner of the box grown by the margin, and ends a pair's distance on at
+/// most.
 std::vector<std::uint32_t> MovingNearField::lumels_near(std::span<const Box> boxes) const
 {
-    const float reach = table_.radius * most_size_ + most_radius_;
+    const float corner = std::sqrt(3.0f) * (most_radius_ + most_lift_);
+    const float reach = table_.radius * most_size_ + corner;
     std::vector<std::uint32_t> near;
     for (std::uint32_t i = 0; i < world_.size(); ++i)
         if (std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {

@@ -17,8 +17,10 @@ enum class NearPairsOf {
     movers,  ///< one of both, at least, may move
 };
 
-/// After any moves it is the table that build_near_field() builds, bit for bit, unless the scene's
-/// bounding box has grown or shrunk: rays start as high above lumels as it takes there.
+/// After any moves it has the pairs and factors, bit for bit, that build_near_field() finds with
+/// the radius of the beginning, unless the scene's bounding box has grown or shrunk: rays start as
+/// high above lumels as it takes there. (A new build may choose a smaller radius where pairs are
+/// many.)
 class MovingNearField {
 public:
     /// movers [instances]: 1 if it may move. The lumels must outlive this, unmoved.
@@ -27,7 +29,7 @@ public:
 
     /// Follows instances that now stand elsewhere in the scene. boxes: around all that moved, where
     /// it was and where it is. Builds pairs anew of which one has moved, or that may look through a
-    /// box; it keeps the others.
+    /// box; it keeps the others, but copies the table.
     void follow(const Scene& scene, const RayScene& rays, std::span<const std::uint32_t> moved,
                 std::span<const Box> boxes);
 
@@ -48,7 +50,7 @@ private:
     NearPairsOf which_;
     WorldLumels world_;
     std::vector<float> radius_of_;  ///< [N] of the ball about its centre that a lumel fills [m]
-    float most_radius_ = 0.0f, most_size_ = 0.0f;  ///< of all lumels [m]
+    float most_radius_ = 0.0f, most_lift_ = 0.0f, most_size_ = 0.0f;  ///< of all lumels [m]
     NearField table_;
     /// Rows that were scaled down to 1, by lumel, as they were before: with a pair built anew the
     /// others of its row are scaled anew.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -32,14 +32,15 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
 {
     const GltfDocument document = load_gltf_document(path);
     GlbBuilder builder(document);
-    std::optional<std::size_t> texture;
-    for (Json& material : builder.json["materials"])
-        if (material.contains("extensions") && material["extensions"].contains(kLightmap)) {
-            texture = material["extensions"][kLightmap]["index"].get<std::size_t>();
-            material["extensions"].erase(kLightmap);
-        }
-    if (texture)
-        builder.retire_texture(*texture);
+    std::set<std::size_t> textures;
+    if (builder.json.contains("materials"))
+        for (Json& material : builder.json["materials"])
+            if (material.contains("extensions") && material["extensions"].contains(kLightmap)) {
+                textures.insert(material["extensions"][kLightmap]["index"].get<std::size_t>());
+                material["extensions"].erase(kLightmap);
+            }
+    for (const std::size_t texture : textures)
+        builder.retire_texture(texture);
     builder.release();
     return builder.finish();
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned kStill = 0;  // the tree of what stays
 
 /// Moves a part's vertices to the world.
-void place_vertices(Part& part, float* vertices)
+void place_vertices(TracedPart& part, float* vertices)
 {
     const glm::mat3 linear(part.scene->instances[part.instance].transform);
     part.winding = glm::determinant(linear) < 0.0f ? -1.0f : 1.0f;
@@ -112,7 +112,8 @@ void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t 
         check("storing the triangles for ray queries");
     }
     const auto number = std::uint32_t(parts_.size());
-    Part& part = parts_.emplace_back(Part{&scene, &source, instance, primitive, number});
+    TracedPart& part =
+        parts_.emplace_back(TracedPart{&scene, &source, instance, primitive, number});
     place_vertices(part, vertices);
     std::copy(source.indices.begin(), source.indices.end(), indices);
 
@@ -192,7 +193,7 @@ void EmbreeTrees::place(const Tree& tree)
     rtcCommitScene(tree.scene);
 }
 
-const Part& EmbreeTrees::part(const RTCHit& hit) const
+const TracedPart& EmbreeTrees::part(const RTCHit& hit) const
 {
     const unsigned tree = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? kStill : hit.instID[0];
     return parts_[trees_[tree].parts[hit.geomID]];

@@ -12,7 +12,7 @@
 namespace lumel {
 
 /// A primitive of an instance.
-struct Part {
+struct TracedPart {
     const Scene* scene = nullptr;
     const Primitive* source = nullptr;
     std::uint32_t instance = 0;
@@ -31,7 +31,7 @@ class EmbreeTrees {
 public:
     /// Of some instances, those among them that may move [instances] (1; empty: none) in trees of
     /// their own. filter: decides whether a candidate hit on a surface that may let light pass
-    /// counts; the geometry's user pointer is its Part. The scene must outlive this, unmoved.
+    /// counts; the geometry's user pointer is its TracedPart. The scene must outlive this, unmoved.
     EmbreeTrees(const Scene& scene, std::span<const std::uint32_t> instances,
                 const std::vector<char>& movers, RTCFilterFunctionN filter);
     ~EmbreeTrees();
@@ -42,8 +42,8 @@ public:
     void place(std::span<const std::uint32_t> instances);
 
     RTCScene top() const { return top_; }  ///< for queries
-    const std::vector<Part>& parts() const { return parts_; }
-    const Part& part(const RTCHit& hit) const;
+    const std::vector<TracedPart>& parts() const { return parts_; }
+    const TracedPart& part(const RTCHit& hit) const;
 
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m], 0 if there is none
     glm::vec3 high() const { return high_; }
@@ -67,7 +67,7 @@ private:
     RTCDevice device_ = nullptr;
     std::vector<Tree> trees_;  ///< the first of what stays, the others of an instance each
     RTCScene top_ = nullptr;   ///< of all trees, or the first of them where nothing may move
-    std::vector<Part> parts_;
+    std::vector<TracedPart> parts_;
     std::vector<std::uint32_t> tree_of_;  ///< [instances]
     glm::vec3 low_{0.0f}, high_{0.0f};
 };

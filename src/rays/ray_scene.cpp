@@ -64,7 +64,7 @@ float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 }
 
 /// Look of a surface at a point of one of its triangles.
-MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float v)
+MaterialSample look_at(const TracedPart& part, std::uint32_t triangle, float u, float v)
 {
     const Primitive& source = *part.source;
     const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
@@ -80,7 +80,7 @@ MaterialSample look_at(const Part& part, std::uint32_t triangle, float u, float 
 }
 
 /// The tint of what passes a triangle; empty if a ray of this seed meets it.
-std::optional<glm::vec3> tint_through(const Part& part, std::uint32_t triangle,
+std::optional<glm::vec3> tint_through(const TracedPart& part, std::uint32_t triangle,
                                       const glm::vec2& barycentric, std::uint32_t seed)
 {
     const MaterialSample look = look_at(part, triangle, barycentric.x, barycentric.y);
@@ -94,7 +94,7 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 {
     if (candidate->valid[0] != -1)
         return;
-    const Part& part = *static_cast<const Part*>(candidate->geometryUserPtr);
+    const TracedPart& part = *static_cast<const TracedPart*>(candidate->geometryUserPtr);
     const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
     auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
     const std::optional<glm::vec3> tint = tint_through(
@@ -234,7 +234,7 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
 
-    const Part& part = trees_->part(query.hit);
+    const TracedPart& part = trees_->part(query.hit);
     hit.instance = part.instance;
     hit.primitive = part.primitive;
     hit.triangle = query.hit.primID;
@@ -253,7 +253,7 @@ std::size_t RayScene::parts() const
 
 std::vector<glm::vec3> RayScene::positions(std::size_t part) const
 {
-    const Part& from = trees_->parts()[part];
+    const TracedPart& from = trees_->parts()[part];
     std::vector<glm::vec3> positions;
     positions.reserve(from.source->positions.size());
     for (const glm::vec3& position : from.source->positions)
@@ -268,7 +268,7 @@ std::span<const std::uint32_t> RayScene::corners(std::size_t part) const
 
 bool RayScene::may_let_pass(std::size_t part) const
 {
-    const Part& from = trees_->parts()[part];
+    const TracedPart& from = trees_->parts()[part];
     return may_be_transparent(from.scene->materials[from.source->material], *from.source);
 }
 
@@ -281,7 +281,7 @@ std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t trian
 RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2& barycentric,
                      float distance, const glm::vec3& direction) const
 {
-    const Part& part = trees_->parts()[number];
+    const TracedPart& part = trees_->parts()[number];
     glm::vec3 corner[3];
     for (std::size_t k = 0; k < 3; ++k)
         corner[k] = part.to_world(

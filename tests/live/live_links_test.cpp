@@ -296,7 +296,7 @@ TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
     LiveLinks spread(laid_out(open_box(), options.things), options);
     at_once.settle();
     spread.settle();
-    const Lights before = spread.irradiance();
+    const Lights before = spread.irradiance(), shown = spread.shown();
     const glm::mat4 block = motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f)),
                     light = motion(glm::vec3(0.0f), 0.0f, glm::vec3(0, 1, 0),
                                    glm::vec3(0.05f, -0.02f, 0.0f));
@@ -307,6 +307,7 @@ TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
     int calls = 1;
     while (spread.advance(0.0).under_way) {
         EXPECT_EQ(spread.irradiance(), before) << "what moves is shown once it is wholly followed";
+        EXPECT_EQ(spread.shown(), shown);
         ++calls;
     }
     EXPECT_GT(calls, 10);
@@ -314,6 +315,28 @@ TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
     at_once.settle();
     spread.settle();
     EXPECT_EQ(spread.irradiance(), at_once.irradiance());
+}
+
+TEST(LiveLinks, WhatIsShownOfTheSkyWaitsForTheNextSweepToo)
+{
+    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    live.settle();
+    const Lights shown = live.shown();
+    live.set_sky(glm::vec3(10.0f));
+    EXPECT_EQ(live.shown(), shown);
+    live.settle();
+    EXPECT_NE(live.shown(), shown);
+}
+
+TEST(LiveLinks, ALampSetToWhatItIsChangesNothing)
+{
+    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    live.set_lamp("light", glm::vec3(0.5f));
+    ASSERT_TRUE(live.settle().at_rest);
+    const std::uint64_t sweeps = live.state().all_sweeps;
+    live.set_lamp("light", glm::vec3(0.5f));
+    live.set_sky(glm::vec3(1.0f));
+    EXPECT_EQ(live.settle().all_sweeps, sweeps);
 }
 
 TEST(LiveLinks, RequestsThatComeFasterThanTheyAreFollowedEndInTheLast)

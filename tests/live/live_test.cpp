@@ -245,6 +245,27 @@ TEST_P(LiveScenes, ShortBudgetsEndLikeOneLongCall)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+TEST_P(LiveScenes, ABoxThatNeverStopsIsShownAllTheSame)
+{
+    const gpu::Device device;
+    const Scene scene = room_with_a_box();
+    LiveOptions options = options_for(scene, GetParam());
+    options.atlas.size = kSmallSide;
+    options.solver.views.hemicube = kSmallHemicube;
+    LiveScene live(device, scene, options);
+    live.settle();
+    const auto before = live.irradiance();
+    constexpr int kMostUpdates = 1000;
+    int updates = 0;
+    do {
+        live.move(options.movers[0], shifted(scene, 0.2f, 0.5f + 0.001f * float(updates)));
+        live.update(0.0);
+    } while (live.irradiance() == before && ++updates < kMostUpdates);
+    EXPECT_LT(updates, kMostUpdates);
+    EXPECT_FALSE(live.state().at_rest);
+    EXPECT_EQ(device.validation_messages(), "");
+}
+
 // Sky, sun and a bulb are looked from a few views at a time.
 TEST_P(LiveScenes, LampsAndSkyFoundInShortBudgetsAreThoseOfOneLongCall)
 {

@@ -129,6 +129,32 @@ TEST_P(MovingNearFields, AfterRandomMovesHoldWhatANewOneHoldsBitForBit)
     EXPECT_GT(scaled, 0u);
 }
 
+// Here most lumels are far from what moves: pairs that end just beyond its reach count.
+TEST(MovingNearField, WithAReachMuchSmallerThanTheRoomIsThatOfANewOneToo)
+{
+    const NearFieldOptions options{.radius = 3.0f};
+    Furnished room(9);
+    std::mt19937 random(11);
+    for (const std::size_t thing : {0, 1})
+        room.place(thing, random_place(random));
+    RayScene rays(room.made.scene, room.movers);
+    MovingNearField moving(room.made.scene, rays, room.made.lumels, options, room.movers,
+                           NearPairsOf::all);
+    for (int move = 0; move < 3 * kMoves; ++move) {
+        const std::size_t thing = random() % 2;
+        const Box before = room.box(thing);
+        room.place(thing, random_place(random));
+        rays.place(room.things[thing]);
+        moving.follow(room.made.scene, rays, room.things[thing],
+                      std::array{before, room.box(thing)});
+        const NearField fresh =
+            build_near_field(room.made.scene, RayScene(room.made.scene), room.made.lumels, options);
+        ASSERT_EQ(moving.table().first, fresh.first) << move;
+        ASSERT_EQ(moving.table().column, fresh.column) << move;
+        ASSERT_EQ(moving.table().factor, fresh.factor) << move;
+    }
+}
+
 TEST(MovingNearField, OfAllPairsIsTheNearFieldOfTheScene)
 {
     Furnished room(6);

@@ -8,6 +8,7 @@ import { Legend } from './legend.js';
 import { Stage } from './stage.js';
 import { walk } from './walk.js';
 
+const mostDrawn = 1024; // of a lightmap's side [texels]
 const byId = (id) => document.getElementById(id);
 
 function say(trouble) {
@@ -56,16 +57,18 @@ function addFacts(bakes) {
         section('Settings', bakes, (bake) => folded('All settings', settings(bake))));
 }
 
-// The lightmap in false colours; pointing at it reads the light.
+// The lightmap in false colours, or one of several texels of it where it is large; pointing at it reads the light.
 function atlas({ map }, scale, read) {
-    const canvas = element('canvas', { width: map.width, height: map.height, 'aria-label': 'the lightmap' });
+    const step = Math.ceil(Math.max(map.width, map.height) / mostDrawn);
+    const width = Math.ceil(map.width / step), height = Math.ceil(map.height / step);
+    const canvas = element('canvas', { width, height, 'aria-label': 'the lightmap' });
     const context = canvas.getContext('2d');
-    const picture = context.createImageData(map.width, map.height);
-    for (let y = 0; y < map.height; ++y)
-        for (let x = 0; x < map.width; ++x) {
-            const lux = luxOf(map.at(x, y));
+    const picture = context.createImageData(width, height);
+    for (let y = 0; y < height; ++y)
+        for (let x = 0; x < width; ++x) {
+            const lux = luxOf(map.at(x * step, y * step));
             const colour = lux > 0 ? colourAt(scale.placeOf(lux)) : [0, 0, 0];
-            picture.data.set([...colour, 255], 4 * (y * map.width + x));
+            picture.data.set([...colour, 255], 4 * (y * width + x));
         }
     context.putImageData(picture, 0, 0);
     canvas.addEventListener('pointermove', ({ offsetX, offsetY }) =>
