@@ -144,7 +144,8 @@ std::string csv_of(const MeasureSummary& summary)
     text += summary.outdoors ? ",daylight_factor_percent\n" : "\n";
     for (const MeasureRow& row : summary.rows) {
         const glm::dvec3 &at = row.point.place, &n = row.point.normal;
-        text += fmt::format("{},{},{},{},{},{},", at.x, at.y, at.z, n.x, n.y, n.z);
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},", at.x, at.y, at.z, n.x,
+                            n.y, n.z);
         const Reading& reading = row.reading;
         text += reading.inside ? "," : fmt::format("{:.6g},{:.3g}", reading.lux, reading.noise);
         if (summary.outdoors)
