@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "bake/bake.h"
+#include "bake/measure.h"
 #include "bake/play.h"
 #include "bake/reference.h"
 #include "bake/relight.h"
@@ -74,6 +75,12 @@ struct WhyArguments {
     Talk talk;
 };
 
+struct MeasureArguments {
+    std::string folder;  ///< of a finished bake
+    MeasureOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -105,10 +112,10 @@ struct TextArguments {
     std::string text;
 };
 
-using Arguments =
-    std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments, RenderArguments,
-                 PlayArguments, ReferenceArguments, InfoArguments, CompareArguments,
-                 ReportArguments, DevicesArguments, MethodsArguments, TextArguments>;
+using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
+                               MeasureArguments, RenderArguments, PlayArguments, ReferenceArguments,
+                               InfoArguments, CompareArguments, ReportArguments, DevicesArguments,
+                               MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

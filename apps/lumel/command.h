@@ -24,6 +24,7 @@ Command bake_command(CLI::App& program);
 Command update_command(CLI::App& program);
 Command relight_command(CLI::App& program);
 Command why_command(CLI::App& program);
+Command measure_command(CLI::App& program);
 Command render_command(CLI::App& program);
 Command play_command(CLI::App& program);
 Command reference_command(CLI::App& program);

@@ -19,6 +19,7 @@ int run(const BakeArguments& arguments);
 int run(const UpdateArguments& arguments);
 int run(const RelightArguments& arguments);
 int run(const WhyArguments& arguments);
+int run(const MeasureArguments& arguments);
 int run(const RenderArguments& arguments);
 int run(const PlayArguments& arguments);
 int run(const ReferenceArguments& arguments);

@@ -4,21 +4,18 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
+#include "bake/finished_bake.h"
 #include "bake/stages.h"
 #include "bake/why_picture.h"
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
 #include "output/folder.h"
-#include "record/bake_record.h"
-#include "record/light_settings.h"
 #include "relight/senders.h"
 #include "solve/methods.h"
-#include "update/solution_file.h"
 #include "json/json_file.h"
 
 namespace lumel {
@@ -27,15 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPicture = "why.png";
-
-/// [N] of the world
-std::vector<glm::vec3> irradiance_of(const StoredSolution& solution, const Lumels& lumels)
-{
-    std::vector<glm::vec3> irradiance;
-    for (const Lumel& lumel : lumels.lumels)
-        irradiance.push_back(solution.irradiance(lumel, lumel.texel));
-    return irradiance;
-}
 
 glm::ivec2 texel_of(const WhyOptions& options, int side)
 {
@@ -166,27 +154,16 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
 {
     Stages stages(progress);
     stages.begin("reading");
-    std::optional<ResultsLock> as_it_is(folder);
-    const BakeRecord baked = read_bake_record(folder);
-    check_whole(folder, baked);
-    check_light_files(baked.lights);
-    const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
-    const Prepared prepared(read_scene((fs::path(folder) / kSceneFile).string(),
-                                       method_of(baked.solver.method).materials, baked.lights),
-                            [&](const Scene& scene, const RayScene&, const Watch&) {
-                                return written_atlas(scene, solution.side,
-                                                     float(baked.texels_per_metre),
-                                                     solution.charts);
-                            });
-    as_it_is.reset();
-    const std::vector<glm::vec3> irradiance = irradiance_of(solution, prepared.lumels);
-    const glm::ivec2 texel = texel_of(options, solution.side);
+    const FinishedBake bake(folder);
+    const Prepared& prepared = bake.prepared;
+    const std::vector<glm::vec3>& irradiance = bake.irradiance;
+    const glm::ivec2 texel = texel_of(options, bake.solution.side);
     const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
 
     stages.begin("rays");
     const Senders senders =
         find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
-                     lumel, {.seed = seed_of(baked.solver.method)});
+                     lumel, {.seed = seed_of(bake.record.solver.method)});
     WhySummary summary = summary_of(prepared, lumel, senders);
     summary.texel = texel;
     summary.solved = irradiance[lumel];

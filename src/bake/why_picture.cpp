@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bake/white_paper.h"
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
@@ -21,17 +22,6 @@ constexpr float kOpaque = 0.3f;
 /// The mark reaches this many times the lumel's size.
 constexpr float kMarkSize = 2.5f;
 constexpr glm::vec3 kMark{0.0f, 0.9f, 1.0f};
-
-/// The scene as if it were of white paper.
-Scene white(Scene scene)
-{
-    for (Material& material : scene.materials)
-        material = {.double_sided = material.double_sided};
-    for (Mesh& mesh : scene.meshes)
-        for (Primitive& primitive : mesh.primitives)
-            primitive.colors.clear();
-    return scene;
-}
 
 glm::vec3 world_position(const Prepared& prepared, const Lumel& lumel)
 {
@@ -76,7 +66,7 @@ Image why_picture(const gpu::Device& device, const Prepared& prepared,
         return render_preview(device, scene, prepared.atlas, map, view, width);
     };
     Image result = tone_map(picture(prepared.scene, irradiance));
-    const Image layers = picture(white(prepared.scene), layers_of(prepared, density, lumel));
+    const Image layers = picture(white_paper(prepared.scene), layers_of(prepared, density, lumel));
     for (int y = 0; y < result.height; ++y)
         for (int x = 0; x < result.width; ++x) {
             float* pixel = result.at(x, y);

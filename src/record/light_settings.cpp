@@ -85,6 +85,8 @@ Json light_settings(const LightOptions& options)
         settings["sky"] = {{"file", absolute(options.sky_file)}};
     else if (options.sky_color)
         settings["sky"] = {{"radiance", color_of(*options.sky_color)}};
+    else if (options.overcast)
+        settings["sky"] = {{"overcast", shortest(*options.overcast)}};
     if (options.sky_scale != 1.0f)
         settings["sky-scale"] = shortest(options.sky_scale);
     if (options.sky_rotation != 0.0)
@@ -110,6 +112,8 @@ LightOptions light_options_of(const JsonView& settings, const std::string& folde
     if (const auto sky = settings.find("sky")) {
         if (const auto file = sky->find("file"))
             options.sky_file = path_in(folder, file->string());
+        else if (const auto overcast = sky->find("overcast"))
+            options.overcast = float(overcast->number(0.0, kMost));
         else
             options.sky_color = color_of(sky->get("radiance"));
     }

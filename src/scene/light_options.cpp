@@ -11,6 +11,7 @@
 #include "core/number.h"
 #include "scene/clear_sky.h"
 #include "scene/ies.h"
+#include "scene/overcast_sky.h"
 #include "scene/scene_hash.h"
 #include "scene/sky_file.h"
 #include "json/json_view.h"
@@ -44,6 +45,23 @@ Sky even_sky(const glm::vec3& radiance)
     return sky;
 }
 
+constexpr const char* kOvercast = "overcast";  ///< as --sky has it
+/// More light than this comes from no sky [lx]: an open plane under kMostLuminance all over.
+constexpr double kMostLux = glm::pi<double>() * double(kMostLuminance);
+
+/// Of "overcast" or "overcast:LUX".
+float overcast_lux(const std::string& text)
+{
+    if (text == kOvercast)
+        return kOvercastLux;
+    const auto lux =
+        number_of(std::string_view(text).substr(std::string_view(kOvercast).size() + 1));
+    if (!lux || !(*lux > 0.0) || *lux > kMostLux || !(float(*lux) > 0.0f))
+        refuse("--sky", quoted(text) + " is not of the form overcast:LUX, with the illuminance of "
+                                       "an open horizontal plane");
+    return float(*lux);
+}
+
 /// The sun where --sky-rotation puts it: azimuths grow clockwise.
 SunPosition placed_sun(const LightOptions& options)
 {
@@ -59,6 +77,8 @@ void add_sky(Scene& scene, const LightOptions& options)
         scene.sky = read_sky(options.sky_file);
     else if (options.sky_color)
         scene.sky = even_sky(*options.sky_color);
+    else if (options.overcast)
+        scene.sky = overcast_sky(*options.overcast);
     else if (options.sun)
         scene.sky = clear_sky(*options.sun);
     if (options.sky_rotation != 0.0)
@@ -170,6 +190,10 @@ void add_lights(Scene& scene, const LightOptions& options)
 
 void set_sky(LightOptions& options, const std::string& text)
 {
+    if (text == kOvercast || text.starts_with(std::string(kOvercast) + ":")) {
+        options.overcast = overcast_lux(text);
+        return;
+    }
     const std::vector<std::string> parts = split(text);
     std::vector<double> values;
     for (const std::string& part : parts)

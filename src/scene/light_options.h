@@ -23,8 +23,10 @@ struct SunSighting {
 };
 
 struct LightOptions {
-    std::string sky_file;                 ///< see read_sky; empty: none
-    std::optional<glm::vec3> sky_color;   ///< radiance from everywhere [cd/m²], if no file
+    std::string sky_file;                ///< see read_sky; empty: none
+    std::optional<glm::vec3> sky_color;  ///< radiance from everywhere [cd/m²], if no file
+    std::optional<float>
+        overcast;  ///< of an open plane under the CIE overcast sky [lx], if neither
     std::optional<SunPosition> sun;       ///< of a clear day; the sky too, if no other is given
     std::optional<SunSighting> sun_seen;  ///< from where `sun` was computed, for the record only
     float sky_scale = 1.0f;               ///< factor to whatever sky there is, not to the sun
@@ -39,7 +41,8 @@ struct LightOptions {
 /// there.
 void add_lights(Scene& scene, const LightOptions& options);
 
-/// "R,G,B" [cd/m²] becomes the colour, anything else the file. Throws Error{input}.
+/// "R,G,B" [cd/m²] becomes the colour, "overcast" or "overcast:LUX" the overcast sky, anything else
+/// the file. Throws Error{input}.
 void set_sky(LightOptions& options, const std::string& text);
 
 /// "AZIMUTH,ELEVATION" [degrees] or "LATITUDE,LONGITUDE,DATETIME" [degrees north and east, as in

@@ -27,17 +27,6 @@ void shrink(Lumel& lumel, float share)
         lumel.flags |= kLumelBuried;
 }
 
-/// Buries the lumels that the bake found buried.
-std::vector<float> bury_as_before(const StoredSolution& solution, Lumels& lumels)
-{
-    std::vector<float> open;
-    for (Lumel& lumel : lumels.lumels) {
-        open.push_back(solution.open_share(lumel, lumel.texel));
-        shrink(lumel, open.back());
-    }
-    return open;
-}
-
 /// A texel in an atlas that was `side` texels wide and grew, or nothing.
 std::optional<std::size_t> texel_before(const Lumel& lumel, int width, int side)
 {
@@ -165,6 +154,16 @@ std::vector<float> EditedScene::bury_anew(const Scene& scene, const RayScene& ra
         open[i] = solution.open_share(lumel, *texel_before(lumel, lumels.width, solution.side));
         shrink(lumel, open[i]);
         thinned[i] = open[i] > 0.0f ? open[i] : 1.0f;
+    }
+    return open;
+}
+
+std::vector<float> bury_as_before(const StoredSolution& solution, Lumels& lumels)
+{
+    std::vector<float> open;
+    for (Lumel& lumel : lumels.lumels) {
+        open.push_back(solution.open_share(lumel, lumel.texel));
+        shrink(lumel, open.back());
     }
     return open;
 }

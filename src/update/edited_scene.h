@@ -42,6 +42,9 @@ private:
                                  const StoredSolution& solution, Lumels& lumels);
 };
 
+/// Buries the lumels that a bake found buried, as mark_buried() did. Returns their open shares [N].
+std::vector<float> bury_as_before(const StoredSolution& solution, Lumels& lumels);
+
 /// Do two lumels reflect and emit alike?
 bool looks_alike(const Lumel& a, const Lumel& b);
 

@@ -137,8 +137,8 @@ TEST(Options, OptionsPageHoldsEveryOptionThatHelpLists)
 {
     const std::string page = run_lumel({"options"}).out;
     for (const char* command :
-         {"bake", "update", "relight", "why", "render", "play", "reference", "info", "compare",
-          "devices", "methods", "help", "man", "completion"}) {
+         {"bake", "update", "relight", "why", "measure", "render", "play", "reference", "info",
+          "compare", "devices", "methods", "help", "man", "completion"}) {
         const std::string help = run_lumel({command, "--help"}).out;
         for (std::size_t at = help.find("\n  --"); at != std::string::npos;
              at = help.find("\n  --", at + 1)) {

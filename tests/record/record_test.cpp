@@ -134,6 +134,16 @@ TEST(BakeRecord, KeepsEveryProfile)
     EXPECT_EQ(record.lights.profiles[1].path, "/lamps/b.ies");
 }
 
+TEST(BakeRecord, KeepsTheOvercastSky)
+{
+    BakeRecord overcast = unusual();
+    overcast.lights.sky_file.clear();
+    overcast.lights.overcast = 7654.0f;
+    const Json report = json_of(overcast);
+    EXPECT_EQ(report["lights"]["sky"]["overcast"].dump(), "7654.0");
+    EXPECT_EQ(read(report).lights.overcast, 7654.0f);
+}
+
 TEST(BakeRecord, FilesOfLightsAreFoundFromAnyFolder)
 {
     LightOptions options;

@@ -63,6 +63,26 @@ TEST(LightOptions, AConstantSkyLightsAPlaneWithPiTimesItsRadiance)
     EXPECT_NEAR(irradiance.b, 1.5 * std::acos(-1.0), 1e-4);
 }
 
+TEST(LightOptions, TheOvercastSkyGivesAPlaneItsIlluminance)
+{
+    for (const auto& [text, lux] :
+         {std::pair{"overcast", 10000.0}, std::pair{"overcast:750", 750.0}}) {
+        LightOptions options;
+        set_sky(options, text);
+        Scene scene;
+        add_lights(scene, options);
+        EXPECT_NEAR(luminance(sky_irradiance(scene.sky)), lux, 1e-5 * lux);
+    }
+    for (const char* bad : {"overcast:", "overcast:0", "overcast:-5", "overcast:much",
+                            "overcast:1e30", "overcast:1e-60"})
+        EXPECT_NE(error_in([&] {
+                      LightOptions options;
+                      set_sky(options, bad);
+                  }).find("overcast:LUX"),
+                  std::string::npos)
+            << bad;
+}
+
 TEST(LightOptions, ASkyFileTakesThePlaceOfTheScenesSky)
 {
     const TempFolder folder;

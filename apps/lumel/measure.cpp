@@ -1,0 +1,95 @@
+// lumel measure: the light of a bake in lux.
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "long_work.h"
+
+namespace lumel {
+namespace {
+
+/// Points that are listed; --csv and --json have all.
+constexpr std::size_t kRows = 24;
+constexpr double kPercent = 100.0;
+
+/// Of a value, with as many digits as its noise leaves sense in.
+std::string lux_text(double lux)
+{
+    return fmt::format("{:.4g}", lux);
+}
+
+std::string line_of(const MeasureRow& row, const std::optional<double>& outdoors)
+{
+    const glm::dvec3 &at = row.point.place, &n = row.point.normal;
+    std::string line = fmt::format("{:9.3f} {:9.3f} {:9.3f}  {:5.2f} {:5.2f} {:5.2f}", at.x, at.y,
+                                   at.z, n.x, n.y, n.z);
+    const Reading& reading = row.reading;
+    if (reading.inside)
+        return line + "  inside of a surface\n";
+    line += fmt::format("  {:>10} ± {:<8}", lux_text(reading.lux),
+                        fmt::format("{:.2g}", reading.noise));
+    if (outdoors)
+        line += fmt::format("  {:7.2f} %", kPercent * reading.lux / *outdoors);
+    return line + "\n";
+}
+
+std::string list_of(const MeasureSummary& summary)
+{
+    if (summary.rows.empty())
+        return {};
+    std::string text = "place [m]                      facing             illuminance [lx]";
+    text += summary.outdoors ? "        daylight\n" : "\n";
+    const std::size_t count = std::min(summary.rows.size(), kRows);
+    for (std::size_t i = 0; i < count; ++i)
+        text += line_of(summary.rows[i], summary.outdoors);
+    if (count < summary.rows.size())
+        text += fmt::format("{} more points: --csv FILE writes all\n", summary.rows.size() - count);
+    return text;
+}
+
+std::string plane_of(const MeasureSummary& summary)
+{
+    const PlaneFigures& figures = summary.figures;
+    const std::size_t left_out = summary.rows.size() - figures.count;
+    const std::string inside =
+        left_out > 0 ? fmt::format(", {} inside of things left out", left_out) : std::string();
+    std::string text =
+        fmt::format("plane at {:g} m, {} points {:g} m apart{}: ", summary.plane->height,
+                    figures.count, summary.plane->spacing, inside);
+    if (figures.count == 0)
+        return text + "nothing to measure";
+    text += fmt::format("minimum {} lx, mean {} lx (± {:.2g}), maximum {} lx, uniformity {:.3f}",
+                        lux_text(figures.least), lux_text(figures.mean), figures.noise_of_mean,
+                        lux_text(figures.most), figures.uniformity);
+    if (summary.outdoors)
+        text += fmt::format("; mean daylight factor {:.2f} %",
+                            kPercent * figures.mean / *summary.outdoors);
+    return text;
+}
+
+std::string text_of(const MeasureSummary& summary)
+{
+    std::string text = list_of(summary);
+    if (summary.plane)
+        text += plane_of(summary);
+    for (const std::string& note : summary.notes)
+        text += (text.empty() || text.ends_with('\n') ? "" : "\n") + note;
+    if (text.ends_with('\n'))
+        text.pop_back();
+    return text;
+}
+
+}  // namespace
+
+int run(const MeasureArguments& arguments)
+{
+    const auto work = [&](const ProgressFunction& progress) {
+        const MeasureSummary summary = measure(arguments.folder, arguments.options, progress);
+        return Conclusion{summary.report, text_of(summary), false};
+    };
+    return do_long_work(arguments.talk, 0, work);
+}
+
+}  // namespace lumel

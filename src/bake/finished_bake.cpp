@@ -1,0 +1,45 @@
+#include "bake/finished_bake.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "output/work_folder.h"
+#include "record/light_settings.h"
+#include "solve/methods.h"
+#include "update/edited_scene.h"
+
+namespace lumel {
+
+FinishedBake::FinishedBake(const std::string& folder) : FinishedBake(read(folder)) {}
+
+FinishedBake::Files FinishedBake::read(const std::string& folder)
+{
+    const std::filesystem::path path(folder);
+    const ResultsLock as_it_is(folder);
+    BakeRecord record = read_bake_record(folder);
+    check_whole(folder, record);
+    check_light_files(record.lights);
+    StoredSolution solution = read_solution((path / kSolutionFile).string());
+    Scene scene = read_scene((path / kSceneFile).string(),
+                             method_of(record.solver.method).materials, record.lights);
+    return {std::move(record), std::move(solution), std::move(scene)};
+}
+
+FinishedBake::FinishedBake(Files files)
+    : record(std::move(files.record)),
+      solution(std::move(files.solution)),
+      prepared(
+          std::move(files.scene),
+          [&](const Scene& scene, const RayScene&, const Watch&) {
+              return written_atlas(scene, solution.side, float(record.texels_per_metre),
+                                   solution.charts);
+          },
+          [&](const Scene&, const RayScene&, Lumels& lumels) {
+              return bury_as_before(solution, lumels);
+          })
+{
+    for (const Lumel& lumel : prepared.lumels.lumels)
+        irradiance.push_back(solution.irradiance(lumel, lumel.texel));
+}
+
+}  // namespace lumel

@@ -1,0 +1,153 @@
+// lumel measure, from outside.
+
+#include <cmath>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// A finished bake.
+class Bake {
+public:
+    explicit Bake(const std::string& scene, const std::vector<std::string>& more = {})
+    {
+        std::vector<std::string> arguments = {"bake", own_scene(scene),  folder(), "--size",
+                                              "64",   "--preview-width", "0",      "-q"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = run_lumel(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+
+    std::string folder() const { return place.path("out"); }
+
+    Outcome measure(const std::vector<std::string>& more) const
+    {
+        std::vector<std::string> arguments = {"measure", folder()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_lumel(arguments);
+    }
+
+    Json json(std::vector<std::string> more) const
+    {
+        more.emplace_back("--json");
+        const Outcome outcome = measure(more);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return Json::parse(outcome.out);
+    }
+
+    const Workplace place;
+};
+
+std::vector<std::string> lines_of(const std::string& text)
+{
+    std::vector<std::string> lines;
+    std::istringstream stream(text);
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
+}
+
+TEST(Measure, AFurnaceHasTheEmissionOverOneMinusTheAlbedoEverywhere)
+{
+    const Bake bake("furnace-0.5.gltf", {"--error", "0.2"});
+    const Json report = bake.json({"--at", "0.3,0.4,0.5", "--at", "0.5,0,0.2", "--at",
+                                   "0.7,0.9,0.6,1,-2,0.5", "--samples", "16384"});
+    ASSERT_EQ(report["points"].size(), 3u);
+    for (const Json& point : report["points"]) {
+        EXPECT_NEAR(point["illuminance"].get<double>(), 1.0 / (1.0 - 0.5), 0.005 * 2.0) << point;
+        EXPECT_LT(point["noise"].get<double>(), 0.005 * 2.0);
+    }
+}
+
+TEST(Measure, APlaneHasAsManyRowsInItsTableAsPoints)
+{
+    const Bake bake("cornell-box.gltf", {"--shots", "64"});
+    const std::string table = bake.place.path("plane.csv"), picture = bake.place.path("plane.png");
+    const Json report = bake.json({"--plane", "0.1", "--spacing", "0.1", "--samples", "256",
+                                   "--csv", table, "--false-colour", picture});
+    const Json& plane = report["plane"];
+    // The blocks stand on the floor.
+    EXPECT_GT(plane["left_out"].get<int>(), 0);
+    const std::vector<std::string> lines = lines_of(bytes_of(table));
+    ASSERT_EQ(lines.size(), report["points"].size() + 1);
+    EXPECT_EQ(lines[0], "x_m,y_m,z_m,normal_x,normal_y,normal_z,illuminance_lx,noise_lx");
+    double least = 1e30, sum = 0.0;
+    int count = 0;
+    for (const Json& point : report["points"])
+        if (!point["inside"]) {
+            const double lux = point["illuminance"];
+            least = std::min(least, lux);
+            sum += lux;
+            ++count;
+        }
+    EXPECT_EQ(plane["points"], count);
+    EXPECT_NEAR(plane["minimum"].get<double>(), least, 1e-9);
+    EXPECT_NEAR(plane["mean"].get<double>(), sum / count, 1e-9 * sum);
+    EXPECT_NEAR(plane["uniformity"].get<double>(), least / (sum / count), 1e-9);
+    EXPECT_EQ(bytes_of(picture).substr(1, 3), "PNG");
+    const Outcome table_on_stdout = bake.measure({"--plane", "0.1", "--spacing", "0.1"});
+    EXPECT_NE(table_on_stdout.out.find("uniformity"), std::string::npos) << table_on_stdout.out;
+    // The same rays each time.
+    const std::string first = bytes_of(table);
+    bake.json({"--plane", "0.1", "--spacing", "0.1", "--samples", "256", "--csv", table});
+    EXPECT_EQ(bytes_of(table), first);
+}
+
+TEST(Measure, ThePreviewIsDrawnInFalseColours)
+{
+    const Bake bake("cornell-box.gltf", {"--shots", "64"});
+    const std::string picture = bake.place.path("view.png");
+    const Outcome outcome = bake.measure({"--preview", picture, "--width", "96"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(bytes_of(picture).substr(1, 3), "PNG");
+}
+
+TEST(Measure, GivesDaylightFactorsOfABakeUnderTheOvercastSkyAlone)
+{
+    const Bake bake("city.gltf", {"--sky", "overcast:5000", "--shots", "64"});
+    // Far above the roofs.
+    const Json report = bake.json({"--at", "0,1000,0", "--samples", "16384"});
+    EXPECT_EQ(report["outdoors"], 5000.0);
+    EXPECT_NEAR(report["points"][0]["daylight_factor"].get<double>(), 100.0, 0.5);
+    EXPECT_NEAR(report["points"][0]["illuminance"].get<double>(), 5000.0, 25.0);
+    const Bake lit("cornell-box.gltf", {"--sky", "overcast", "--shots", "64"});
+    const Json mixed = lit.json({"--at", "0.2,0.2,0.2"});
+    EXPECT_FALSE(mixed["points"][0].contains("daylight_factor"));
+    EXPECT_EQ(mixed["notes"].size(), 1u);
+}
+
+TEST(Measure, RefusesWhatItCannotUse)
+{
+    const Bake bake("cornell-box.gltf", {"--shots", "16"});
+    const auto refused = [&](const std::vector<std::string>& more,
+                             const std::vector<std::string>& words) {
+        expect_one_sentence(bake.measure(more), 2, words);
+    };
+    refused({}, {"--at", "--plane"});
+    refused({"--at", "1,2"}, {"--at", "X,Y,Z"});
+    refused({"--at", "1,2,nan"}, {"--at", "X,Y,Z"});
+    refused({"--at", "1,2,3,0,0,0"}, {"--at", "normal"});
+    refused({"--at", "1,2,3", "--plane", "1"}, {"--plane", "--at"});
+    refused({"--plane", "high"}, {"--plane"});
+    refused({"--plane", "1", "--spacing", "0"}, {"--spacing"});
+    refused({"--plane", "1", "--spacing", "1e-6"}, {"--spacing", "million"});
+    refused({"--plane", "1", "--bounds", "1,1,0,2"}, {"--bounds"});
+    refused({"--at", "1,2,3", "--spacing", "1"}, {"--spacing", "--plane"});
+    refused({"--at", "1,2,3", "--false-colour", "a.png"}, {"--false-colour", "--plane"});
+    refused({"--at", "1,2,3", "--samples", "1"}, {"--samples"});
+    expect_one_sentence(run_lumel({"measure", bake.place.path("none"), "--at", "0,0,0"}), 2,
+                        {"none"});
+    expect_one_sentence(
+        run_lumel({"bake", own_scene("city.gltf"), bake.place.path("x"), "--sky", "overcast:-1"}),
+        2, {"--sky", "overcast:LUX"});
+}
+
+}  // namespace
+}  // namespace lumel::test
