@@ -56,16 +56,19 @@ std::string spaced(const std::vector<std::string>& words)
     return CLI::detail::join(words, " ");
 }
 
-// bash: words come from a list; where none is set, files or folders, or nothing that is known.
+// bash: words come from a list; where none of them fits, files or folders, or nothing that is
+// known.
 
 std::string bash_values(const CLI::App& program, const Values& values)
 {
     if (values.commands)
         return fmt::format("words='{}'", spaced(names_of_commands(program)));
-    if (!values.words.empty())
-        return fmt::format("words='{}'", spaced(values.words));
+    const std::string words =
+        values.words.empty() ? "" : fmt::format("words='{}'", spaced(values.words));
     if (values.files)
-        return "compopt -o default";
+        return "compopt -o default" + (words.empty() ? "" : "; " + words);
+    if (!words.empty())
+        return words;
     return values.folders ? "compopt -o dirnames" : ":";
 }
 
@@ -137,10 +140,11 @@ std::string zsh_values(const CLI::App& program, const Values& values)
 {
     if (values.commands)
         return "(" + spaced(names_of_commands(program)) + ")";
+    if (values.files)
+        return values.words.empty() ? "_files"
+                                    : "{compadd -- " + spaced(values.words) + "; _files}";
     if (!values.words.empty())
         return "(" + spaced(values.words) + ")";
-    if (values.files)
-        return "_files";
     return values.folders ? "_files -/" : " ";
 }
 

@@ -67,8 +67,9 @@ void add_light_options(CLI::App& app, LightOptions& lights)
     app.add_option_function<std::string>(
            "--sky", [&lights](const std::string& text) { set_sky(lights, text); },
            "Light from all directions: an .exr or .hdr panorama in cd/m2, +x at its centre, one "
-           "colour, or the CIE overcast sky that gives an open horizontal plane 10,000 lx, or LUX")
-        ->type_name("FILE|R,G,B|overcast[:LUX]");
+           "colour, or the CIE overcast sky, which gives an open horizontal plane 10,000 lx; "
+           "overcast:LUX sets another value")
+        ->type_name("FILE|R,G,B|overcast");
     app.add_option("--sky-scale", lights.sky_scale, "Factor for the light of the sky")
         ->type_name("F")
         ->default_str("1")

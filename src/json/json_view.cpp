@@ -107,16 +107,13 @@ const JsonView& JsonView::as_array() const
 
 std::int64_t JsonView::integer(std::int64_t low, std::int64_t high) const
 {
-    // Doubles hold whole numbers exactly up to 2^53; no size in a file comes near.
-    constexpr double kLargestExact = 9007199254740992.0;
-    const double value = value_->is_number() ? value_->get<double>() : std::nan("");
-    if (!(std::abs(value) <= kLargestExact) || value != std::floor(value))
+    const std::optional<std::int64_t> whole = whole_number(*value_);
+    if (!whole)
         fail("must be a whole number");
-    const auto whole = static_cast<std::int64_t>(value);
-    if (whole < low || whole > high)
-        fail("is " + std::to_string(whole) + ", but must lie in " + std::to_string(low) + " to " +
+    if (*whole < low || *whole > high)
+        fail("is " + std::to_string(*whole) + ", but must lie in " + std::to_string(low) + " to " +
              std::to_string(high));
-    return whole;
+    return *whole;
 }
 
 std::size_t JsonView::index(std::size_t size, const char* array) const
@@ -126,6 +123,23 @@ std::size_t JsonView::index(std::size_t size, const char* array) const
         fail("refers to " + std::string(array) + "[" + std::to_string(value) +
              "], but the file has " + std::to_string(size) + " " + array);
     return static_cast<std::size_t>(value);
+}
+
+std::optional<std::int64_t> whole_number(const Json& value)
+{
+    constexpr double kLargestExact = 9007199254740992.0;  // 2^53; no size in a file comes near
+    const double number = value.is_number() ? value.get<double>() : std::nan("");
+    if (!(std::abs(number) <= kLargestExact) || number != std::floor(number))
+        return std::nullopt;
+    return static_cast<std::int64_t>(number);
+}
+
+std::size_t index_of(const Json& value)
+{
+    const std::optional<std::int64_t> whole = whole_number(value);
+    if (!whole || *whole < 0)
+        throw Json::type_error::create(302, "an index must be a whole number", &value);
+    return static_cast<std::size_t>(*whole);
 }
 
 float JsonView::number() const

@@ -75,6 +75,13 @@ private:
     std::string pointer_;
 };
 
+/// Nothing if `value` is no whole number, or one that a double does not hold exactly.
+/// nlohmann's own conversions are undefined for -1.0 and 1e300.
+std::optional<std::int64_t> whole_number(const Json& value);
+
+/// An index of a document that is written again. Throws Json::type_error if it cannot be one.
+std::size_t index_of(const Json& value);
+
 /// A string of the file as messages show it: in quotes, on one line, shortened.
 std::string quoted(const std::string& text);
 

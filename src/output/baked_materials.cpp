@@ -70,7 +70,7 @@ std::set<std::size_t> lightmap_textures(const Json& json)
     for_objects(json, [&](const Json& object) {
         if (const auto found = object.find(kLightmap);
             found != object.end() && found->is_object() && found->contains("index"))
-            textures.insert((*found)["index"].get<std::size_t>());
+            textures.insert(index_of((*found)["index"]));
     });
     return textures;
 }
@@ -101,14 +101,13 @@ void drop_unused_textures(Json& json)
     if (!json.contains("textures"))
         return;
     Compactor textures(json["textures"]);
-    for_texture_uses(json["materials"], [&](Json& use) {
-        use["index"] = textures.keep(use["index"].get<std::size_t>());
-    });
+    for_texture_uses(json["materials"],
+                     [&](Json& use) { use["index"] = textures.keep(index_of(use["index"])); });
     if (json.contains("images")) {
         Compactor images(json["images"]);
         for_objects(textures.kept(), [&](Json& object) {
             if (object.contains("source"))
-                object["source"] = images.keep(object["source"].get<std::size_t>());
+                object["source"] = images.keep(index_of(object["source"]));
         });
         images.finish();
     }
@@ -203,9 +202,9 @@ std::vector<std::size_t> materials_of(const Json& primitive)
 {
     std::vector<std::size_t> materials;
     if (primitive.contains("material"))
-        materials.push_back(primitive["material"].get<std::size_t>());
+        materials.push_back(index_of(primitive["material"]));
     for_variants(primitive, [&](const Json& mapping) {
-        materials.push_back(mapping.at("material").get<std::size_t>());
+        materials.push_back(index_of(mapping.at("material")));
     });
     return materials;
 }
@@ -215,7 +214,7 @@ std::set<int> texcoords_read_by(const Json& material)
     std::set<int> numbers;
     for_texture_uses(material, [&](const Json& use) {
         const Json* texcoord = texcoord_of(use);
-        numbers.insert(texcoord ? texcoord->get<int>() : 0);
+        numbers.insert(texcoord ? int(index_of(*texcoord)) : 0);
     });
     return numbers;
 }
@@ -262,8 +261,7 @@ std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& origi
     const Json none = Json::array();
     const Json materials = json.value("materials", none), textures = json.value("textures", none);
     std::set<std::size_t> used = lightmap_textures(materials);
-    for_texture_uses(materials,
-                     [&](const Json& use) { used.insert(use["index"].get<std::size_t>()); });
+    for_texture_uses(materials, [&](const Json& use) { used.insert(index_of(use["index"])); });
     for (const std::size_t old : lightmap_textures(original.value("materials", none))) {
         const std::set<std::size_t> images = images_of(textures.at(old));
         const auto shows_them = [&](const Json& texture) {

@@ -57,7 +57,7 @@ NodesOfMesh nodes_of_meshes(const Json& json)
     const Json& list = json.at("nodes");
     for (std::size_t i = 0; i < list.size(); ++i)
         if (list[i].contains("mesh"))
-            nodes[list[i].at("mesh").get<std::size_t>()].push_back(i);
+            nodes[index_of(list[i].at("mesh"))].push_back(i);
     return nodes;
 }
 
@@ -102,7 +102,7 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
     if (primitive.contains("extensions"))
         primitive["extensions"].erase("KHR_draco_mesh_compression");
     for_variants(primitive, [&](Json& mapping) {
-        mapping["material"] = baked.copies.at(mapping["material"].get<std::size_t>());
+        mapping["material"] = baked.copies.at(index_of(mapping["material"]));
     });
     if (baked.back)
         mark_side(primitive, turned ? MarkedSide::back : MarkedSide::front);
@@ -127,14 +127,14 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
         baked.node = std::size_t(instance.node);
         if (baked.node >= nodes.size() || !nodes[baked.node].contains("mesh"))
             fail_changed(document.path);
-        baked.mesh = nodes[baked.node].at("mesh").get<std::size_t>();
+        baked.mesh = index_of(nodes[baked.node].at("mesh"));
         baked.primitive = std::size_t(primitive.source_primitive);
 
         const Json* source = source_primitive(document.json, baked);
         if (!source)
             fail_changed(document.path);
         if (source->contains("material"))
-            baked.material = source->at("material").get<std::size_t>();
+            baked.material = index_of(source->at("material"));
         baked.file_materials = materials_of(*source);
         baked.moved_texcoord =
             new_texcoord(source->at("attributes"), document.json, baked.file_materials);

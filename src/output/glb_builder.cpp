@@ -25,11 +25,14 @@ constexpr int kLinear = 9729, kClampToEdge = 33071;
 const Json kEmptyAccessor = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
 const Json kEmptyView = {{"buffer", 0}, {"byteLength", 1}};
 
+// What is no index is passed over: extras and unknown extensions may use the same names.
 void insert_index(const Json& parent, const char* key, std::set<std::size_t>& indices)
 {
     const auto found = parent.find(key);
-    if (found != parent.end() && found->is_number_integer())
-        indices.insert(found->get<std::size_t>());
+    if (found == parent.end())
+        return;
+    if (const auto index = whole_number(*found); index && *index >= 0)
+        indices.insert(std::size_t(*index));
 }
 
 void insert_members(const Json& parent, const char* key, std::set<std::size_t>& indices)
@@ -38,6 +41,12 @@ void insert_members(const Json& parent, const char* key, std::set<std::size_t>& 
     if (found != parent.end() && found->is_object())
         for (const auto& [name, index] : found->items())
             insert_index(*found, name.c_str(), indices);
+}
+
+/// Only indices below `size` remain. Parts that the reader does not look at may name others.
+void drop_from(std::set<std::size_t>& indices, std::size_t size)
+{
+    indices.erase(indices.lower_bound(size), indices.end());
 }
 
 const Json& list(const Json& parent, const char* key)
@@ -153,6 +162,7 @@ void GlbBuilder::release()
 void GlbBuilder::free_accessors()
 {
     free_accessors_ = used_accessors(document_.json);
+    drop_from(free_accessors_, list(json, "accessors").size());
     for (const std::size_t live : used_accessors(json))
         free_accessors_.erase(live);
     for (const std::size_t accessor : free_accessors_)
@@ -162,6 +172,7 @@ void GlbBuilder::free_accessors()
 void GlbBuilder::free_views()
 {
     free_views_ = used_views(document_.json);
+    drop_from(free_views_, list(json, "bufferViews").size());
     for (const std::size_t live : used_views(json))
         free_views_.erase(live);
     for (const std::size_t view : free_views_)

@@ -110,7 +110,7 @@ std::size_t VertexGather::gather_turned(const Json& accessor,
 std::size_t VertexGather::gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                                  const std::string& semantic, bool negated)
 {
-    const auto source = accessor.get<std::size_t>();
+    const auto source = index_of(accessor);
     const std::size_t order = orders_.try_emplace(vertices, orders_.size()).first->second;
     const bool with_bounds = semantic == "POSITION" && !vertices.empty();
     const auto [place, is_new] = gathered_.try_emplace({source, order, with_bounds, negated});

@@ -12,9 +12,9 @@
 namespace lumel::test {
 namespace {
 
-const std::array kCommands = {"bake",    "update",  "relight",   "why",  "measure",
-                              "render",  "play",    "reference", "info", "compare",
-                              "devices", "methods", "help",      "man",  "completion"};
+const std::array kCommands = {"bake",    "update", "relight",   "why",       "measure", "report",
+                              "render",  "play",   "reference", "info",      "compare", "devices",
+                              "methods", "help",   "man",       "completion"};
 
 /// What a shell command prints on both of its streams, and how it ends.
 Outcome run_shell(const std::string& command)
@@ -130,6 +130,8 @@ TEST(Completion, BashOffersValues)
     // Names of files are the shell's to find; of numbers it knows nothing.
     EXPECT_EQ(completed_by_bash(script, "lumel bake room"), Words{"<-o default>"});
     EXPECT_EQ(completed_by_bash(script, "lumel bake --sky d"), Words{"<-o default>"});
+    EXPECT_EQ(completed_by_bash(script, "lumel bake --sky ov"),
+              (Words{"<-o default>", "overcast"}));
     EXPECT_EQ(completed_by_bash(script, "lumel bake --dump d"), Words{"<-o dirnames>"});
     EXPECT_EQ(completed_by_bash(script, "lumel bake --size \"\""), Words{});
 }
