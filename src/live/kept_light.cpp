@@ -56,9 +56,8 @@ void KeptLight::find_sources()
 std::vector<glm::vec3> KeptLight::irradiance(const Watch& watch)
 {
     find_sources();
-    GroupedLight light(place(), options_.light);
     constexpr double kDirect = 0.8;  // of the time, about
-    tell(watch, kDirect);
+    GroupedLight light(place(), options_.light, part_of(watch, 0.0, kDirect));
     std::vector<glm::vec3> direct = light.sum(), sky;
     if (!scene_.sky.empty()) {
         sky = links_.sky_light();

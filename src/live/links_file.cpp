@@ -1,8 +1,10 @@
-// A head of two numbers, then the contents, all little-endian:
+// A head, then the contents, all little-endian:
 //
 //     8 bytes   "lumellnk"
 //     8 bytes   version
-//     contents  in the order of contents(), as of StateWriter, which ends with their fingerprint
+//     8 bytes   size of the contents
+//     8 bytes   fingerprint of the contents
+//     contents  in the order of contents(), as of StateWriter
 //
 // Links take as many bits as the largest of them needs, the lowest first. Contents that the
 // fingerprint vouches for are checked again before anything is indexed by them.
@@ -17,8 +19,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "core/error.h"
+#include "core/fingerprint.h"
 #include "core/state_bytes.h"
 
 namespace lumel {
@@ -34,6 +38,7 @@ constexpr std::uint32_t kWord = 64;         ///< [bits]
 struct Head {
     std::array<char, 8> magic = kMagic;
     std::uint64_t version = kVersion;
+    std::uint64_t size = 0, fingerprint = 0;
 };
 
 using Words = std::vector<std::uint64_t>;
@@ -124,7 +129,14 @@ bool is_sound(const KeptLinks& kept, const Words& links)
            links.size() == words_for(kept);
 }
 
-void check_head(std::istream& file, const std::string& path)
+std::uint64_t fingerprint_of(const std::string& bytes)
+{
+    Fingerprint print;
+    print.add_bytes(bytes.data(), bytes.size());
+    return print.value();
+}
+
+Head read_head(std::istream& file, const std::string& path)
 {
     Head head;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic)
@@ -134,6 +146,7 @@ void check_head(std::istream& file, const std::string& path)
                     "was written by another version of lumel (its format is " +
                         std::to_string(head.version) + ", this one reads " +
                         std::to_string(kVersion) + "); bake the scene again");
+    return head;
 }
 
 [[noreturn]] void fail_damaged(const std::string& path)
@@ -143,15 +156,18 @@ void check_head(std::istream& file, const std::string& path)
 
 }  // namespace
 
-void write_links(const std::string& path, const KeptLinks& kept)
+void write_links(const std::string& path, KeptLinks kept)
 {
-    std::ofstream file(path, std::ios::binary);
-    const Head head;
-    file.write(reinterpret_cast<const char*>(&head), sizeof head);
-    StateWriter writer(file);
+    std::ostringstream stream;
     Words links = packed(kept);
-    contents(writer, const_cast<KeptLinks&>(kept), links);
-    writer.finish();
+    kept.links = {};
+    StateWriter writer(stream);
+    contents(writer, kept, links);
+    const std::string bytes = std::move(stream).str();
+    const Head head{.size = bytes.size(), .fingerprint = fingerprint_of(bytes)};
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(&head), sizeof head);
+    file.write(bytes.data(), std::streamsize(bytes.size()));
     file.close();
     if (!file)
         throw Error(ErrorKind::output, path, std::strerror(errno));
@@ -164,13 +180,21 @@ KeptLinks read_links(const std::string& path)
     std::ifstream file(path, std::ios::binary);
     if (missing || !file)
         throw Error(ErrorKind::input, path, "cannot be read");
-    check_head(file, path);
+    const Head head = read_head(file, path);
+    if (head.size != size - sizeof head)
+        fail_damaged(path);
+    std::string bytes(head.size, '\0');
+    if (!file.read(bytes.data(), std::streamsize(bytes.size())) ||
+        fingerprint_of(bytes) != head.fingerprint)
+        fail_damaged(path);
     KeptLinks kept;
     Words links;
     try {
-        StateReader reader(file, size - sizeof(Head), path);
+        std::istringstream stream(std::move(bytes));
+        StateReader reader(stream, head.size, path);
         contents(reader, kept, links);
-        reader.finish();
+        if (!reader.at_end())
+            fail_damaged(path);
     } catch (const Error&) {
         fail_damaged(path);
     }

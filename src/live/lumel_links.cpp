@@ -3,8 +3,7 @@
 // - those that start on it,
 // - those that ended on it, of which those that were lost on it have an end of their own,
 // - those that meet it in its new place. Only the rays of the cells of directions that lead to it
-// are
-//   made again, and ask the thing alone.
+//   are made again, and ask the thing alone.
 //
 // What merely passed its old place meets what it met before.
 
@@ -252,15 +251,6 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     const float share = std::numbers::pi_v<float> / float(rays());
     sky_light_[i] = share * (sums[0] + sums[1]);
     white_sky_light_[i] = share * sums[0];
-}
-
-void LumelLinks::find_sky()
-{
-    parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
-                find_sky(Rays(*this, i), i);
-    });
 }
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)

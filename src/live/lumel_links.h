@@ -44,7 +44,7 @@ public:
     /// now. Once all lumels have followed, links are as if all had been traced.
     Retraced follow(std::uint32_t thing, std::size_t first, std::size_t last);
 
-    /// The sky is another: finds again what rays bring from it.
+    /// The sky is another, and the sources know: finds again what rays bring from it.
     void find_sky();
 
     std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
@@ -64,9 +64,6 @@ public:
     const Retraced& traced() const { return traced_; }
     /// Takes over all that a later run needs of them.
     void keep(KeptLinks& kept) const;
-    /// The sky is another, and the sources know.
-    void find_sky();
-
     std::uint64_t bytes() const
     {
         return (links_.size() + on_thing_.size()) * sizeof(std::uint32_t) +
