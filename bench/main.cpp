@@ -48,6 +48,11 @@ void add_other_modes(CLI::App& app, Settings& settings)
                    "times edits of a scene that is kept lit over links instead: dim:LAMP, "
                    "shift:LAMP, paint:MATERIAL, move:THING")
         ->delimiter(',');
+    app.add_option("--follow", settings.follow,
+                   "times instead how the light follows changes, over kept links and by "
+                   "redistribution, each for --seconds at most: dim:LAMP, shift:LAMP, move:THING, "
+                   "open:THING")
+        ->delimiter(',');
     app.add_option("--moves", settings.moves,
                    "times what rays and close pairs take to follow this thing instead")
         ->type_name("THING");
@@ -135,6 +140,8 @@ int main(int argc, char** argv)
             compare_projections(settings);
         else if (!settings.edits.empty())
             time_edits(settings);
+        else if (!settings.follow.empty())
+            time_following(settings);
         else if (!settings.moves.empty())
             time_moves(settings);
         else if (!settings.growth.empty())

@@ -17,6 +17,10 @@ void compare_projections(const Settings& settings);
 /// Processor time of edits of a scene that is kept lit over links.
 void time_edits(const Settings& settings);
 
+/// Processor time until the light of a scene has followed a change: over links, by redistribution,
+/// and solved anew.
+void time_following(const Settings& settings);
+
 /// Processor time that rays and close pairs take to follow a thing that moves.
 void time_moves(const Settings& settings);
 

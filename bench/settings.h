@@ -43,9 +43,10 @@ struct Settings {
     double seconds = 60.0;                       ///< processor time after which a method stops
     std::vector<int> growth;                     ///< atlas sides to time instead of racing
     std::vector<int> cuts;  ///< comparing projections instead: pieces of each triangle edge
-    std::vector<std::string> edits;  ///< to time instead, of a scene that is kept lit: dim:lamp
-    std::string moves;               ///< instead: a thing of which moves are timed
-    std::uint32_t edit_rays = 64;    ///< of a lumel of such a scene
+    std::vector<std::string> edits;   ///< to time instead, of a scene that is kept lit: dim:lamp
+    std::vector<std::string> follow;  ///< changes whose light is followed instead
+    std::string moves;                ///< instead: a thing of which moves are timed
+    std::uint32_t edit_rays = 64;     ///< of a lumel of such a scene
     /// Solutions of 256 rays whose mean its light is compared with; 0: not.
     std::uint32_t edit_truth = 0;
     GivenMethod given;  ///< the method and its options

@@ -1,4 +1,5 @@
-// Changes the contents of scene.lumelmat, and states their size and fingerprint anew.
+// Changes the contents of scene.lumelmat or scene.lumellinks, and states their size and fingerprint
+// anew.
 
 #include <algorithm>
 #include <cstring>

@@ -19,6 +19,7 @@ void read_solution(Input input);    ///< solution.exr
 void read_report(Input input);      ///< report.json
 void read_states(Input input);      ///< states.json
 void read_matrix(Input input);      ///< scene.lumelmat
+void read_links(Input input);       ///< scene.lumellinks
 void read_checkpoint(Input input);  ///< state of a solve
 void read_script(Input input);      ///< script of lumel view
 void read_text(Input input);        ///< values of options: the first byte says of which
@@ -28,19 +29,11 @@ struct Reader {
     void (*read)(Input);
 };
 inline constexpr Reader kReaders[] = {
-    {"glb", read_glb},
-    {"rewrite", rewrite_glb},
-    {"image", read_image},
-    {"hdr", read_hdr},
-    {"exr", read_exr},
-    {"ies", read_ies},
-    {"solution", read_solution},
-    {"report", read_report},
-    {"states", read_states},
-    {"matrix", read_matrix},
-    {"checkpoint", read_checkpoint},
-    {"script", read_script},
-    {"text", read_text},
+    {"glb", read_glb},           {"rewrite", rewrite_glb}, {"image", read_image},
+    {"hdr", read_hdr},           {"exr", read_exr},        {"ies", read_ies},
+    {"solution", read_solution}, {"report", read_report},  {"states", read_states},
+    {"matrix", read_matrix},     {"links", read_links},    {"checkpoint", read_checkpoint},
+    {"script", read_script},     {"text", read_text},
 };
 
 /// Reads the input. Aborts unless it is read or refused by Error{input} with one line; what else is

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include "command.h"
+#include "core/error.h"
+#include "live/kept_light.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -27,6 +29,43 @@ void add_resume_options(CLI::App& app, BakeOptions& options)
         ->check(between(0.0, kMostCheckpointSeconds));
 }
 
+/// Links that are to be kept.
+struct GivenLinks {
+    bool keep = false;
+    std::uint32_t rays = KeptLightOptions{}.rays;  ///< of a lumel
+};
+
+void add_keep_links_options(CLI::App& app, GivenLinks& links)
+{
+    app.option_defaults()->group(kMethodGroup);
+    app.add_flag(
+        "--keep-links", links.keep,
+        "Trace a fixed number of rays from each lumel and keep them in scene.lumellinks, by "
+        "which lumel relight lights the scene anew, and lumel update follows what moves, at "
+        "full resolution (only links)");
+    app.add_option("--links", links.rays,
+                   "With --keep-links, rays that each lumel keeps: 4, 16, 64 or 256")
+        ->type_name("N")
+        ->capture_default_str()
+        ->check(link_rays());
+}
+
+/// Throws Error{input} for options that links which are kept do not read.
+std::uint32_t kept_rays(const CLI::App& command, const GivenLinks& links)
+{
+    if (!links.keep) {
+        if (command.count("--links") > 0)
+            throw Error(ErrorKind::input, "--links", "is read with --keep-links only");
+        return 0;
+    }
+    for (const char* option : {"--error", "--dark-error", "--shots", "--time"})
+        if (command.count(option) > 0)
+            throw Error(ErrorKind::input, option,
+                        "is not read with --keep-links, which traces the same number of rays from "
+                        "each lumel; choose it with --links");
+    return links.rays;
+}
+
 }  // namespace
 
 Command bake_command(CLI::App& program)
@@ -46,6 +85,8 @@ Command bake_command(CLI::App& program)
     add_sides_option(command, bake.options.atlas);
     command.option_defaults()->group(kMethodGroup);
     add_methods(command, *method);
+    const auto links = std::make_shared<GivenLinks>();
+    add_keep_links_options(command, *links);
     add_stop_options(command, bake.options.solver);
     add_resume_options(command, bake.options);
     add_device_option(command, bake.options.device);
@@ -63,9 +104,10 @@ Command bake_command(CLI::App& program)
         ->group(kPictureGroup);
     add_dump_option(command, bake.options.dump);
     add_talk_options(command, bake.talk);
-    return {&command, [given, method]() -> Arguments {
+    return {&command, [given, method, links, &command]() -> Arguments {
                 given->options.solver.method = method->options();
                 check_limits(given->options.solver);
+                given->options.keep_links = kept_rays(command, *links);
                 return *given;
             }};
 }

@@ -15,9 +15,11 @@ Command relight_command(CLI::App& program)
     RelightArguments& relight = *given;
     CLI::App& command = *program.add_subcommand(
         "relight",
-        "Light a bake of --solver matrix anew, with its lights dimmed, coloured, switched off "
-        "or moved");
-    command.add_option("folder", relight.folder, "What lumel bake --solver matrix wrote")
+        "Light a bake of --keep-links or --solver matrix anew, with its lights dimmed, coloured, "
+        "switched off or moved");
+    command
+        .add_option("folder", relight.folder,
+                    "What lumel bake wrote with --keep-links or --solver matrix")
         ->required()
         ->type_name("FOLDER");
     command

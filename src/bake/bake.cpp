@@ -7,12 +7,14 @@
 
 #include "bake/checkpoint.h"
 #include "bake/dump.h"
+#include "bake/kept_solution.h"
 #include "bake/lighting.h"
 #include "bake/memory_plan.h"
 #include "bake/outputs.h"
 #include "bake/sources.h"
 #include "core/log.h"
 #include "lights/direct_light.h"
+#include "live/links_file.h"
 #include "output/folder.h"
 #include "relight/matrix_file.h"
 #include "solve/methods.h"
@@ -47,6 +49,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");
+    check_keep_links(options);
     check_resume(options);
     Stages stages(progress);
     stages.begin("reading");
@@ -64,8 +67,9 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
-        keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
-                                     : solve_light(device, setting, options, stages, &checkpoint);
+        options.keep_links > 0         ? solve_over_kept_links(setting, options, stages)
+        : keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
+                                       : solve_light(device, setting, options, stages, &checkpoint);
     const SolverState solved = solution->solver->state();
     SolveRun& run = solution->run;
     if (dump) {
@@ -105,10 +109,13 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
     output.outdate(kMatrixFile);
+    output.outdate(kLinksFile);
     if (!stopped)
         output.outdate(kCheckpointFile);
     if (solution->relightable)
         write_relightable(output.path(kMatrixFile), *solution->relightable);
+    if (solution->links)
+        write_links(output.path(kLinksFile), std::move(*solution->links));
     return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
 }

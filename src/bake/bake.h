@@ -29,6 +29,9 @@ struct BakeOptions {
     int baked_size = kBakedSize;  ///< largest side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
+    /// Of each lumel that are traced, and kept for later runs: 4, 16, 64 or 256; 0: as many as the
+    /// method wants, and none is kept.
+    std::uint32_t keep_links = 0;
     std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
     bool resume = false;               ///< goes on from a checkpoint, if one is there
     double checkpoint_seconds = 60.0;  ///< between two checkpoints, see Checkpoint; 0: none

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bake/setting.h"
+#include "live/kept_links.h"
 #include "relight/relightable.h"
 
 namespace lumel {
@@ -41,6 +42,7 @@ struct Solution {
     std::vector<glm::vec3> irradiance;          ///< [N] [lx] of the requested parts
     std::optional<Relightable> relightable;     ///< where sources were kept apart to the end
     std::optional<FormFactorRow> form_factors;  ///< the same
+    std::optional<KeptLinks> links;             ///< where they are kept
 };
 
 /// Solves for the parts of the light that options.parts names. The direct light of emissive

@@ -30,6 +30,8 @@ constexpr std::uint64_t kVertexBytes = 120, kTriangleBytes = 160;
 constexpr std::uint64_t kLumelBytes = 450;
 /// A lumel in what links know of it, without links.
 constexpr std::uint64_t kLinkedLumelBytes = 380;
+/// A link that is kept, and again while it is written.
+constexpr std::uint64_t kKeptLinkBytes = 2 * sizeof(std::uint32_t);
 /// Texels of an atlas of a given size that are lumels: most that was seen.
 constexpr double kCovered = 0.85;
 
@@ -60,7 +62,9 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
         .program = kProgramBytes, .scene = scene_bytes(scene), .lumels = kLumelBytes * lumels};
     if (is_links(options)) {
         memory.solver = kLinkedLumelBytes * lumels;
-        memory.links = LinkRadiosity::first_bytes(lumels);
+        memory.links = options.keep_links > 0
+                           ? std::uint64_t(lumels) * options.keep_links * kKeptLinkBytes
+                           : LinkRadiosity::first_bytes(lumels);
     }
     if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
         memory.solver = kLinkedLumelBytes * lumels +

@@ -5,14 +5,17 @@
 #include <optional>
 
 #include "bake/outputs.h"
+#include "bake/relight_links.h"
 #include "bake/stages.h"
 #include "bake/states_file.h"
 #include "core/usage.h"
 #include "finish/finish.h"
+#include "live/links_file.h"
 #include "output/folder.h"
 #include "record/bake_record.h"
 #include "record/origin.h"
 #include "relight/matrix_file.h"
+#include "relight/relight_session.h"
 #include "update/solution_file.h"
 #include "json/json_file.h"
 
@@ -35,8 +38,8 @@ Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored))
         throw Error(ErrorKind::input, folder,
-                    std::string("has no ") + kMatrixFile +
-                        "; bake the scene with --solver matrix to light it anew");
+                    std::string("has neither ") + kLinksFile + " nor " + kMatrixFile +
+                        "; bake the scene with --keep-links or --solver matrix to light it anew");
     Relightable light = read_relightable(path);
     if (light.scene_hash != baked.scene_hash || int(light.side) != solution.side)
         throw Error(ErrorKind::input, path,
@@ -84,17 +87,6 @@ std::vector<glm::vec3> in_order(std::span<const glm::vec3> light,
     return result;
 }
 
-void check_states(const RelightSession& session, const std::vector<NamedState>& states,
-                  const std::string& path)
-{
-    for (const NamedState& state : states)
-        try {
-            session.check(state.light);
-        } catch (const Error& error) {
-            throw Error(error.kind(), path + ": state \"" + state.name + "\"", error.what());
-        }
-}
-
 std::string report_of(const RelightSummary& summary, const RelightSession& session,
                       const gpu::Device& device)
 {
@@ -107,16 +99,22 @@ std::string report_of(const RelightSummary& summary, const RelightSession& sessi
                       {"bytes", bytes_of(session.light().matrix)},
                       {"sources", session.names()}};
     json["seconds"] = summary.seconds;
-    json["states"] = Json::array();
-    for (const StateRow& row : summary.states)
-        json["states"].push_back({{"name", row.name},
-                                  {"light_seconds", row.light},
-                                  {"files_seconds", row.files},
-                                  {"files", {row.name + ".exr", row.name + ".png"}}});
+    json["states"] = json_of(summary.states);
     return json_text(json);
 }
 
 }  // namespace
+
+Json json_of(const std::vector<StateRow>& states)
+{
+    Json json = Json::array();
+    for (const StateRow& row : states)
+        json.push_back({{"name", row.name},
+                        {"light_seconds", row.light},
+                        {"files_seconds", row.files},
+                        {"files", {row.name + ".exr", row.name + ".png"}}});
+    return json;
+}
 
 RelightSummary relight(const std::string& folder, const std::string& states_path,
                        const RelightOptions& options, const ProgressFunction& progress)
@@ -124,6 +122,10 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
     Stages stages(progress);
     stages.begin("reading");
     std::optional<ResultsLock> as_it_is(folder);
+    if (keeps_links(folder)) {
+        as_it_is.reset();
+        return relight_over_links(folder, states_path, stages);
+    }
     const BakeRecord baked = read_bake_record(folder);
     const StoredSolution solution = read_solution((fs::path(folder) / kSolutionFile).string());
     Relightable light = read_matrix(folder, baked, solution);
@@ -140,7 +142,7 @@ RelightSummary relight(const std::string& folder, const std::string& states_path
         lit.emplace(device, world.scene, world.lumels, &world.atlas);
         session.set_world({*lit, world.lumels, numbers, {}});
     }
-    check_states(session, states, states_path);
+    check_states(states, states_path, [&](const LightState& state) { session.check(state); });
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bake/bake.h"
+#include "json/json_view.h"
 
 namespace lumel {
 
@@ -19,6 +20,9 @@ struct StateRow {
     double files = 0.0;  ///< to finish its map and to write it
 };
 
+/// As a report has them.
+Json json_of(const std::vector<StateRow>& states);
+
 struct RelightSummary {
     std::vector<StateRow> states;  ///< that were written
     double seconds = 0.0;          ///< in all
@@ -26,8 +30,9 @@ struct RelightSummary {
     std::string report;  ///< JSON
 };
 
-/// Lights what `lumel bake --solver matrix` wrote into `folder` anew, by the file at `states`
-/// (see read_states()): states/NAME.exr, irradiance [lx], and states/NAME.png. Throws Error.
+/// Lights what `lumel bake` wrote with --keep-links, or --solver matrix, into `folder` anew, by the
+/// file at `states` (see read_states()): states/NAME.exr, irradiance [lx], and states/NAME.png.
+/// Throws Error.
 RelightSummary relight(const std::string& folder, const std::string& states,
                        const RelightOptions& options, const ProgressFunction& progress = {});
 

@@ -5,6 +5,7 @@
 
 #include "bake/reference.h"
 #include "core/usage.h"
+#include "live/links_file.h"
 #include "record/light_settings.h"
 #include "record/origin.h"
 #include "record/solver_settings.h"
@@ -137,6 +138,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .keep_lights = options.keep_lights,
                       .lightmap_format = options.lightmap_format,
                       .baked_size = options.baked_size,
+                      .keep_links = options.keep_links,
                       .side = prepared.atlas.width,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),
                       .shots = results.shots,
@@ -150,6 +152,8 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
         record.files.emplace_back(kPreview);
     if (results.relightable)
         record.files.emplace_back(kMatrixFile);
+    if (record.keep_links > 0)
+        record.files.emplace_back(kLinksFile);
     return record;
 }
 
@@ -182,6 +186,8 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     baked.files = kBakedFiles;
     if (written && written->view)
         baked.files.emplace_back(kPreview);
+    if (baked.keep_links > 0)
+        baked.files.emplace_back(kLinksFile);
     return baked;
 }
 

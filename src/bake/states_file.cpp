@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/error.h"
 #include "scene/sun.h"
 #include "json/json_file.h"
 
@@ -81,14 +82,16 @@ void add_light_to(LightState& state, const std::string& name, const JsonView& vi
         state.lights[name] = factor_of(view);
         return;
     }
-    allow_only(view, {"factor", "position", "direction", "azimuth", "elevation"});
+    allow_only(view, {"factor", "position", "direction", "azimuth", "elevation", "turn"});
     const auto factor = view.find("factor");
     state.lights[name] = factor ? factor_of(*factor) : glm::vec3(1.0f);
     LampPlace place;
     add_direction_to(place, view);
     if (const auto position = view.find("position"))
         place.position.emplace(point_of(*position));
-    if (place.position || place.direction)
+    if (const auto turn = view.find("turn"))
+        place.turn.emplace(turn->number());
+    if (place.position || place.direction || place.turn)
         state.places[name] = place;
 }
 
@@ -107,6 +110,17 @@ NamedState state_of(const JsonView& view)
 }
 
 }  // namespace
+
+void check_states(const std::vector<NamedState>& states, const std::string& path,
+                  const std::function<void(const LightState&)>& check)
+{
+    for (const NamedState& state : states)
+        try {
+            check(state.light);
+        } catch (const Error& error) {
+            throw Error(error.kind(), path + ": state \"" + state.name + "\"", error.what());
+        }
+}
 
 std::vector<NamedState> read_states(const std::string& path)
 {

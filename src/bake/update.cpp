@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <optional>
 
+#include "bake/kept_solution.h"
 #include "bake/lighting.h"
 #include "bake/outputs.h"
 #include "bake/report.h"
 #include "bake/setting.h"
+#include "live/links_file.h"
 #include "output/folder.h"
 #include "record/bake_record.h"
 #include "record/light_settings.h"
@@ -101,6 +103,35 @@ std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution
     return solve_anew(*device, edit, baked, row, stages);
 }
 
+/// The links of a bake that keeps them.
+std::optional<KeptLinks> kept_links(const std::string& folder, const BakeRecord& baked)
+{
+    if (baked.keep_links == 0)
+        return {};
+    const std::string path = (std::filesystem::path(folder) / kLinksFile).string();
+    KeptLinks kept = read_links(path);
+    if (kept.scene_hash != baked.scene_hash || kept.rays != baked.keep_links ||
+        !std::holds_alternative<LinksOptions>(baked.solver.method))
+        throw Error(ErrorKind::input, path,
+                    "belongs to another scene than the bake in this folder; bake the scene with "
+                    "--keep-links again");
+    return kept;
+}
+
+/// H' [N] [lx] as a bake that keeps links would find it in the edit's atlas. Takes the links over.
+std::vector<glm::vec3> light_over_links(const EditedScene& edit, KeptLinks& kept, BakeRecord& baked,
+                                        UpdateRow& row, Stages& stages)
+{
+    const auto& links = std::get<LinksOptions>(baked.solver.method);
+    KeptLinksSolver solver(edit.now, kept_light_options(baked.keep_links, links), stages, &kept);
+    const SolverState state = solver.state();
+    row.rays = solver.light().links().traced().all();
+    row.links = baked.shots = state.shots;
+    baked.iterations = state.iterations;
+    kept = solver.light().kept(edit.now.scene.hash);
+    return solver.irradiance();
+}
+
 void check_paths(const std::string& folder, const std::string& scene_path)
 {
     namespace fs = std::filesystem;
@@ -131,21 +162,27 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
                               MaterialModel::diffuse, baked.lights);
     Scene now = read_scene(scene_path, MaterialModel::diffuse, options.lights);
     set_origin(now, before.origin);
+    std::optional<KeptLinks> kept = kept_links(folder, baked);
     OutputFolder output(folder);
     as_it_is.reset();
 
     stages.begin("charts");
-    const EditedScene edit(std::move(before), std::move(now), solution, baked);
+    const EditedScene edit = kept
+                                 ? EditedScene(std::move(before), std::move(now), solution, baked,
+                                               [&](const Scene& scene, const RayScene&,
+                                                   const Watch&) { return atlas_of(*kept, scene); })
+                                 : EditedScene(std::move(before), std::move(now), solution, baked);
     tell_user(edit.now);
     UpdateRow row = changes_of(edit);
     row.error_before = baked.error;
     std::optional<gpu::Device> device;
     std::optional<WrittenLight> written;
     if (row.any()) {
-        if (row.relit || options.preview_width > 0)
+        if ((row.relit && !kept) || options.preview_width > 0)
             device.emplace(options.device);
         const std::vector<glm::vec3> irradiance =
-            light_after(edit, solution, baked, options, row, device, stages);
+            kept ? light_over_links(edit, *kept, baked, row, stages)
+                 : light_after(edit, solution, baked, options, row, device, stages);
         stages.begin("finishing");
         BakeOptions files;
         files.half = baked.half;
@@ -157,6 +194,10 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
         output.outdate(kMatrixFile);
         written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
                               stages);
+    }
+    if (kept) {
+        kept->scene_hash = edit.now.scene.hash;
+        write_links(output.path(kLinksFile), std::move(*kept));
     }
     if (written && !written->view)
         output.outdate(kPreview);

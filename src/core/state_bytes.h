@@ -118,6 +118,9 @@ public:
             fail();
     }
 
+    /// Has all been read?
+    bool at_end() const { return left_ == 0; }
+
 private:
     [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, "is damaged"); }
 

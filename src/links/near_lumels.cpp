@@ -4,12 +4,6 @@
 #include <limits>
 
 namespace lumel {
-namespace {
-
-/// Texels around a hit without a lumel that are searched for one.
-constexpr int kNeighbours = 2;
-
-}  // namespace
 
 NearLumels::NearLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels)
     : places_(scene, atlas, lumels),
@@ -38,10 +32,10 @@ std::uint32_t NearLumels::lumel(const RayHit& hit) const
     if (best != kNoLumel)
         return best;
     float least = std::numeric_limits<float>::max();
-    for (int y = std::max(int(place.y) - kNeighbours, 0);
-         y <= std::min(int(place.y) + kNeighbours, height_ - 1); ++y)
-        for (int x = std::max(int(place.x) - kNeighbours, 0);
-             x <= std::min(int(place.x) + kNeighbours, width_ - 1); ++x) {
+    for (int y = std::max(int(place.y) - kHitReach, 0);
+         y <= std::min(int(place.y) + kHitReach, height_ - 1); ++y)
+        for (int x = std::max(int(place.x) - kHitReach, 0);
+             x <= std::min(int(place.x) + kHitReach, width_ - 1); ++x) {
             const std::uint32_t j = at(x, y, hit);
             const glm::vec2 apart = glm::vec2(x, y) + 0.5f - place;
             if (j != kNoLumel && glm::dot(apart, apart) < least) {

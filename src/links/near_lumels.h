@@ -8,6 +8,9 @@
 
 namespace lumel {
 
+/// Texels around a hit without a lumel that are searched for one.
+inline constexpr int kHitReach = 2;
+
 class NearLumels {
 public:
     /// The atlas must outlive it.

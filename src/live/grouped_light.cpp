@@ -13,6 +13,8 @@ namespace {
 
 /// Lumels worth a task: all of their light, and that which a move may change.
 constexpr std::size_t kGrain = 256, kFollowed = 64;
+/// Lumels between two looks at the watch.
+constexpr std::size_t kStep = 16384;
 /// A sender of more sources chooses among them for each ray, by what they may send.
 constexpr std::size_t kMostAlone = 8;
 /// Dimension pairs of a ray's random numbers.
@@ -20,7 +22,8 @@ constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
 
 }  // namespace
 
-GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& options)
+GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& options,
+                           const Watch& watch)
     : place_(place),
       options_(options)
 {
@@ -30,8 +33,9 @@ GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& op
     groups_.resize(std::min(fit, senders_.size()));
     for (std::uint32_t s = 0; s < senders_.size(); ++s)
         groups_[std::min<std::size_t>(s, groups_.size() - 1)].senders.push_back(s);
-    for (Group& group : groups_)
-        find(group);
+    const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+        find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
 }
 
 void GroupedLight::list_senders()
@@ -87,13 +91,20 @@ void GroupedLight::find_again(LightSources::Part part, std::uint32_t index)
         find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
 }
 
-void GroupedLight::find(Group& group)
+void GroupedLight::find(Group& group, const Watch& watch)
 {
-    group.light.resize(place_.lumels.lumels.size());
-    parallel_for(group.light.size(), kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            group.light[i] = light_of(group, i);
-    });
+    const std::size_t lumels = place_.lumels.lumels.size();
+    group.light.resize(lumels);
+    parallel_steps(
+        lumels, kStep, kGrain,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                group.light[i] = light_of(group, i);
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels));
+            return true;
+        });
     summed_ = false;
 }
 

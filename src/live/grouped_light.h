@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/watch.h"
 #include "links/found_light.h"
 #include "live/live_place.h"
 
@@ -25,7 +26,8 @@ struct GroupedLightOptions {
 class GroupedLight {
 public:
     /// Finds it. What is given must outlive it.
-    GroupedLight(const LivePlace& place, const GroupedLightOptions& options);
+    GroupedLight(const LivePlace& place, const GroupedLightOptions& options,
+                 const Watch& watch = {});
 
     /// All that a sender sends is `factor` times what the scene says.
     bool set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
@@ -61,7 +63,7 @@ private:
 
     void list_senders();
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
-    void find(Group& group);
+    void find(Group& group, const Watch& watch = {});
     glm::vec3 light_of(const Group& group, std::size_t lumel) const;
     glm::vec3 light_of(const Sender& sender, std::size_t lumel) const;
     glm::vec3 by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "live/kept_light.h"
 #include "live/still_part.h"
 #include "scene/sky_file.h"
 
@@ -15,10 +16,6 @@ namespace {
 /// Lumels between two looks at the clock: of a sweep, about a tenth of a millisecond; that follow a
 /// move, 20 ms at most, where all of them are on the thing.
 constexpr std::size_t kStep = 4096, kPiece = 1024;
-/// Changes count as shrinking by this factor at least.
-constexpr double kSlowest = 1.0 - 1e-6;
-/// Sweeps after which settle() takes the light as it is.
-constexpr int kMostSweeps = 20000;
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
 
@@ -44,26 +41,6 @@ std::uint32_t index_of(const std::vector<Named>& all, const std::string& name)
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
     return std::uint32_t(found - all.begin());
-}
-
-const Scene& checked(const Scene& scene)
-{
-    for (const Material& material : scene.materials)
-        if (is_coloured_glass(material))
-            throw Error(ErrorKind::input, scene.path,
-                        "has coloured glass (material \"" + material.name +
-                            "\"), which links that are kept live do not know; make it white, or "
-                            "opaque");
-    return scene;
-}
-
-std::uint32_t side_of(std::uint32_t rays)
-{
-    for (const std::uint32_t side : {2u, 4u, 8u, 16u})
-        if (side * side == rays)
-            return side;
-    throw Error(ErrorKind::input, std::to_string(rays) + " rays",
-                "are no grid: a lumel has 4, 16, 64 or 256");
 }
 
 std::vector<std::vector<std::uint32_t>> lumels_by_thing(const Lumels& lumels, const ThingRays& rays)
@@ -95,14 +72,6 @@ void check_index(std::uint32_t index, const All& all, const std::string& what)
 {
     if (index >= all.size())
         throw Error(ErrorKind::input, what + " " + std::to_string(index), "is not in the scene");
-}
-
-/// Changes that shrink by a factor q leave q / (1 - q) of the last to come; all, where one sweep
-/// does not tell yet.
-double still_to_come(double change, double before)
-{
-    const double factor = before > 0.0 ? std::min(change / before, kSlowest) : kSlowest;
-    return std::min(change * factor / (1.0 - factor), 1.0);
 }
 
 }  // namespace
@@ -137,14 +106,14 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
     : options_(options),
       laid_out_(std::move(laid_out)),
       given_(transforms_of(scene())),
-      rays_(checked(scene()), instances_of(scene(), options.things, options.groups)),
+      rays_(without_coloured_glass(scene()), instances_of(scene(), options.things, options.groups)),
       surfaces_(scene()),
       world_(scene(), rays_.still(), lumels()),
       starts_(world_, nullptr, rays_.lift(), false),
       given_sky_(scene().sky),
       sources_(std::in_place, scene(), surfaces_, extent()),
       lumels_of_(lumels_by_thing(lumels(), rays_)),
-      links_(place(), atlas(), side_of(options.rays), options.seed),
+      links_(place(), atlas(), side_of_rays(options.rays), options.seed),
       light_(place(), options.light),
       sweeps_(links_),
       paint_(lumels()),

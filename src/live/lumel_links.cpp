@@ -3,8 +3,7 @@
 // - those that start on it,
 // - those that ended on it, of which those that were lost on it have an end of their own,
 // - those that meet it in its new place. Only the rays of the cells of directions that lead to it
-// are
-//   made again, and ask the thing alone.
+//   are made again, and ask the thing alone.
 //
 // What merely passed its old place meets what it met before.
 
@@ -12,12 +11,14 @@
 
 #include <array>
 #include <limits>
+#include <mutex>
 #include <numbers>
 
 #include "core/frame.h"
 #include "core/parallel.h"
 #include "core/sphere.h"
 #include "live/direction_cells.h"
+#include "live/link_changes.h"
 #include "paths/samples.h"
 
 namespace lumel {
@@ -25,6 +26,8 @@ namespace {
 
 /// Lumels worth a task: all of their links, and those that a move may change.
 constexpr std::size_t kGrain = 256, kFollowed = 64;
+/// Lumels between two looks at the watch.
+constexpr std::size_t kStep = 16384;
 /// Random numbers of a ray: places within its cells of directions and of starts.
 constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3;
 
@@ -79,7 +82,7 @@ private:
 };
 
 LumelLinks::LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t side,
-                       std::uint32_t seed)
+                       std::uint32_t seed, const KeptLinks* kept, const Watch& watch)
     : place_(place),
       near_(place.scene, atlas, place.lumels),
       side_(side),
@@ -92,12 +95,114 @@ LumelLinks::LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t
 {
     for (std::uint32_t i = 0; i < lumels_; ++i)
         on_thing_[i] = place_.thing_of(i);
-    for (std::uint32_t t = 0; t < place_.rays.things(); ++t)
-        on_thing_.push_back(t);
+    for (std::uint32_t i = 0; i < place_.scene.instances.size(); ++i)
+        on_thing_.push_back(place_.rays.thing_of(i));
+    if (kept)
+        if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
+            take_over(*kept, changes, watch);
+            return;
+        }
+    trace_all(watch);
+}
+
+void LumelLinks::trace_all(const Watch& watch)
+{
+    parallel_steps(
+        lumels_, kStep, kGrain,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                trace(i);
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels_));
+            return true;
+        });
+    traced_.started = links_.size();
+}
+
+/// Traces what has changed. What light the sky brings is left to find_sky().
+void LumelLinks::take_over(const KeptLinks& kept, const LinkChanges& changes, const Watch& watch)
+{
+    links_ = kept.links;
+    std::mutex adding;
+    parallel_steps(
+        lumels_, kStep, kFollowed,
+        [&](std::size_t first, std::size_t last) {
+            Retraced sum;
+            for (std::size_t i = first; i < last; ++i)
+                sum += take_over(i, changes);
+            const std::lock_guard lock(adding);
+            traced_ += sum;
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels_));
+            return true;
+        });
+    find_sky();
+}
+
+/// A link changes only where it starts elsewhere, ended on what changed, or meets what moved where
+/// that is now.
+Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
+{
+    Retraced count;
+    if (changes.starts[i]) {
+        trace(i);
+        count.started = rays();
+        return count;
+    }
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return count;
+    std::uint32_t* links = &links_[i * rays()];
+    const Rays rays_of(*this, i);
+    for (std::uint32_t k = 0; k < rays(); ++k)
+        if (changes.ends[links[k]]) {
+            links[k] = end_of(rays_of, k);
+            ++count.ended;
+        }
+    for (const LinkChanges::Moved& moved : changes.moved)
+        for_crossing(
+            rays_of, i, moved.box,
+            [&](const RaySpan& ray) { return moved.tree.passing(ray) == glm::vec3(0.0f); },
+            [&](std::uint32_t k) {
+                links[k] = end_of(rays_of, k);
+                ++count.crossed;
+            });
+    return count;
+}
+
+/// Visits the rays of a lumel that meet something in a box.
+template <class Meets, class Visit>
+void LumelLinks::for_crossing(const Rays& rays_of, std::size_t i, const Box& box,
+                              const Meets& meets, const Visit& visit) const
+{
+    const float reach = place_.reach(i);
+    const glm::vec3& centre = place_.world[i].centre;
+    const glm::vec3 towards = (box.centre() - centre) * rays_of.frame();  // into the frame
+    cells_towards(towards, box.radius() + reach, side_).for_each(side_, [&](std::uint32_t k) {
+        if (box.may_meet(centre, rays_of.direction(k), std::numeric_limits<float>::max(), reach) &&
+            meets(rays_of.ray(rays_of.start(k), k)))
+            visit(k);
+    });
+}
+
+void LumelLinks::find_sky()
+{
     parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            trace(i);
+            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
+                find_sky(Rays(*this, i), i);
     });
+}
+
+void LumelLinks::keep(KeptLinks& kept) const
+{
+    kept.rays = rays();
+    kept.seed = seed_;
+    kept.lift = place_.lift;
+    kept.lumels = lumel_prints(place_.world, place_.lumels);
+    kept.instances = instance_prints(place_.scene);
+    kept.links = links_;
 }
 
 /// Where ray k of a lumel ends.
@@ -118,8 +223,7 @@ std::uint32_t LumelLinks::end_at(const RayHit& hit) const
     const std::uint32_t lumel = reflects ? near_.lumel(hit) : kNoLumel;
     if (lumel != kNoLumel)
         return lumel;
-    const std::uint32_t thing = place_.rays.thing_of(hit.instance);
-    return thing == ThingRays::kStays ? lost() : lost_on(thing);
+    return lost_on(hit.instance);
 }
 
 void LumelLinks::trace(std::size_t i)
@@ -147,15 +251,6 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     const float share = std::numbers::pi_v<float> / float(rays());
     sky_light_[i] = share * (sums[0] + sums[1]);
     white_sky_light_[i] = share * sums[0];
-}
-
-void LumelLinks::find_sky()
-{
-    parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
-                find_sky(Rays(*this, i), i);
-    });
 }
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
@@ -199,17 +294,14 @@ Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
             again(k);
             ++count.ended;
         }
-    const float reach = place_.reach(i);
-    const glm::vec3& centre = place_.world[i].centre;
-    const glm::vec3 towards = (box.centre() - centre) * rays_of.frame();  // into the frame
-    cells_towards(towards, box.radius() + reach, side_).for_each(side_, [&](std::uint32_t k) {
-        if (on_thing_[links[k]] == thing ||
-            !box.may_meet(centre, rays_of.direction(k), std::numeric_limits<float>::max(), reach) ||
-            !place_.rays.meets(thing, rays_of.ray(rays_of.start(k), k)))
-            return;
-        again(k);
-        ++count.crossed;
-    });
+    for_crossing(
+        rays_of, i, box, [&](const RaySpan& ray) { return place_.rays.meets(thing, ray); },
+        [&](std::uint32_t k) {
+            if (on_thing_[links[k]] == thing)
+                return;
+            again(k);
+            ++count.crossed;
+        });
     if (sky_changed)
         find_sky(rays_of, i);
     return count;

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "core/watch.h"
 #include "links/near_lumels.h"
+#include "live/kept_links.h"
 #include "live/live_place.h"
 
 namespace lumel {
@@ -26,18 +28,23 @@ struct Retraced {
     }
 };
 
+struct LinkChanges;
+
 /// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
 /// over (sin² θ, φ). A ray depends on its lumel and its number alone, so that it can be made again.
 class LumelLinks {
 public:
     /// Traces all of them. What is given must outlive it. side: a power of two.
-    LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed);
+    /// kept: links of the same scene or of one in which something stood elsewhere; then only those
+    /// that may have changed are traced, and all of them are as if they had been.
+    LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed,
+               const KeptLinks* kept = nullptr, const Watch& watch = {});
 
     /// A thing has moved: of these lumels, traces again what starts on it, ended on it, or meets it
     /// now. Once all lumels have followed, links are as if all had been traced.
     Retraced follow(std::uint32_t thing, std::size_t first, std::size_t last);
 
-    /// The sky is another: finds again what rays bring from it.
+    /// The sky is another, and the sources know: finds again what rays bring from it.
     void find_sky();
 
     std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
@@ -47,12 +54,16 @@ public:
         return {links_.data() + lumel * rays(), rays()};
     }
     std::uint32_t sky() const { return lumels_; }
-    /// Nothing that reflects, of what stays or of a thing.
+    /// Not above the surface, or nothing that reflects of an instance.
     std::uint32_t lost() const { return lumels_ + 1; }
-    std::uint32_t lost_on(std::uint32_t thing) const { return lumels_ + 2 + thing; }
+    std::uint32_t lost_on(std::uint32_t instance) const { return lumels_ + 2 + instance; }
     /// All of them: lumels and ends.
     std::size_t ends() const { return on_thing_.size(); }
 
+    /// Links of a scene that were not taken over from those that were kept.
+    const Retraced& traced() const { return traced_; }
+    /// Takes over all that a later run needs of them.
+    void keep(KeptLinks& kept) const;
     std::uint64_t bytes() const
     {
         return (links_.size() + on_thing_.size()) * sizeof(std::uint32_t) +
@@ -70,6 +81,12 @@ public:
 private:
     class Rays;
 
+    void trace_all(const Watch& watch);
+    void take_over(const KeptLinks& kept, const LinkChanges& changes, const Watch& watch);
+    Retraced take_over(std::size_t lumel, const LinkChanges& changes);
+    template <class Meets, class Visit>
+    void for_crossing(const Rays& rays, std::size_t lumel, const Box& box, const Meets& meets,
+                      const Visit& visit) const;
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
     std::uint32_t end_at(const RayHit& hit) const;
     void trace(std::size_t lumel);
@@ -79,6 +96,7 @@ private:
     const LivePlace place_;
     NearLumels near_;
     std::uint32_t side_, seed_, lumels_;
+    Retraced traced_;
     std::vector<std::uint32_t> links_;                    ///< [N][side²]
     std::vector<std::uint32_t> on_thing_;                 ///< [ends] a thing, or ThingRays::kStays
     std::vector<glm::vec3> sky_light_, white_sky_light_;  ///< [N]

@@ -9,12 +9,23 @@ namespace {
 /// Lumels between these shares of the mean are dark; darker ones are black to who looks.
 constexpr double kDarkest = 0.005, kDark = 0.3;
 
+/// Changes count as shrinking by this factor at least.
+constexpr double kSlowest = 1.0 - 1e-6;
+
 double all_channels(const glm::vec4& light)
 {
     return double(light.x + light.y + light.z);
 }
 
 }  // namespace
+
+/// Changes that shrink by a factor q leave q / (1 - q) of the last to come; all, where one sweep
+/// does not tell yet.
+double still_to_come(double change, double before)
+{
+    const double factor = before > 0.0 ? std::min(change / before, kSlowest) : kSlowest;
+    return std::min(change * factor / (1.0 - factor), 1.0);
+}
 
 LumelSweeps::LumelSweeps(const LumelLinks& links)
     : links_(links),

@@ -16,6 +16,12 @@ struct SweepChange {
     double dark = 0.0;  ///< the same of lumels between 0.5 and 30 % of the mean of all
 };
 
+/// Sweeps after which light counts as at rest as it is.
+inline constexpr int kMostSweeps = 20000;
+
+/// Light still to come after two sweeps that changed so much, as far as they tell: 0…1.
+double still_to_come(double change, double before);
+
 /// Solves H = D + X, X_i = 1/n Σ_k B[link_ik], B = ρ H by forward Gauss-Seidel sweeps in place:
 /// links that end in no lumel find B = 0. One thread, so that the same edits give the same bytes.
 class LumelSweeps {

@@ -16,6 +16,7 @@ namespace {
 constexpr Limits kSides{0.0, 65536.0};  // [texels]
 constexpr Limits kDensities{0.0, 1e9};  // [1/m]
 constexpr Limits kCounts{0.0, 1e15};
+constexpr int kMostLinks = 256;  // rays of a lumel that are kept
 constexpr Limits kErrors{0.0, std::numeric_limits<double>::max()};
 
 template <class Options, class Visit>
@@ -46,6 +47,19 @@ void read_densities(const JsonView& settings, AtlasOptions& options)
             {rule.get("name").string(),
              float(rule.get("texels_per_metre").number(kDensities.low, kDensities.high))});
     });
+}
+
+/// Left out where none are kept: reports of older bakes have no such setting either.
+void write_kept_links(const BakeRecord& record, Json& settings)
+{
+    if (record.keep_links > 0)
+        settings["keep-links"] = record.keep_links;
+}
+
+void read_kept_links(const JsonView& settings, BakeRecord& record)
+{
+    if (const auto rays = settings.find("keep-links"))
+        record.keep_links = std::uint32_t(rays->integer(1, kMostLinks));
 }
 
 template <class Record, class Visit>
@@ -96,6 +110,7 @@ Report report_of(const BakeRecord& record)
     report.scene_hash = record.scene_hash;
     each_setting(record, FieldWriter(report.settings));
     write_densities(record.atlas, report.settings);
+    write_kept_links(record, report.settings);
     report.lights = light_settings(record.lights);
     report.solver = solver_settings(record.solver);
     report.atlas_width = report.atlas_height = record.side;
@@ -118,6 +133,7 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     record.scene_hash = report.get("scene").get("hash").string();
     each_setting(record, FieldReader(report.get("settings")));
     read_densities(report.get("settings"), record.atlas);
+    read_kept_links(report.get("settings"), record);
     record.lights = light_options_of(report.get("lights"), folder);
     record.solver = solver_options_of(report.get("solver"));
 

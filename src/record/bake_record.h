@@ -41,6 +41,7 @@ struct BakeRecord {
     bool keep_lights = false;
     LightmapFormat lightmap_format = LightmapFormat::ktx2;
     int baked_size = kBakedSize;
+    std::uint32_t keep_links = 0;  ///< rays of each lumel that are kept, 0: none
 
     int side = 0;                   ///< of the square atlas [texels]
     double texels_per_metre = 0.0;  ///< as laid out

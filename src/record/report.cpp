@@ -129,6 +129,8 @@ Json update(const UpdateRow& row)
                  {"residual", row.residual}};
     if (row.error_before >= 0.0)
         json["error_before"] = row.error_before;
+    if (row.links > 0)
+        json["links"] = row.links;
     return json;
 }
 

@@ -67,6 +67,7 @@ struct UpdateRow {
     bool relit = false;            ///< sky or lamps that are no surfaces are others
     std::uint64_t rays = 0;        ///< followed to find the change of arriving light
     std::uint64_t particles = 0;   ///< that carried it on
+    std::uint64_t links = 0;       ///< kept, of which `rays` were traced again; 0: none are kept
     bool solved_anew = false;      ///< too much changed for these; Report::shots is their solver's
     double residual = 0.0;         ///< error of the correction, as a part of all light
     double error_before = -1.0;    ///< estimated relative error of what was corrected, < 0: unknown

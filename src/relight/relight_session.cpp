@@ -8,10 +8,8 @@
 #include "relight/relight_session.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.h"
-#include "core/frame.h"
 #include "core/parallel.h"
 #include "relight/last_bounce.shared.h"
 #include "relight/matrix_file.h"
@@ -23,32 +21,15 @@ namespace {
 
 /// That share what is read of the matrix.
 constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
-/// Lamps stay this near to the scene [m], as its meshes do.
-constexpr double kFarthest = 1e9;
-/// Directions are longer.
-constexpr float kLeastLength = 1e-20f;
 /// Lumels worth a task of their own.
 constexpr std::size_t kLumelsPerTask = 4096;
 
-void check_factor(const std::string& name, const glm::vec3& factor)
+SourceNames names_of(const Relightable& light)
 {
-    for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(factor[c]) || factor[c] < 0.0f)
-            throw Error(ErrorKind::input, "",
-                        "the factor of " + lumel::quoted(name) + " is not a number of 0 or more");
-}
-
-bool contains(const std::vector<std::string>& list, const std::string& value)
-{
-    return std::find(list.begin(), list.end(), value) != list.end();
-}
-
-std::string list_of(const std::vector<std::string>& names)
-{
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "" : ", ") + lumel::quoted(name);
-    return list;
+    std::vector<SourceNames::Source> sources;
+    for (const SourceLight& source : light.sources)
+        sources.push_back({source.name, source.materials});
+    return SourceNames(std::move(sources));
 }
 
 /// Adds a source's light, but for what the matrix has, to lumels [first, last).
@@ -67,6 +48,7 @@ void add_scaled(std::vector<glm::vec3>& light, const SourceLight& source, const 
 RelightSession::RelightSession(const gpu::Device& device, Relightable light)
     : device_(&device),
       light_(std::move(light)),
+      names_(names_of(light_)),
       now_{.factors = Factors(light_.sources.size(), glm::vec3(1.0f))}
 {
     const std::size_t patches = light_.patches.size();
@@ -94,39 +76,15 @@ RelightSession::RelightSession(const gpu::Device& device, const std::string& pat
 {
 }
 
-std::vector<std::string> RelightSession::names() const
-{
-    std::vector<std::string> names;
-    for (const SourceLight& source : light_.sources)
-        names.push_back(source.name);
-    return names;
-}
-
-std::vector<std::size_t> RelightSession::sources_of(const std::string& name) const
-{
-    std::vector<std::size_t> named, shining;
-    for (std::size_t s = 0; s < light_.sources.size(); ++s) {
-        if (light_.sources[s].name == name)
-            named.push_back(s);
-        if (contains(light_.sources[s].materials, name))
-            shining.push_back(s);
-    }
-    if (named.empty() && shining.empty())
-        throw Error(ErrorKind::input, "",
-                    "there is no light " + lumel::quoted(name) + "; there are " +
-                        (names().empty() ? "none at all" : list_of(names())));
-    return named.empty() ? shining : named;
-}
-
 void RelightSession::set_light(const std::string& name, const glm::vec3& factor)
 {
     check_factor(name, factor);
-    for (const std::size_t s : sources_of(name))
+    for (const std::size_t s : names_.of(name))
         now_.factors[s] = factor;
 }
 
 /// The lamp of a source, elsewhere. Throws if it cannot be there.
-PunctualLight RelightSession::placed(std::size_t source, const LampPlace& place) const
+PunctualLight RelightSession::lamp_at(std::size_t source, const LampPlace& place) const
 {
     const SourceLight& of = light_.sources[source];
     const auto refuse = [&](const std::string& what) {
@@ -134,6 +92,8 @@ PunctualLight RelightSession::placed(std::size_t source, const LampPlace& place)
     };
     if (!world_)
         refuse("cannot be moved without the scene that was baked");
+    if (place.turn)
+        refuse("can be turned over kept links alone; bake the scene with --keep-links");
     if (of.lights.size() != 1)
         refuse(of.lights.empty()
                    ? "is no lamp: only point, spot and directional lights can be moved"
@@ -141,30 +101,15 @@ PunctualLight RelightSession::placed(std::size_t source, const LampPlace& place)
     if (!of.reflected.empty())
         refuse("is the name of a lamp and of surfaces: give the lamp a name of its own to move it");
     PunctualLight lamp = of.lights.front();
-    if (place.position) {
-        if (lamp.kind == PunctualLight::Kind::directional)
-            refuse("is a directional light: it has a direction and no position");
-        const glm::dvec3 position = *place.position - light_.origin;
-        if (!(glm::length(position) < kFarthest))
-            refuse("would be too far away");
-        lamp.transform[3] = glm::vec4(glm::vec3(position), 1.0f);
-    }
-    if (place.direction) {
-        const float length = glm::length(*place.direction);
-        if (!std::isfinite(length) || length < kLeastLength)
-            refuse("has a direction that points nowhere");
-        const glm::vec4 position = lamp.transform[3];
-        lamp.transform = glm::mat4(frame_about(*place.direction / -length));
-        lamp.transform[3] = position;
-    }
-    return lamp;
+    lamp.name = of.name;
+    return placed(std::move(lamp), place, light_.origin);
 }
 
 /// The source that a lamp of this name is, if it can be there.
 std::size_t RelightSession::lamp_of(const std::string& name, const LampPlace& place) const
 {
-    const std::size_t source = sources_of(name).front();
-    placed(source, place);
+    const std::size_t source = names_.of(name).front();
+    lamp_at(source, place);
     return source;
 }
 
@@ -172,7 +117,7 @@ RelightSession::Moved RelightSession::moved(std::size_t source, const LampPlace&
 {
     Scene lamps;
     lamps.profiles = light_.profiles;
-    lamps.lights = {placed(source, place)};
+    lamps.lights = {lamp_at(source, place)};
     const DirectLight found =
         direct_light(*device_, world_->world, lamps, world_->lumels, world_->options);
     Moved result{.source = source, .direct = std::vector<glm::vec3>(size()), .mean = {}};
@@ -191,36 +136,17 @@ void RelightSession::move_light(const std::string& name, const LampPlace& place)
 
 void RelightSession::check(const LightState& state) const
 {
-    factors_of(state);
+    names_.factors(state);
     for (const auto& [name, place] : state.places)
         lamp_of(name, place);
 }
 
 RelightSession::State RelightSession::state_of(const LightState& state) const
 {
-    State result{.factors = factors_of(state), .moved = {}};
+    State result{.factors = names_.factors(state), .moved = {}};
     for (const auto& [name, place] : state.places)
         result.moved.push_back(moved(lamp_of(name, place), place));
     return result;
-}
-
-RelightSession::Factors RelightSession::factors_of(const LightState& state) const
-{
-    check_factor("others", state.others);
-    Factors factors(light_.sources.size(), state.others);
-    std::vector<std::string> set_by(factors.size());
-    for (const auto& [name, factor] : state.lights) {
-        check_factor(name, factor);
-        for (const std::size_t s : sources_of(name)) {
-            if (!set_by[s].empty())
-                throw Error(ErrorKind::input, "",
-                            lumel::quoted(set_by[s]) + " and " + lumel::quoted(name) +
-                                " are the same light");
-            set_by[s] = name;
-            factors[s] = factor;
-        }
-    }
-    return factors;
 }
 
 std::vector<glm::vec3> RelightSession::irradiance()

@@ -13,23 +13,10 @@
 #include "lights/direct_light.h"
 #include "matrix/multiply.h"
 #include "relight/last_bounce.comp.h"
+#include "relight/light_state.h"
 #include "relight/relightable.h"
 
 namespace lumel {
-
-/// Where a lamp is, in the world of the scene's file.
-struct LampPlace {
-    std::optional<glm::dvec3> position;  ///< [m] of point and spot lights; none: as baked
-    std::optional<glm::vec3> direction;  ///< in which it shines, of any length; none: as baked
-};
-
-/// Factors to the light of sources, by the sources' names or by those of materials that shine; and
-/// places of lamps.
-struct LightState {
-    glm::vec3 others{1.0f};  ///< of sources that are not named
-    std::map<std::string, glm::vec3> lights;
-    std::map<std::string, LampPlace> places;
-};
 
 /// A scene on the device, in which lamps may move.
 struct LitWorld {
@@ -52,8 +39,8 @@ public:
     void set_world(LitWorld world) { world_.emplace(std::move(world)); }
 
     const Relightable& light() const { return light_; }
-    std::size_t size() const { return light_.size(); }  ///< N
-    std::vector<std::string> names() const;             ///< of the sources
+    std::size_t size() const { return light_.size(); }                 ///< N
+    std::vector<std::string> names() const { return names_.names(); }  ///< of the sources
 
     /// Multiplies what a source, or all that a material makes shine, sends; factors may be
     /// anything from 0. Throws Error{input}, with the names that there are, for another name, and
@@ -89,13 +76,11 @@ private:
         std::vector<Moved> moved;
     };
 
-    std::vector<std::size_t> sources_of(const std::string& name) const;
-    PunctualLight placed(std::size_t source, const LampPlace& place) const;
+    PunctualLight lamp_at(std::size_t source, const LampPlace& place) const;
     std::size_t lamp_of(const std::string& name, const LampPlace& place) const;
     Moved moved(std::size_t source, const LampPlace& place) const;
     State state_of(const LightState& state) const;
     static const Moved* moved_of(const State& state, std::size_t source);
-    Factors factors_of(const LightState& state) const;
     std::vector<std::vector<glm::vec3>> irradiance_of(std::span<const State> states);
     std::vector<glm::vec3> reflected(std::span<const State> states);
     std::vector<glm::vec3> with_direct(const State& state,
@@ -103,6 +88,7 @@ private:
 
     const gpu::Device* device_;
     Relightable light_;
+    SourceNames names_;
     std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] reflected_means() [lx]
     std::optional<LitWorld> world_;
     State now_;

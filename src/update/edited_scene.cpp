@@ -116,15 +116,30 @@ std::uint64_t recoloured_instances(const EditedScene& edit)
 
 EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
                          const BakeRecord& baked)
-    : before(
-          std::move(scene_before),
+    : EditedScene(
+          std::move(scene_before), std::move(scene_now), solution, baked,
           [&](const Scene& scene, const RayScene&, const Watch&) {
               return written_atlas(scene, solution.side, float(baked.texels_per_metre),
                                    solution.charts);
           },
-          [&](const Scene&, const RayScene&, Lumels& lumels) {
-              return bury_as_before(solution, lumels);
-          }),
+          false)
+{
+}
+
+EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
+                         const BakeRecord& baked, const Prepared::LayOut& atlas_before)
+    : EditedScene(std::move(scene_before), std::move(scene_now), solution, baked, atlas_before,
+                  true)
+{
+}
+
+EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSolution& solution,
+                         const BakeRecord& baked, const Prepared::LayOut& atlas_before,
+                         bool as_a_bake)
+    : before(std::move(scene_before), atlas_before,
+             [&](const Scene&, const RayScene&, Lumels& lumels) {
+                 return bury_as_before(solution, lumels);
+             }),
       matches(match_instances(before.scene, scene_now)),
       balls(changed_balls(before.scene, scene_now, matches)),
       now(
@@ -133,7 +148,8 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
               return kept_atlas(before.scene, before.atlas, scene, matches, baked.atlas.gutter);
           },
           [&](const Scene& scene, const RayScene& rays, Lumels& lumels) {
-              return bury_anew(scene, rays, solution, lumels);
+              return as_a_bake ? mark_buried(scene, rays, lumels)
+                               : bury_anew(scene, rays, solution, lumels);
           }),
       same(same_lumels(*this)),
       partner(partners(*this, same))

@@ -20,6 +20,10 @@ inline bool is_buried(const Lumel& lumel)
 struct EditedScene {
     /// before: as read from the bake's scene.glb. Throws Error.
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked);
+    /// The same where the bake's atlas is known as it was: then all lumels now are as a bake makes
+    /// them, in that atlas. Solution: to tell what changed, as above.
+    EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
+                const Prepared::LayOut& atlas_before);
     EditedScene(const EditedScene&) = delete;
     EditedScene& operator=(const EditedScene&) = delete;
 
@@ -38,6 +42,8 @@ struct EditedScene {
     std::vector<std::uint32_t> partner;
 
 private:
+    EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
+                const Prepared::LayOut& atlas_before, bool as_a_bake);
     std::vector<float> bury_anew(const Scene& scene, const RayScene& rays,
                                  const StoredSolution& solution, Lumels& lumels);
 };

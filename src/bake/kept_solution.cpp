@@ -1,0 +1,66 @@
+#include "bake/kept_solution.h"
+
+#include "core/error.h"
+
+namespace lumel {
+
+void check_keep_links(const BakeOptions& options)
+{
+    if (options.keep_links == 0)
+        return;
+    const auto refuse = [](const std::string& what, const std::string& why) {
+        throw Error(ErrorKind::input, "--keep-links with " + what, "is not possible: " + why);
+    };
+    const auto* links = std::get_if<LinksOptions>(&options.solver.method);
+    if (!links)
+        refuse("another solver", "only --solver links has links");
+    side_of_rays(options.keep_links);
+    if (options.parts != Parts::all)
+        refuse("--only", "what is kept is lit by all light");
+    if (options.resume)
+        refuse("--resume", "it has no checkpoints");
+    if (links->rule == SampleRule::centre)
+        refuse("--sampling centre", "rays start all over each lumel");
+    if (links->rays == Rays::query || links->rays == Rays::raster)
+        refuse("--rays query or raster", "the host traces the links that are kept");
+}
+
+KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links)
+{
+    KeptLightOptions options{.rays = rays, .seed = links.seed};
+    options.light.seed = links.seed;
+    options.filter = links.filter;
+    return options;
+}
+
+KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOptions& options,
+                                 Stages& stages, const KeptLinks* kept)
+{
+    stages.begin("links");
+    light_.emplace(prepared.scene, prepared.atlas, prepared.lumels, options, kept, stages.watch());
+    stages.begin("solving");
+    irradiance_ = light_->irradiance(stages.watch());
+}
+
+SolverState KeptLinksSolver::state() const
+{
+    return {.shots = std::uint64_t(irradiance_.size()) * light_->links().rays(),
+            .iterations = std::uint64_t(light_->sweeps())};
+}
+
+std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
+                                                Stages& stages)
+{
+    auto solution = std::make_unique<Solution>();
+    auto solver = std::make_unique<KeptLinksSolver>(
+        setting.prepared,
+        kept_light_options(options.keep_links, std::get<LinksOptions>(options.solver.method)),
+        stages);
+    solution->run.finished = true;
+    solution->irradiance = solver->irradiance();
+    solution->links = solver->light().kept(setting.prepared.scene.hash);
+    solution->solver = std::move(solver);
+    return solution;
+}
+
+}  // namespace lumel
