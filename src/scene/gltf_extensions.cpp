@@ -9,11 +9,13 @@ namespace lumel {
 namespace {
 
 /// Read, or without effect on diffuse light, so a file may require them.
-constexpr std::array<std::string_view, 22> kSupported = {
+constexpr std::array<std::string_view, 24> kSupported = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
+    "EXT_meshopt_compression",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
@@ -54,6 +56,28 @@ void refuse_extension(const JsonView& place, const std::string& name)
 {
     place.fail("needs the extension " + name +
                ", which is not supported; export the scene without it");
+}
+
+void erase_extension(Json& object, const char* name)
+{
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object())
+        return;
+    extensions->erase(name);
+    if (extensions->empty())
+        object.erase("extensions");
+}
+
+void forget_extension(Json& gltf, const char* name)
+{
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        const auto names = gltf.find(key);
+        if (names == gltf.end())
+            continue;
+        names->erase(std::remove(names->begin(), names->end(), name), names->end());
+        if (names->empty())
+            gltf.erase(key);
+    }
 }
 
 bool uses_extension(const JsonView& root, const char* name)

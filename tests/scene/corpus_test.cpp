@@ -47,8 +47,8 @@ std::string refused_extension(const std::string& path)
 {
     const std::string text = text_of(path);
     for (const char* name :
-         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing",
-          "KHR_texture_basisu", "EXT_texture_webp", "FAKE_materials_quantumRendering"})
+         {"KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing", "KHR_texture_basisu",
+          "EXT_texture_webp", "FAKE_materials_quantumRendering"})
         if (contains(text, name))
             return name;
     return "";

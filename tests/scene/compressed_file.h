@@ -1,0 +1,29 @@
+#pragma once
+// A small curved surface, plain and ready to be compressed.
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gltf_builder.h"
+
+namespace lumel::test {
+
+/// A wavy square of 8 × 8 quads with normals and texture coordinates.
+struct Wave {
+    static constexpr int kSide = 9;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec2> texcoords;
+    std::vector<std::uint16_t> indices;
+
+    Wave();
+    /// Accessors 0 to 3: positions, normals, texture coordinates, indices, each over a bufferView of
+    /// its own.
+    GltfBuilder plain() const;
+};
+
+/// The primitive of plain().
+Json wave_primitive();
+
+}  // namespace lumel::test
