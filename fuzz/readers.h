@@ -20,6 +20,7 @@ void read_report(Input input);      ///< report.json
 void read_states(Input input);      ///< states.json
 void read_matrix(Input input);      ///< scene.lumelmat
 void read_checkpoint(Input input);  ///< state of a solve
+void read_script(Input input);      ///< script of lumel view
 void read_text(Input input);        ///< values of options: the first byte says of which
 
 struct Reader {
@@ -38,6 +39,7 @@ inline constexpr Reader kReaders[] = {
     {"states", read_states},
     {"matrix", read_matrix},
     {"checkpoint", read_checkpoint},
+    {"script", read_script},
     {"text", read_text},
 };
 

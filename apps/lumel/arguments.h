@@ -13,6 +13,7 @@
 #include "bake/render.h"
 #include "bake/update.h"
 #include "bake/why.h"
+#include "view/view.h"
 
 namespace lumel {
 
@@ -52,6 +53,13 @@ struct PlayArguments {
     std::string scene;
     std::string folder;  ///< where pictures and report go
     PlayOptions options;
+    Talk talk;
+};
+
+struct ViewArguments {
+    ScriptRun run;
+    SessionOptions options;
+    bool headless = false;
     Talk talk;
 };
 
@@ -113,9 +121,9 @@ struct TextArguments {
 };
 
 using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
-                               MeasureArguments, RenderArguments, PlayArguments, ReferenceArguments,
-                               InfoArguments, CompareArguments, ReportArguments, DevicesArguments,
-                               MethodsArguments, TextArguments>;
+                               MeasureArguments, RenderArguments, PlayArguments, ViewArguments,
+                               ReferenceArguments, InfoArguments, CompareArguments, ReportArguments,
+                               DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

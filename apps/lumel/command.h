@@ -27,6 +27,7 @@ Command why_command(CLI::App& program);
 Command measure_command(CLI::App& program);
 Command render_command(CLI::App& program);
 Command play_command(CLI::App& program);
+Command view_command(CLI::App& program);
 Command reference_command(CLI::App& program);
 Command info_command(CLI::App& program);
 Command compare_command(CLI::App& program);

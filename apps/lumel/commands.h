@@ -22,6 +22,7 @@ int run(const WhyArguments& arguments);
 int run(const MeasureArguments& arguments);
 int run(const RenderArguments& arguments);
 int run(const PlayArguments& arguments);
+int run(const ViewArguments& arguments);
 int run(const ReferenceArguments& arguments);
 int run(const InfoArguments& arguments);
 int run(const CompareArguments& arguments);

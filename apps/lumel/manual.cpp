@@ -110,6 +110,11 @@ std::string help_text(const CLI::App& app, const std::string& path)
                      [&](const CLI::Option* option) { return option->get_group() == title; });
         list(title, group);
     }
+    std::istringstream footer(app.get_footer());
+    for (std::string line; std::getline(footer, line);) {
+        const std::size_t tab = line.find('\t');
+        text += tab == line.npos ? line + "\n" : entry(line.substr(0, tab), line.substr(tab + 1));
+    }
     return text;
 }
 

@@ -46,6 +46,17 @@ CLI::Validator positive()
     return CLI::Validator(check, "");
 }
 
+CLI::Validator link_rays()
+{
+    const auto check = [](const std::string& text) -> std::string {
+        for (const char* const rays : {"4", "16", "64", "256"})
+            if (text == rays)
+                return {};
+        return fmt::format("'{}' is none of 4, 16, 64, 256", text);
+    };
+    return CLI::Validator(check, "");
+}
+
 CLI::Validator between(double low, double high)
 {
     const auto check = [low, high](const std::string& text) -> std::string {

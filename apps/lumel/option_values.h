@@ -19,6 +19,9 @@ CLI::Validator whole(std::int64_t low, std::int64_t high);
 /// Accepts positive finite numbers.
 CLI::Validator positive();
 
+/// Accepts the numbers of rays that lumels can keep as links: 4, 16, 64 and 256.
+CLI::Validator link_rays();
+
 /// Accepts finite numbers from `low` to `high`.
 CLI::Validator between(double low, double high);
 

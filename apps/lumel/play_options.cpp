@@ -61,12 +61,7 @@ void add_play_options(CLI::App& app, PlayOptions& options)
                    "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256")
         ->type_name("N")
         ->capture_default_str()
-        ->check([](const std::string& text) -> std::string {
-            for (const char* const rays : {"4", "16", "64", "256"})
-                if (text == rays)
-                    return {};
-            return fmt::format("'{}' is none of 4, 16, 64, 256", text);
-        });
+        ->check(link_rays());
     app.add_option(
            "--budget", options.budget_ms,
            "Milliseconds for the light of each frame; where they are not enough it lags behind")

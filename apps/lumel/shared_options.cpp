@@ -6,12 +6,15 @@
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
+#include "core/error.h"
+#include "core/number.h"
 #include "option_values.h"
 
 namespace lumel {
 namespace {
 
 constexpr int kLargestGutter = 64;
+constexpr double kMostTexelsPerMetre = 1e6;
 constexpr int kMostCameras = 1'000'000;
 constexpr int kMostDirections = 1'000'000;
 constexpr double kMostDegrees = 36000.0;   // a turn that still has decimals as float
@@ -28,6 +31,18 @@ const Choices<Sides> kSides = {{"auto", Sides::automatic},
                                {"front", Sides::front}};
 const Choices<Parts> kParts = {{"direct", Parts::direct}, {"indirect", Parts::indirect}};
 
+/// "wall*=40"
+DensityRule density_rule(const std::string& text)
+{
+    const std::size_t equals = text.rfind('=');
+    const auto density = number_of(equals == text.npos ? std::string() : text.substr(equals + 1));
+    if (equals == 0 || !density || !(*density > 0.0) || *density > kMostTexelsPerMetre)
+        throw Error(
+            ErrorKind::input, "",
+            fmt::format("--density: '{}' is not of the form NAME=N with a positive number", text));
+    return {text.substr(0, equals), float(*density)};
+}
+
 }  // namespace
 
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
@@ -42,6 +57,19 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
         ->type_name("N")
         ->default_str("as needed, from 512")
         ->check(whole(1, kLargestAtlas));
+    app.add_option_function<std::vector<std::string>>(
+           "--density",
+           [&atlas](const std::vector<std::string>& rules) {
+               for (const std::string& rule : rules)
+                   atlas.densities.push_back(density_rule(rule));
+           },
+           "Texels per metre of the nodes, meshes or materials of a name, in which * and ? stand "
+           "for letters; may be repeated, the last that fits counts")
+        ->type_name("NAME=N")
+        ->allow_extra_args(false);  // one at a time, so that a file may follow
+    app.add_flag(
+        "--coarse-afar", atlas.coarse_afar,
+        "Fewer texels for what is far from cameras and detail, as the ground around a house");
     app.add_option("--max-size", atlas.max_size,
                    "Largest side of the atlas; the density is lowered to fit")
         ->type_name("N")

@@ -24,12 +24,20 @@ enum class Sides {
     front,      ///< one: the front
 };
 
+/// The density of what is named so.
+struct DensityRule {
+    std::string pattern;  ///< of names of nodes, meshes or materials, as the shell's: * ? []
+    float texels_per_metre = 0.0f;
+};
+
 struct AtlasOptions {
     float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`, or a side of 512 and more
     int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
     int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
     int gutter = 2;                 ///< empty texels kept between any two charts
     Sides sides = Sides::automatic;
+    std::vector<DensityRule> densities;  ///< of two that fit, the later one counts
+    bool coarse_afar = false;  ///< fewer texels far from cameras and detail, see density.h
 };
 
 /// One primitive of one instance, laid out in the atlas. Vertices are split at chart borders.
@@ -41,12 +49,13 @@ struct Surface {
     std::vector<std::uint32_t> indices;  ///< [3T] same triangles, same order as the primitive
     std::vector<std::uint32_t> chart;    ///< [T] chart of each triangle, global index
     bool authored = false;               ///< laid out by the file's TEXCOORD_1
+    float texels_per_metre = 0.0f;       ///< its density; 0 in an atlas that was written before
 };
 
 struct Atlas {
     int width = 0;                  ///< [texels]
     int height = 0;                 ///< [texels]
-    float texels_per_metre = 0.0f;  ///< density of the charts we made
+    float texels_per_metre = 0.0f;  ///< density where people look and none is set
     std::uint32_t chart_count = 0;
     std::vector<Surface> surfaces;  ///< in order of instance, then primitive
     /// [chart_count], or empty: where the map has the light of a chart's back, counted from its

@@ -6,11 +6,13 @@
 #include <memory>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "atlas/atlas.h"
 #include "atlas/authored.h"
+#include "atlas/density.h"
 #include "atlas/layout.h"
 #include "atlas/morton.h"
 #include "atlas/pack.h"
@@ -30,6 +32,7 @@ constexpr std::size_t kMaxMeshNotes = 8;  // more of the same is noise
 constexpr double kSnapDistance = 1e-3;
 // Share of a map that charts of an ordinary scene cover.
 constexpr double kLikelyFill = 0.5;
+constexpr double kLeastLeft = 0.01;  // of that, beside charts whose density is set
 // Transforms that agree to this relative accuracy share their charts.
 constexpr double kSameScale = 1e-5;
 
@@ -43,12 +46,14 @@ struct Plan {
     glm::dvec2 origin{0.0};        ///< of the rectangle, in the layout's coordinates
 };
 
-/// Everything to be packed. Sizes in metres; `extent` is the same in the layout's coordinates.
+/// Everything to be packed.
 struct Plans {
     std::vector<Plan> surfaces;
-    std::vector<glm::dvec2> size;
-    std::vector<glm::dvec2> extent;
+    std::vector<Rectangle> items;
+    std::vector<glm::dvec2> extent;  ///< [items] their sizes in the layout's coordinates
 };
+
+using Densities = std::vector<std::vector<Density>>;  // [instances][primitives]
 
 void check(const Scene& scene, const AtlasOptions& options)
 {
@@ -59,6 +64,9 @@ void check(const Scene& scene, const AtlasOptions& options)
         throw Error(ErrorKind::input, "",
                     fmt::format("a map can have at most {} texels a side and gutters of {}",
                                 kLargestSide, kLargestGutter));
+    for (const DensityRule& rule : options.densities)
+        if (!(rule.texels_per_metre > 0.0f) || !std::isfinite(rule.texels_per_metre))
+            throw Error(ErrorKind::input, rule.pattern, "its density must be positive");
     for (const Instance& instance : scene.instances)
         for (const Primitive& primitive : scene.meshes[instance.mesh].primitives)
             if (!primitive.indices.empty())
@@ -66,31 +74,45 @@ void check(const Scene& scene, const AtlasOptions& options)
     throw Error(ErrorKind::input, scene.path, "there is no triangle to light");
 }
 
-double world_area(const Mesh& mesh, const glm::mat4& transform)
+double world_area(const Primitive& primitive, const glm::mat4& transform)
 {
     double area = 0.0;
-    for (const Primitive& primitive : mesh.primitives) {
-        const std::vector<glm::dvec3> world = world_positions(primitive, transform);
-        for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
-            const glm::dvec3& a = world[primitive.indices[i]];
-            area += 0.5 * glm::length(glm::cross(world[primitive.indices[i + 1]] - a,
-                                                 world[primitive.indices[i + 2]] - a));
-        }
+    const std::vector<glm::dvec3> world = world_positions(primitive, transform);
+    for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+        const glm::dvec3& a = world[primitive.indices[i]];
+        area += 0.5 * glm::length(glm::cross(world[primitive.indices[i + 1]] - a,
+                                             world[primitive.indices[i + 2]] - a));
     }
     return area;
 }
 
-/// The density that packing will come to, roughly [texels/m].
-double likely_density(const Scene& scene, const AtlasOptions& options)
+double world_area(const Mesh& mesh, const glm::mat4& transform)
 {
     double area = 0.0;
-    for (const Instance& instance : scene.instances)
-        area += world_area(scene.meshes[instance.mesh], instance.transform);
+    for (const Primitive& primitive : mesh.primitives)
+        area += world_area(primitive, transform);
+    return area;
+}
+
+/// The density that packing will come to, roughly [texels/m].
+double likely_density(const Scene& scene, const Densities& densities, const AtlasOptions& options)
+{
+    double area = 0.0, fixed = 0.0;  // [m²], and of what has a density of its own [texels]
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const std::vector<Primitive>& primitives = scene.meshes[instance.mesh].primitives;
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const Density& density = densities[i][p];
+            const double own = world_area(primitives[p], instance.transform);
+            (density.fixed > 0.0 ? fixed : area) += own * density.in(1.0) * density.in(1.0);
+        }
+    }
     const double density = options.texels_per_metre > 0.0f ? options.texels_per_metre : 1e30;
     const int side = options.size > 0 ? options.size
                      : density < 1e30 ? options.max_size
                                       : std::min(kDefaultSide, options.max_size);
-    return std::min(density, side * std::sqrt(kLikelyFill / std::max(area, 1e-30)));
+    const double left = std::max(kLikelyFill - fixed / (double(side) * side), kLeastLeft);
+    return std::min(density, side * std::sqrt(left / std::max(area, 1e-30)));
 }
 
 /// What lengths a transform makes, rounded: instances that differ only in place share charts.
@@ -107,9 +129,20 @@ std::vector<long long> scale_key(const glm::mat4& transform)
     return key;
 }
 
+/// What all primitives of an instance get that share one layout.
+Density densest(const std::vector<Density>& densities)
+{
+    Density densest{0.0, 0.0};
+    for (const Density& density : densities) {
+        densest.fixed = std::max(densest.fixed, density.fixed);
+        densest.relative = std::max(densest.relative, density.relative);
+    }
+    return densest;
+}
+
 /// Gives the mesh's own layout one rectangle for the instance, as dense as its surface requires.
 void plan_authored(const Scene& scene, std::uint32_t instance_index, const AuthoredReport& report,
-                   Plans& plans)
+                   const std::vector<Density>& densities, Plans& plans)
 {
     const Instance& instance = scene.instances[instance_index];
     const Mesh& mesh = scene.meshes[instance.mesh];
@@ -124,24 +157,30 @@ void plan_authored(const Scene& scene, std::uint32_t instance_index, const Autho
         plans.surfaces.push_back({instance_index, p, true, layout, 0, {}});
     }
     for (std::size_t s = first; s < plans.surfaces.size(); ++s) {
-        plans.surfaces[s].first_item = std::uint32_t(plans.size.size());
+        plans.surfaces[s].first_item = std::uint32_t(plans.items.size());
         plans.surfaces[s].origin = low;
     }
     const double metres = std::sqrt(world_area(mesh, instance.transform) / report.area);
     plans.extent.push_back(high - low);
-    plans.size.push_back(metres * (high - low));
+    plans.items.push_back({metres * (high - low), densest(densities)});
 }
 
 /// Charts for every planned surface that has no layout yet, on all cores.
-void plan_charts(const Scene& scene, const ChartCost& cost, Plans& plans)
+/// `common`: the density that packing will come to, roughly [texels/m].
+void plan_charts(const Scene& scene, const Densities& densities, double common, int gutter,
+                 Plans& plans)
 {
-    using Key = std::pair<std::pair<int, std::uint32_t>, std::vector<long long>>;
+    const auto density_of = [&](const Plan& plan) {
+        return densities[plan.instance][plan.primitive].in(common);
+    };
+    using Key = std::tuple<int, std::uint32_t, double, std::vector<long long>>;
     std::map<Key, std::vector<std::size_t>> users;
     for (std::size_t s = 0; s < plans.surfaces.size(); ++s) {
         const Plan& plan = plans.surfaces[s];
         const Instance& instance = scene.instances[plan.instance];
         if (!plan.layout)
-            users[{{instance.mesh, plan.primitive}, scale_key(instance.transform)}].push_back(s);
+            users[{instance.mesh, plan.primitive, density_of(plan), scale_key(instance.transform)}]
+                .push_back(s);
     }
     std::vector<const std::vector<std::size_t>*> groups;
     for (const auto& [key, surfaces] : users)
@@ -153,7 +192,8 @@ void plan_charts(const Scene& scene, const ChartCost& cost, Plans& plans)
             const Primitive& primitive = scene.meshes[instance.mesh].primitives[leader.primitive];
             const auto layout = std::make_shared<const Layout>(
                 make_charts(primitive, world_positions(primitive, instance.transform),
-                            glm::determinant(glm::dmat3(instance.transform)) < 0.0, cost));
+                            glm::determinant(glm::dmat3(instance.transform)) < 0.0,
+                            {density_of(leader), gutter}));
             for (std::size_t s : *groups[g])
                 plans.surfaces[s].layout = layout;
         }
@@ -163,23 +203,24 @@ void plan_charts(const Scene& scene, const ChartCost& cost, Plans& plans)
 Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports,
            const AtlasOptions& options)
 {
+    const Densities densities = densities_of(scene, options);
     Plans plans;
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const int mesh = scene.instances[i].mesh;
         if (reports[mesh].valid()) {
-            plan_authored(scene, i, reports[mesh], plans);
+            plan_authored(scene, i, reports[mesh], densities[i], plans);
             continue;
         }
         for (std::uint32_t p = 0; p < scene.meshes[mesh].primitives.size(); ++p)
             plans.surfaces.push_back({i, p, false, nullptr, 0, {}});
     }
-    plan_charts(scene, {likely_density(scene, options), options.gutter}, plans);
+    plan_charts(scene, densities, likely_density(scene, densities, options), options.gutter, plans);
     for (Plan& surface : plans.surfaces) {
         if (surface.authored)
             continue;
-        surface.first_item = std::uint32_t(plans.size.size());
+        surface.first_item = std::uint32_t(plans.items.size());
         for (const glm::dvec2& size : surface.layout->chart_size) {
-            plans.size.push_back(size);
+            plans.items.push_back({size, densities[surface.instance][surface.primitive]});
             plans.extent.push_back(size);
         }
     }
@@ -206,10 +247,10 @@ Packing pack_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& r
                  {}});
     }
     plans.extent = {glm::dvec2(1.0)};
-    plans.size = {glm::dvec2(std::sqrt(metres / area))};
+    plans.items = {{glm::dvec2(std::sqrt(metres / area)), {}}};
     AtlasOptions whole = options;
     whole.gutter = 0;
-    Packing packing = pack(plans.size, whole, notes);
+    Packing packing = pack(plans.items, whole, notes);
     packing.rectangles[0] = {glm::ivec2(0), glm::ivec2(packing.side)};
     return packing;
 }
@@ -226,6 +267,8 @@ Surface place(const Plan& plan, const Plans& plans, const Packing& packing)
     const Layout& layout = *plan.layout;
     Surface surface{plan.instance,  plan.primitive, layout.source_vertex, {},
                     layout.indices, layout.chart,   plan.authored};
+    if (plan.first_item < plans.items.size())
+        surface.texels_per_metre = float(plans.items[plan.first_item].density.in(packing.density));
     surface.texcoord.reserve(layout.place.size());
     for (std::size_t v = 0; v < layout.place.size(); ++v) {
         const std::uint32_t item = plan.first_item + (plan.authored ? 0 : layout.vertex_chart[v]);
@@ -351,18 +394,18 @@ Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<c
                    const AtlasOptions& options, std::vector<std::uint32_t>& back,
                    std::vector<std::string>& notes)
 {
-    back.resize(plans.size.size());
+    back.resize(plans.items.size());
     std::iota(back.begin(), back.end(), 0u);
-    std::vector<glm::dvec2> sizes = plans.size;
+    std::vector<Rectangle> items = plans.items;
     for (std::size_t s = 0; s < plans.surfaces.size() && !both.empty(); ++s)
         for (std::size_t t = 0; t < plans.surfaces[s].layout->chart.size(); ++t) {
             const std::uint32_t item = item_of(plans.surfaces[s], t);
             if (!both[sheets.number(plans.surfaces[s], s, t)] || back[item] != item)
                 continue;
-            back[item] = std::uint32_t(sizes.size());
-            sizes.push_back(plans.size[item]);
+            back[item] = std::uint32_t(items.size());
+            items.push_back(plans.items[item]);
         }
-    return pack(sizes, options, notes);
+    return pack(items, options, notes);
 }
 
 /// Where the backs of charts are, from their fronts.
@@ -441,7 +484,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
     for (const Plan& surface : plans.surfaces)
         atlas.surfaces.push_back(place(surface, plans, packing));
     number_charts(scene, atlas);
-    if (std::size_t(packing.rectangles.size()) > plans.size.size())
+    if (std::size_t(packing.rectangles.size()) > plans.items.size())
         atlas.back_shift = back_shifts(plans, *sheets, both, packing, back, atlas);
     atlas.shows_front = options.sides == Sides::front;
     return atlas;

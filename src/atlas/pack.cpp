@@ -25,33 +25,56 @@ constexpr double kSideGrowth = 1.02;
 
 /// The rectangles to place and the rules for doing so.
 struct Task {
-    const std::vector<glm::dvec2>& sizes;
+    const std::vector<Rectangle>& rectangles;
     int gutter;
 
-    glm::ivec2 texels(const glm::dvec2& size, double density) const
+    static glm::ivec2 texels(const Rectangle& rectangle, double density)
     {
         // No map is as large as this; it only keeps the conversion defined.
         constexpr double kHuge = 1 << 24;
-        return glm::ivec2(glm::clamp(glm::round(size * density), 1.0, kHuge));
+        return glm::ivec2(
+            glm::clamp(glm::round(rectangle.size * rectangle.density.in(density)), 1.0, kHuge));
     }
 
     /// Texels taken by all rectangles and their gutters.
     double footprint(double density) const
     {
         double sum = 0.0;
-        for (const glm::dvec2& size : sizes) {
-            const glm::dvec2 padded(texels(size, density) + gutter);
+        for (const Rectangle& rectangle : rectangles) {
+            const glm::dvec2 padded(texels(rectangle, density) + gutter);
             sum += padded.x * padded.y;
         }
         return sum;
     }
 
-    double area() const
+    /// Texels that all rectangles cover.
+    double covered(double density) const
     {
         double sum = 0.0;
-        for (const glm::dvec2& size : sizes)
-            sum += size.x * size.y;
-        return std::max(sum, 1e-30);
+        for (const Rectangle& r : rectangles)
+            sum += r.size.x * r.size.y * r.density.in(density)*r.density.in(density);
+        return sum;
+    }
+
+    /// Texels for each (texel/m)² of the common density, without what is fixed [m²].
+    double area() const { return std::max(covered(1.0) - covered(0.0), 1e-30); }
+
+    /// Of what follows the common density [m].
+    double longest_side() const
+    {
+        double longest = 0.0;
+        for (const Rectangle& r : rectangles)
+            if (r.density.fixed == 0.0)
+                longest = std::max(longest, r.density.relative * std::max(r.size.x, r.size.y));
+        return longest;
+    }
+
+    double largest_fixed() const
+    {
+        double largest = 0.0;
+        for (const Rectangle& r : rectangles)
+            largest = std::max(largest, r.density.fixed);
+        return largest;
     }
 };
 
@@ -59,9 +82,9 @@ std::optional<Packing> try_pack(const Task& task, double density, int side)
 {
     if (task.footprint(density) > double(side) * side)
         return std::nullopt;
-    std::vector<stbrp_rect> rectangles(task.sizes.size());
+    std::vector<stbrp_rect> rectangles(task.rectangles.size());
     for (std::size_t i = 0; i < rectangles.size(); ++i) {
-        const glm::ivec2 padded = task.texels(task.sizes[i], density) + task.gutter;
+        const glm::ivec2 padded = Task::texels(task.rectangles[i], density) + task.gutter;
         if (padded.x > side || padded.y > side)
             return std::nullopt;
         rectangles[i] = {int(i), padded.x, padded.y, 0, 0, 0};
@@ -98,10 +121,7 @@ std::optional<Packing> fill(const Task& task, int side, double limit)
     if (std::optional<Packing> packing = try_pack(task, above, side))
         return packing;
     // Below `least` every rectangle is a single texel.
-    double longest = 0.0;
-    for (const glm::dvec2& size : task.sizes)
-        longest = std::max({longest, size.x, size.y});
-    const double least = 1.0 / std::max(longest, 1e-30);
+    const double least = 1.0 / std::max(task.longest_side(), 1e-30);
     double below = above;
     std::optional<Packing> best;
     while (!best && below > least) {
@@ -130,9 +150,12 @@ int round_up_to_step(double side)
 {
     const int enough = round_up_to_step(kSideGrowth * std::sqrt(task.footprint(0.0)));
     throw Error(ErrorKind::input, "",
-                fmt::format("{} charts do not fit into a map of {} × {} texels even at one texel "
-                            "each; use {} × {} or more",
-                            task.sizes.size(), side, side, enough, enough));
+                fmt::format("{} charts do not fit into a map of {} × {} texels even at {}; use "
+                            "{} × {} or more",
+                            task.rectangles.size(), side, side,
+                            task.largest_fixed() > 0.0 ? "one texel each where no density is set"
+                                                       : "one texel each",
+                            enough, enough));
 }
 
 /// The smallest square, in steps, that holds everything at this density.
@@ -152,8 +175,7 @@ std::optional<Packing> pack_default(const Task& task, int max_side)
     std::optional<Packing> packing;
     for (int side = std::min(kDefaultSide, max_side);; side = std::min(2 * side, max_side)) {
         packing = fill(task, side, 1e30);
-        const bool dense = packing && task.area() * packing->density * packing->density >
-                                          kDefaultFill * side * side;
+        const bool dense = packing && task.covered(packing->density) > kDefaultFill * side * side;
         if (dense || side == max_side)
             return packing;
     }
@@ -161,10 +183,10 @@ std::optional<Packing> pack_default(const Task& task, int max_side)
 
 }  // namespace
 
-Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
+Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& options,
              std::vector<std::string>& notes)
 {
-    const Task task{sizes, options.gutter};
+    const Task task{rectangles, options.gutter};
     const double density = options.texels_per_metre;
     const int side = options.size > 0 ? options.size : options.max_size;
     std::optional<Packing> packing;
@@ -180,6 +202,8 @@ Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
         notes.push_back(fmt::format("the map is limited to {} × {} texels: density lowered from "
                                     "{:.4g} to {:.4g} texels per metre",
                                     side, side, density, packing->density));
+    if (task.longest_side() == 0.0)  // nothing follows the common density
+        packing->density = task.largest_fixed();
     return *packing;
 }
 

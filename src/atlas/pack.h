@@ -7,12 +7,19 @@
 #include <glm/glm.hpp>
 
 #include "atlas/atlas.h"
+#include "atlas/density.h"
 
 namespace lumel {
 
 /// Side of the map where no option sets it: detail for a room, seconds to minutes on a small
 /// machine. It is doubled while charts do not fit well.
 constexpr int kDefaultSide = 512;
+
+/// What is to be placed.
+struct Rectangle {
+    glm::dvec2 size{0.0};  ///< [m]
+    Density density;
+};
 
 struct PackedRectangle {
     glm::ivec2 corner{0};  ///< top left [texels]
@@ -21,14 +28,14 @@ struct PackedRectangle {
 
 struct Packing {
     int side = 0;          ///< of the square [texels]
-    double density = 0.0;  ///< [texels/m]
+    double density = 0.0;  ///< of rectangles whose own is neither fixed nor lowered [texels/m]
     std::vector<PackedRectangle> rectangles;
 };
 
-/// Places rectangles of the given sizes [m] with `options.gutter` empty texels between any two,
-/// and half as many along the rim. Each size is rounded to whole texels. Adds to `notes` where
+/// Places rectangles with `options.gutter` empty texels between any two, and half as many along
+/// the rim. Each size is rounded to whole texels. Adds to `notes` where
 /// the requested density was not possible. Throws Error{input} if they cannot be made to fit.
-Packing pack(const std::vector<glm::dvec2>& sizes, const AtlasOptions& options,
+Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& options,
              std::vector<std::string>& notes);
 
 }  // namespace lumel

@@ -122,6 +122,22 @@ std::size_t lamp_count(const Scene& scene, const LightOptions& options)
     return scene.lights.size() - (sun_is_up ? 1 : 0);
 }
 
+/// What each surface gets: primitives of one object may differ by their materials.
+Json densities(const Scene& scene, const Atlas& atlas)
+{
+    Json all = Json::array();
+    for (const Surface& surface : atlas.surfaces) {
+        const Instance& instance = scene.instances[surface.instance];
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const Primitive& primitive = mesh.primitives[surface.primitive];
+        all.push_back({{"object", instance.name},
+                       {"mesh", mesh.name},
+                       {"material", scene.materials[std::size_t(primitive.material)].name},
+                       {"texels_per_metre", surface.texels_per_metre}});
+    }
+    return all;
+}
+
 Json facts(const SampledScene& sampled, const BakeOptions& options)
 {
     const Prepared& prepared = sampled.prepared();
@@ -157,6 +173,7 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     json["atlas_width"] = prepared.atlas.width;
     json["atlas_height"] = prepared.atlas.height;
     json["texels_per_metre"] = prepared.atlas.texels_per_metre;
+    json["densities"] = densities(scene, prepared.atlas);
     json["lumels"] = prepared.lumels.lumels.size();
     json["back_lumels"] = back;
     json["buried_lumels"] = sampled.open().buried;
@@ -186,6 +203,25 @@ std::string lightmap_uv_text(const Json& json)
                       : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
 }
 
+/// Empty where everything is mapped alike.
+std::string densities_text(const Json& json)
+{
+    const double common = json["texels_per_metre"].get<double>();
+    std::size_t other = 0;
+    double least = common, most = common;
+    for (const Json& surface : json["densities"]) {
+        const double density = surface["texels_per_metre"].get<double>();
+        other += density != common;
+        least = std::min(least, density);
+        most = std::max(most, density);
+    }
+    if (other == 0)
+        return {};
+    return fmt::format("{:.4g} to {:.4g} texels per metre, {} of {} surfaces unlike the others "
+                       "(--json lists them)",
+                       least, most, other, json["densities"].size());
+}
+
 std::string text_of(const Json& json)
 {
     const auto count = [&](const char* key) { return json[key].get<std::size_t>(); };
@@ -208,6 +244,8 @@ std::string text_of(const Json& json)
     line("atlas", fmt::format("{} × {} texels, {:.4g} texels per metre, {} charts",
                               count("atlas_width"), count("atlas_height"),
                               json["texels_per_metre"].get<double>(), count("charts")));
+    if (const std::string densities = densities_text(json); !densities.empty())
+        line("densities", densities);
     line("lumels", fmt::format("{}, {} of them on back sides, about {} buried", count("lumels"),
                                count("back_lumels"), count("buried_lumels")));
     line("graphics memory",

@@ -8,22 +8,6 @@ namespace {
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
 
-/// Instances below the same node that moves: all that lies between stands still.
-Groups moving_together(const Scene& scene, const Animation& animation)
-{
-    std::map<int, std::vector<std::uint32_t>> by_node;
-    for (const std::uint32_t i : movers_of(animation, scene)) {
-        int node = scene.instances[i].node;
-        while (!animation.nodes[std::size_t(node)].moves())
-            node = animation.nodes[std::size_t(node)].parent;
-        by_node[node].push_back(i);
-    }
-    Groups groups;
-    for (auto& [node, instances] : by_node)
-        groups.push_back(std::move(instances));
-    return groups;
-}
-
 std::vector<glm::mat4> places_of(const Scene& scene)
 {
     std::vector<glm::mat4> places;
@@ -48,6 +32,22 @@ LiveLinksOptions live_options(const PlayOptions& options, const Groups& groups)
 }
 
 }  // namespace
+
+std::vector<std::vector<std::uint32_t>> moving_together(const Scene& scene,
+                                                        const Animation& animation)
+{
+    std::map<int, std::vector<std::uint32_t>> by_node;
+    for (const std::uint32_t i : movers_of(animation, scene)) {
+        int node = scene.instances[i].node;
+        while (!animation.nodes[std::size_t(node)].moves())
+            node = animation.nodes[std::size_t(node)].parent;
+        by_node[node].push_back(i);
+    }
+    Groups groups;
+    for (auto& [node, instances] : by_node)
+        groups.push_back(std::move(instances));
+    return groups;
+}
 
 LinksLight::LinksLight(const Scene& start, const Animation& animation, const PlayOptions& options)
     : start_(places_of(start)),

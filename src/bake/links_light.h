@@ -6,6 +6,10 @@
 
 namespace lumel {
 
+/// Instances below the same node that moves, a list for each: all that lies between stands still.
+std::vector<std::vector<std::uint32_t>> moving_together(const Scene& scene,
+                                                        const Animation& animation);
+
 class LinksLight final : public PlayedLight {
 public:
     /// Traces all links. Throws as LiveLinks does.

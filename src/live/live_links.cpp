@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "live/still_part.h"
+#include "scene/sky_file.h"
 
 namespace lumel {
 namespace {
@@ -140,7 +141,8 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
       surfaces_(scene()),
       world_(scene(), rays_.still(), lumels()),
       starts_(world_, nullptr, rays_.lift(), false),
-      sources_(scene(), surfaces_, glm::distance(rays_.still().low(), rays_.still().high())),
+      given_sky_(scene().sky),
+      sources_(std::in_place, scene(), surfaces_, extent()),
       lumels_of_(lumels_by_thing(lumels(), rays_)),
       links_(place(), atlas(), side_of(options.rays), options.seed),
       light_(place(), options.light),
@@ -152,11 +154,16 @@ LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
 {
 }
 
+float LiveLinks::extent() const
+{
+    return glm::distance(rays_.still().low(), rays_.still().high());
+}
+
 LivePlace LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
         throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
-    return {scene(), lumels(), rays_, surfaces_, world_, starts_, sources_, rays_.lift()};
+    return {scene(), lumels(), rays_, surfaces_, world_, starts_, *sources_, rays_.lift()};
 }
 
 void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
@@ -203,6 +210,18 @@ void LiveLinks::set_sky(const glm::vec3& factor)
     edited_ = true;
 }
 
+/// What others refer to stays where it is.
+void LiveLinks::turn_sky(double angle)
+{
+    if (given_sky_.empty())
+        throw Error(ErrorKind::input, scene().path, "has no sky");
+    laid_out_.scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
+    sources_.emplace(scene(), surfaces_, extent());
+    links_.find_sky();
+    light_.find_again(Part::sky, 0);
+    edited_ = true;
+}
+
 void LiveLinks::set_albedo(const std::string& name, const glm::vec3& colour)
 {
     const std::uint32_t material = index_of(scene().materials, name);
@@ -237,7 +256,7 @@ void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
 {
     check_index(light, scene().lights, "light");
     laid_out_.scene.lights[light].transform = transform;
-    sources_.place();
+    sources_->place();
     light_.find_again(Part::light, light);
     edited_ = true;
 }
@@ -304,7 +323,7 @@ void LiveLinks::put_requested()
             put(t, *requested_[t]);
             requested_[t].reset();
         }
-    sources_.place();
+    sources_->place();
     light_.place();
 }
 

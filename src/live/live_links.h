@@ -85,6 +85,9 @@ public:
     void set_emission(std::uint32_t material, const glm::vec3& factor);
     /// The same of the sky.
     void set_sky(const glm::vec3& factor);
+    /// The sky of the scene, turned about +y, counter-clockwise as seen from above, by an angle
+    /// [rad] from how it was given. No ray is traced again but those to its bright parts.
+    void turn_sky(double angle);
     /// A material reflects with this base colour, 0 to 1, times its texture. The first time for
     /// each material takes longer. Throws Error{input} if there is no such material.
     void set_albedo(const std::string& material, const glm::vec3& colour);
@@ -129,6 +132,7 @@ private:
         std::size_t links = 0, direct = 0;
     };
 
+    float extent() const;
     LivePlace place() const;
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
@@ -147,7 +151,8 @@ private:
     Surfaces surfaces_;
     WorldLumels world_;
     RayStarts starts_;
-    LightSources sources_;
+    Sky given_sky_;
+    std::optional<LightSources> sources_;  ///< always; made anew where it is for another sky
     std::vector<std::vector<std::uint32_t>> lumels_of_;  ///< [things] lumels on each
     LumelLinks links_;
     GroupedLight light_;

@@ -149,6 +149,15 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     white_sky_light_[i] = share * sums[0];
 }
 
+void LumelLinks::find_sky()
+{
+    parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
+                find_sky(Rays(*this, i), i);
+    });
+}
+
 Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
 {
     const Box box = place_.rays.box(thing);

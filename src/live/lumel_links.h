@@ -37,6 +37,9 @@ public:
     /// now. Once all lumels have followed, links are as if all had been traced.
     Retraced follow(std::uint32_t thing, std::size_t first, std::size_t last);
 
+    /// The sky is another: finds again what rays bring from it.
+    void find_sky();
+
     std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
     /// What the rays of a lumel have met [side²]: a lumel or one of the ends below.
     std::span<const std::uint32_t> of(std::size_t lumel) const

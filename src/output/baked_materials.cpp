@@ -46,12 +46,24 @@ void renumber_texcoord_1(Json& material, int number)
     });
 }
 
+/// What tell_of_lightmap wrote; what users say of the material stays.
+void drop_told(Json& extras)
+{
+    const auto own = extras.find(kOwnExtras);
+    if (own == extras.end() || !own->is_object())
+        return;
+    own->erase("lightmap");
+    own->erase("texCoord");
+    if (own->empty())
+        extras.erase(kOwnExtras);
+}
+
 void drop_lightmap(Json& material)
 {
     if (material.contains("extensions"))
         material["extensions"].erase(kLightmap);
     if (material.contains("extras") && material["extras"].is_object())
-        material["extras"].erase(kOwnExtras);
+        drop_told(material["extras"]);
 }
 
 std::set<std::size_t> materials_in_use(const Json& json)
@@ -287,8 +299,13 @@ void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::s
 void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials,
                       const std::string& file)
 {
-    for (const std::size_t material : materials)
-        extras_of(json["materials"][material])[kOwnExtras] = {{"lightmap", file}, {"texCoord", 1}};
+    for (const std::size_t material : materials) {
+        Json& own = extras_of(json["materials"][material])[kOwnExtras];
+        if (!own.is_object())
+            own = Json::object();
+        own["lightmap"] = file;
+        own["texCoord"] = 1;
+    }
 }
 
 void reduce_to_core(Json& json, const std::vector<std::size_t>& materials)

@@ -178,15 +178,20 @@ Image shrink(const std::vector<float>& pixels, int width, int height)
 
 }  // namespace
 
-Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
-                     const Image& irradiance, const View& view, int width)
+glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width)
 {
     const int most = int(device.max_image_side()) / kSupersample;
     const float fitting = std::clamp(float(most) * view.aspect, 1.0f, float(most));
     width = std::min(width, int(fitting));
-    const int height = picture_height(width, view.aspect, most);
-    const auto wide = std::uint32_t(width * kSupersample),
-               high = std::uint32_t(height * kSupersample);
+    return {width, picture_height(width, view.aspect, most)};
+}
+
+Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
+                     const Image& irradiance, const View& view, int width, PreviewShows shows)
+{
+    const glm::ivec2 size = preview_size(device, view, width);
+    const auto wide = std::uint32_t(size.x * kSupersample),
+               high = std::uint32_t(size.y * kSupersample);
     const Vertices vertices = gather(scene, atlas);
     float diagonal = 1e-6f;
     for (const glm::vec3& p : vertices.positions)
@@ -201,8 +206,9 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
     gpu::Target lightmap(device, gpu::Pixel::rgba32, std::uint32_t(irradiance.width),
                          std::uint32_t(irradiance.height));
     lightmap.upload(irradiance.values.data());
-    const gpu::Sampler bilinear(device, gpu::Filter::linear, gpu::Address::clamp,
-                                gpu::Address::clamp);
+    const gpu::Sampler of_map(
+        device, shows == PreviewShows::texels ? gpu::Filter::nearest : gpu::Filter::linear,
+        gpu::Address::clamp, gpu::Address::clamp);
     TextureSet textures(device, scene);
     const gpu::Target color(device, gpu::Pixel::rgba32, wide, high);
     const gpu::Target depth(device, gpu::Pixel::depth, wide, high);
@@ -216,15 +222,19 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
         const float cutoff = material.alpha_mode == AlphaMode::opaque ? -1.0f
                              : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff
                                                                       : 0.5f;
-        const PreviewParams params{projection(view, diagonal), material.base_color,
-                                   material.emitted, cutoff, key.second};
+        const PreviewParams params{projection(view, diagonal),
+                                   material.base_color,
+                                   material.emitted,
+                                   cutoff,
+                                   key.second,
+                                   shows == PreviewShows::light ? kShowsLight : kShowsMap};
         const TextureUse& base = material.base_color_texture;
         const TextureUse& emissive = material.emissive_texture;
         commands
             .use(raster,
                  {.base_color = {textures.of(base), textures.sampler(base)},
                   .emissive = {textures.of(emissive), textures.sampler(emissive)},
-                  .irradiance = {lightmap, bilinear}},
+                  .irradiance = {lightmap, of_map}},
                  {.position = positions, .look = looks, .lightmap = places, .color = colors},
                  indices)
             .draw(params, {range.first, range.count});
@@ -234,7 +244,7 @@ Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas&
 
     std::vector<float> pixels(std::size_t(wide) * high * 4);
     color.download(pixels.data());
-    return shrink(pixels, width, height);
+    return shrink(pixels, size.x, size.y);
 }
 
 }  // namespace lumel

@@ -22,5 +22,6 @@ void main()
     const vec3 reflected = albedo * arriving / 3.14159265358979;
     const bool shows = gl_FrontFacing || p.back == kBackIsAlike;
     const vec3 emitted = p.emitted * texture(emissive, look.zw).rgb;
-    radiance = vec4(shows ? reflected + emitted : vec3(0.0), 1.0);
+    const vec3 sent = p.shows == kShowsMap ? arriving : reflected + emitted;
+    radiance = vec4(shows ? sent : vec3(0.0), 1.0);
 }

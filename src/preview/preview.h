@@ -8,11 +8,22 @@
 
 namespace lumel {
 
+/// What a picture shows of the scene.
+enum class PreviewShows {
+    light,   ///< radiance [cd/m²]
+    map,     ///< the map on its surfaces, such as irradiance, whatever their paint
+    texels,  ///< the same, each texel of one colour
+};
+
+/// Pixels of a picture of that width, narrower where the device cannot draw that.
+glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
+
 /// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide
 /// (narrower where the device cannot draw that).
 /// The lightmap is sampled bilinearly, material textures with mipmaps. `irradiance`: the
-/// finished map [lx], RGBA. One pixel is the mean of 2 × 2.
+/// finished map [lx], RGBA. One pixel is the mean of 2 × 2. What `shows` says may be shown instead.
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
-                     const Image& irradiance, const View& view, int width);
+                     const Image& irradiance, const View& view, int width,
+                     PreviewShows shows = PreviewShows::light);
 
 }  // namespace lumel

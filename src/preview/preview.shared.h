@@ -7,6 +7,9 @@ LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
 LUMEL_CONST uint kBackIsAlike = 1u;    ///< they show the light of the front
 LUMEL_CONST uint kBackIsAnother = 2u;  ///< a face of its own shows it
 
+LUMEL_CONST uint kShowsLight = 0u;  ///< what surfaces send, L = ρ H / π + L_e
+LUMEL_CONST uint kShowsMap = 1u;    ///< the map as it is
+
 /// Push constants of preview.vert and preview.frag: one material.
 struct PreviewParams {
     mat4 camera;      ///< world to clip space, reversed z
@@ -14,6 +17,7 @@ struct PreviewParams {
     vec3 emitted;     ///< [cd/m²], multiplies the texture
     float cutoff;     ///< transparent below; < 0: opaque
     uint back;        ///< kBackIsBlack, kBackIsAlike or kBackIsAnother
+    uint shows;       ///< kShowsLight or kShowsMap
 };
 
 LUMEL_SHARED_END

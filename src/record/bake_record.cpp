@@ -28,6 +28,26 @@ void each_atlas_setting(Options& options, const Visit& visit)
     visit("sides", options.sides);
 }
 
+/// Left out where nothing is set: reports of older bakes have none either.
+void write_densities(const AtlasOptions& options, Json& settings)
+{
+    if (options.coarse_afar)
+        settings["coarse-afar"] = true;
+    for (const DensityRule& rule : options.densities)
+        settings["density"].push_back(
+            {{"name", rule.pattern}, {"texels_per_metre", shortest(rule.texels_per_metre)}});
+}
+
+void read_densities(const JsonView& settings, AtlasOptions& options)
+{
+    options.coarse_afar = settings.boolean_or("coarse-afar", false);
+    settings.each("density", [&](const JsonView& rule, std::size_t) {
+        options.densities.push_back(
+            {rule.get("name").string(),
+             float(rule.get("texels_per_metre").number(kDensities.low, kDensities.high))});
+    });
+}
+
 template <class Record, class Visit>
 void each_setting(Record& record, const Visit& visit)
 {
@@ -62,6 +82,7 @@ Json atlas_settings(const AtlasOptions& options)
 {
     Json settings;
     each_atlas_setting(options, FieldWriter(settings));
+    write_densities(options, settings);
     return settings;
 }
 
@@ -74,6 +95,7 @@ Report report_of(const BakeRecord& record)
     report.scene = record.scene;
     report.scene_hash = record.scene_hash;
     each_setting(record, FieldWriter(report.settings));
+    write_densities(record.atlas, report.settings);
     report.lights = light_settings(record.lights);
     report.solver = solver_settings(record.solver);
     report.atlas_width = report.atlas_height = record.side;
@@ -95,6 +117,7 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     record.scene = report.get("scene").get("file").string();
     record.scene_hash = report.get("scene").get("hash").string();
     each_setting(record, FieldReader(report.get("settings")));
+    read_densities(report.get("settings"), record.atlas);
     record.lights = light_options_of(report.get("lights"), folder);
     record.solver = solver_options_of(report.get("solver"));
 

@@ -6,6 +6,7 @@
 
 #include "core/parallel.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_extras.h"
 #include "scene/gltf_image.h"
 #include "json/json_file.h"
 
@@ -41,6 +42,7 @@ private:
         read_emission(view, material);
         read_alpha(view, material);
         material.double_sided = view.boolean_or("doubleSided", false);
+        material.texels_per_metre = density_in_extras(view);
         read_transmission(view, material);
         return material;
     }

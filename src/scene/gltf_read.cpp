@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "scene/geometry_checks.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_extras.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
@@ -34,6 +35,12 @@ struct Notes {
 std::string counted(std::size_t count, const std::string& one, const std::string& many)
 {
     return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+float density_of(const JsonView& node, const JsonView& mesh)
+{
+    const float own = density_in_extras(node);
+    return own > 0.0f ? own : density_in_extras(mesh);
 }
 
 /// Meshes and instances: only meshes that the default scene shows are read.
@@ -67,7 +74,8 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
         notes.weighted_instances += node.find("weights").has_value();
         if (!mesh.primitives.empty())
             scene.instances.push_back({node.string_or("name", mesh.name), int(index),
-                                       int(placed.node), glm::mat4(placed.world)});
+                                       int(placed.node), glm::mat4(placed.world),
+                                       density_of(node, root.get("meshes").at(index))});
     }
     scene.dropped_triangles = notes.mesh.zero_area_triangles;
 }

@@ -58,6 +58,7 @@ struct Material {
     /// (without the vertices'). The rest is as if it were not glass.
     float transmission = 0.0f;
     bool double_sided = false;
+    float texels_per_metre = 0.0f;  ///< extras.lumel: density of its lightmap, 0: not set
 };
 
 /// A triangle list. Vertex arrays keep the order of the file's accessors; empty: absent.
@@ -82,6 +83,8 @@ struct Instance {
     int mesh = 0;
     int node = 0;               ///< index in the file's nodes
     glm::mat4 transform{1.0f};  ///< mesh to world; a negative determinant flips the winding
+    /// extras.lumel of the node, else of its mesh: density of its lightmap, 0: not set.
+    float texels_per_metre = 0.0f;
 };
 
 struct PunctualLight {

@@ -347,6 +347,14 @@ TEST_F(TwoQuads, ExtrasOfBakedMaterialsNameTheMapBesideTheFile)
     EXPECT_FALSE(json["materials"][0]["extras"].contains("lumel"));
 }
 
+TEST_F(TwoQuads, TheDensityOfAMaterialStaysWithIt)
+{
+    Json dense = file();
+    dense["materials"][0]["extras"] = {{"lumel", {{"texels_per_metre", 40}}}};
+    for (const Json& material : lit(dense)["materials"])
+        EXPECT_EQ(material["extras"]["lumel"]["texels_per_metre"], 40);
+}
+
 /// Light from 0.01 to 10^6 lx: most of it dim, a thousandth of it very bright.
 Image wide_map(const Atlas& atlas)
 {

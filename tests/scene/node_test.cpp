@@ -272,3 +272,22 @@ TEST(Nodes, CamerasAreReadWithTheirPlace)
     EXPECT_FLOAT_EQ(scene.cameras[1].orthographic_height, 4.0f);
     EXPECT_FLOAT_EQ(scene.cameras[1].aspect, 1.5f);
 }
+
+TEST(Nodes, ExtrasSetTheDensityOfTheirLightmap)
+{
+    const Json fine = {{"lumel", {{"texels_per_metre", 40}}}};
+    const Json coarse = {{"lumel", {{"texels_per_metre", 2.5}}}};
+    GltfBuilder builder = one_triangle();
+    EXPECT_EQ(builder.read().instances[0].texels_per_metre, 0.0f);
+    builder.json["meshes"][0]["extras"] = coarse;
+    EXPECT_EQ(builder.read().instances[0].texels_per_metre, 2.5f);
+    builder.json["nodes"][0]["extras"] = fine;
+    EXPECT_EQ(builder.read().instances[0].texels_per_metre, 40.0f);
+    builder.push("materials", {{"extras", coarse}});
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    EXPECT_EQ(builder.read().materials[0].texels_per_metre, 2.5f);
+    builder.json["nodes"][0]["extras"]["lumel"]["texels_per_metre"] = 0;
+    EXPECT_TRUE(contains(error_of(builder), "/nodes/0/extras/lumel/texels_per_metre"));
+    builder.json["nodes"][0]["extras"] = {{"lumel", "anything"}};
+    EXPECT_EQ(builder.read().instances[0].texels_per_metre, 2.5f);
+}

@@ -1,0 +1,12 @@
+#pragma once
+// What Lumel reads of extras.
+
+#include "json/json_view.h"
+
+namespace lumel {
+
+/// extras.lumel.texels_per_metre of a node, mesh or material: the density of its lightmap; 0 if it
+/// has none. Throws Error{input} if it is not a positive number.
+float density_in_extras(const JsonView& object);
+
+}  // namespace lumel

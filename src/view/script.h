@@ -1,0 +1,76 @@
+#pragma once
+// A list of what a hand would do to a scene, a command a line.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lumel {
+
+enum class Verb {
+    camera,
+    eye,
+    look,
+    walk,
+    gaze,
+    orbit,
+    pick,
+    move,
+    turn,
+    remove,
+    lamp,
+    dim,
+    paint,
+    sky,
+    turn_sky,
+    sun,
+    time,
+    exposure,
+    stops,
+    mode,
+    scale,
+    frames,
+    wait,
+    picture,
+    state,
+};
+
+/// What a command takes: first a word, if it takes one, then numbers as one word.
+enum class Word {
+    none,
+    name,             ///< of something in the scene
+    name_or_numbers,  ///< one of the two
+    automatic,        ///< "auto", or the numbers
+    mode,             ///< "lit", "irradiance" or "lumels"
+    png,              ///< name of a file
+    json,
+};
+
+struct CommandForm {
+    Verb verb;
+    const char *word, *arguments, *meaning;
+    Word takes = Word::none;
+    std::size_t least = 0, most = 0;  ///< numbers; 1 and 3: one or the other
+    double low = 0.0, high = 0.0;     ///< of numbers
+    bool whole = false;               ///< numbers have no decimals
+};
+
+/// All commands, in the order in which help lists them.
+std::span<const CommandForm> command_forms();
+
+struct ScriptCommand {
+    const CommandForm* form;
+    int line;                     ///< from 1
+    std::string text;             ///< the word
+    std::vector<double> numbers;  ///< empty where the word stands for them
+};
+
+/// `place`: the file's name, for messages. Throws Error{input} with "place:line" for what is no
+/// command, or writes a file twice.
+std::vector<ScriptCommand> read_script(std::string_view text, const std::string& place);
+
+/// A line of the script, as messages name it.
+std::string place_of(const std::string& place, int line);
+
+}  // namespace lumel

@@ -1,0 +1,186 @@
+#pragma once
+// A lit scene under the hand: looked at, picked, moved, dimmed, and kept lit meanwhile.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bake/links_light.h"
+#include "images/false_colour.h"
+#include "links/near_lumels.h"
+#include "live/live_links.h"
+#include "preview/preview.h"
+#include "scene/animation.h"
+#include "scene/light_options.h"
+#include "view/camera.h"
+#include "view/things.h"
+#include "json/json_view.h"
+
+namespace lumel {
+
+struct SessionOptions {
+    LightOptions lights;
+    AtlasOptions atlas;
+    std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
+    std::uint32_t link_rays = LiveLinksOptions{}.rays;  ///< of a lumel
+    std::uint32_t seed = 1;
+    bool filter = true;
+    double residual = LiveLinksOptions{}.residual;
+    double budget_ms = 15.0;    ///< of the light of a frame
+    int camera = -1;            ///< index into the file's cameras; -1: the first, or one chosen
+    int width = 640;            ///< of pictures [pixels]
+    std::size_t animation = 0;  ///< index into the file's animations
+    std::vector<std::string> movable;  ///< names of what may move; empty: what is small
+};
+
+enum class ViewMode {
+    lit,
+    irradiance,  ///< in false colours
+    lumels,      ///< a colour for each chart, lumels as a board
+};
+
+/// What lies under a pixel.
+struct Picked {
+    std::uint32_t instance = 0;
+    int material = 0;
+    std::uint32_t lumel = kNoLumel;
+    std::optional<std::uint32_t> thing;  ///< none: it stays where it is
+    glm::vec3 place{0.0f}, normal{0.0f};
+    float distance = 0.0f;  ///< [m] from the eye
+};
+
+/// A light or an emissive material.
+struct ViewLamp {
+    std::string name;
+    bool is_light = false;
+    std::uint32_t index = 0;  ///< into the scene's lights or materials
+    glm::vec3 factor{1.0f};   ///< by hand
+};
+
+/// What frames took.
+struct FrameCosts {
+    int frames = 0;
+    double last_ms = 0.0, most_ms = 0.0, all_ms = 0.0;
+};
+
+/// The scene is laid out once; whatever is changed afterwards is followed by LiveLinks, a frame's
+/// budget at a time. Functions that name what the scene does not have throw Error{input} and change
+/// nothing.
+class ViewSession {
+public:
+    /// scene: with all its lights. animation: of its file, or an empty one. Traces all links. The
+    /// device must outlive it.
+    ViewSession(const gpu::Device& device, Scene scene, Animation animation,
+                const SessionOptions& options);
+    ViewSession(const ViewSession&) = delete;
+    ViewSession& operator=(const ViewSession&) = delete;
+
+    ViewCamera& camera() { return camera_; }
+    const ViewCamera& camera() const { return camera_; }
+    /// Looks through a camera of the file.
+    void take_camera(int index);
+    /// Around what is picked, or what the middle of the picture shows [rad].
+    void orbit(float around, float over);
+
+    /// Picks what the picture shows at a pixel: nothing, where nothing is.
+    void pick(const glm::ivec2& pixel);
+    /// The first instance of that name.
+    void pick(const std::string& name);
+    const std::optional<Picked>& picked() const { return picked_; }
+    const std::optional<glm::ivec2>& pixel() const { return pixel_; }
+
+    // What is picked must be a thing.
+    void move(const glm::vec3& way);  ///< [m]
+    void turn(float angle);           ///< about +y through its middle [rad]
+    void remove();
+
+    void set_lamp(const std::string& name, const glm::vec3& factor);
+    /// What is picked must emit.
+    void dim(const glm::vec3& factor);
+    /// The base colour of what is picked, 0 to 1.
+    void paint(const glm::vec3& colour);
+    void set_sky(const glm::vec3& factor);
+    void turn_sky(double angle);  ///< [rad] counter-clockwise, from how it was given
+    /// The sun of the options, or else the first directional light. Below the horizon it is off.
+    void set_sun(const SunPosition& sun);
+    void set_time(double seconds);
+
+    void set_exposure(std::optional<float> factor) { exposure_ = factor; }  ///< none: automatic
+    void step_exposure(float stops) { stops_ += stops; }
+    void set_mode(ViewMode mode) { mode_ = mode; }
+    void set_scale(const std::optional<LuxScale>& scale) { scale_ = scale; }  ///< none: automatic
+
+    /// Follows what has changed, for the budget of a frame.
+    const LiveLinksState& frame();
+
+    /// What is to be seen, display-referred.
+    Image picture();
+    glm::ivec2 size() const;  ///< of pictures, without a legend [pixels]
+    /// Luminance that the picture has at a pixel [cd/m²], whatever the mode.
+    double luminance_at(const glm::ivec2& pixel);
+    /// Illuminance of the surface at a pixel [lx], as false colours have it; none where nothing is.
+    std::optional<double> lux_at(const glm::ivec2& pixel);
+    float exposure();                            ///< factor from cd/m² to brightness
+    LuxScale scale();                            ///< of false colours
+    const std::vector<glm::vec3>& irradiance();  ///< [N] [lx] as it is shown
+
+    const LiveLinks& light() const { return live_; }
+    const Scene& scene() const { return shown_; }
+    const std::vector<ViewThing>& things() const { return things_; }
+    const std::vector<ViewLamp>& lamps() const { return lamps_; }
+    const FrameCosts& costs() const { return costs_; }
+    ViewMode mode() const { return mode_; }
+    bool has_automatic_exposure() const { return !exposure_; }
+    float stops() const { return stops_; }
+    double time() const { return time_; }
+    const std::optional<SunPosition>& sun() const { return sun_; }  ///< where it was put
+    bool has_sun() const { return sun_light_.has_value(); }
+    double sky_angle() const { return sky_angle_; }
+    const Animation& animation() const { return animation_; }
+
+private:
+    ViewThing& picked_thing();
+    std::optional<std::uint32_t> thing_of(std::uint32_t instance) const;
+    const RayScene& rays();
+    std::optional<Picked> seen_at(const glm::vec2& place);
+    void put(std::uint32_t thing);
+    glm::vec3 away();
+    void place_sky();
+    void apply(const ViewLamp& lamp);
+    const Image& map();
+    Image render(const Image& map, PreviewShows shows) const;
+    void check_inside(const glm::ivec2& pixel) const;
+
+    const gpu::Device* device_;
+    SessionOptions options_;
+    Animation animation_;
+    Scene shown_;                   ///< as it is drawn
+    std::vector<glm::mat4> given_;  ///< [instances] where the scene has them
+    std::vector<ViewThing> things_;
+    LiveLinks live_;
+    NearLumels near_;
+    Atlas drawn_;  ///< without what is deleted
+    std::vector<ViewLamp> lamps_;
+    std::vector<glm::vec3> played_;  ///< [materials] factors of the animation
+    std::optional<std::uint32_t> sun_light_;
+    float sun_factor_ = 1.0f;  ///< of its illuminance, where it stands now
+    ViewCamera camera_;
+    std::optional<Picked> picked_;
+    std::optional<glm::ivec2> pixel_;
+    std::optional<float> exposure_;
+    float stops_ = 0.0f;
+    ViewMode mode_ = ViewMode::lit;
+    std::optional<LuxScale> scale_;
+    std::optional<SunPosition> sun_;
+    double sky_angle_ = 0.0, time_ = 0.0;
+    FrameCosts costs_;
+    // Made when they are asked for.
+    std::optional<RayScene> rays_;
+    std::vector<glm::vec3> irradiance_;
+    std::optional<Image> map_;
+};
+
+/// The session and what it shows as JSON.
+Json state_of(ViewSession& session);
+
+}  // namespace lumel

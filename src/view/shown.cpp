@@ -1,0 +1,132 @@
+// What a session shows: light as it is seen, in false colours, and the lumels.
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/sides.h"
+#include "core/luminance.h"
+#include "finish/finish.h"
+#include "images/image_files.h"
+#include "view/session.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels of a chart are lighter and darker fields of its colour.
+constexpr float kDarkField = 0.7f;
+constexpr float kGoldenTurn = 0.618034f;  ///< of the circle of hues, from chart to chart
+
+/// A colour of its own for each number, as bright as the others.
+glm::vec3 colour_of(std::uint32_t number)
+{
+    const float hue = 6.0f * std::fmod(kGoldenTurn * float(number), 1.0f);
+    const glm::vec3 pure =
+        glm::clamp(glm::vec3(std::abs(hue - 3.0f) - 1.0f, 2.0f - std::abs(hue - 2.0f),
+                             2.0f - std::abs(hue - 4.0f)),
+                   0.0f, 1.0f);
+    return glm::mix(glm::vec3(0.5f), pure, 0.6f);
+}
+
+/// The map of an atlas: charts in their colours, lumels as the fields of a board.
+Image board(const Lumels& lumels)
+{
+    Image map(lumels.width, lumels.height, 4);
+    for (const Lumel& lumel : lumels.lumels) {
+        const auto texel = int(map_texel(lumels, lumel));
+        const int x = texel % lumels.width, y = texel / lumels.width;
+        const float field = (x + y) % 2 == 0 ? 1.0f : kDarkField;
+        const glm::vec3 colour = field * colour_of(map_chart(lumels, lumel));
+        float* const out = map.at(x, y);
+        for (int c = 0; c < 3; ++c)
+            out[c] = colour[c];
+        out[3] = 1.0f;
+    }
+    return map;
+}
+
+/// Of one channel each pixel, less than 0 where nothing is.
+Image luminances(const Image& image)
+{
+    Image one(image.width, image.height, 1);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float* const pixel = image.at(x, y);
+            // A pixel at a border is the mean of what is there and of nothing.
+            *one.at(x, y) =
+                pixel[3] > 0.0f
+                    ? float(luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]))
+                    : -1.0f;
+        }
+    return one;
+}
+
+}  // namespace
+
+const std::vector<glm::vec3>& ViewSession::irradiance()
+{
+    if (irradiance_.empty())
+        irradiance_ = live_.shown();
+    return irradiance_;
+}
+
+const Image& ViewSession::map()
+{
+    if (!map_)
+        map_ = finish_map(shown_, live_.atlas(), live_.lumels(), irradiance());
+    return *map_;
+}
+
+glm::ivec2 ViewSession::size() const
+{
+    return preview_size(*device_, camera_.view(), options_.width);
+}
+
+Image ViewSession::render(const Image& map, PreviewShows shows) const
+{
+    return render_preview(*device_, shown_, drawn_, map, camera_.view(), options_.width, shows);
+}
+
+float ViewSession::exposure()
+{
+    const float of_light =
+        exposure_ ? *exposure_ : choose_exposure(render(map(), PreviewShows::light));
+    return of_light * std::exp2(stops_);
+}
+
+LuxScale ViewSession::scale()
+{
+    if (scale_)
+        return *scale_;
+    std::vector<float> lux;
+    for (const glm::vec3& light : irradiance())
+        lux.push_back(float(luminance(light)));
+    return scale_for(lux);
+}
+
+Image ViewSession::picture()
+{
+    if (mode_ == ViewMode::irradiance)
+        return false_colour(luminances(render(map(), PreviewShows::map)), scale());
+    if (mode_ == ViewMode::lumels)
+        return render(board(live_.lumels()), PreviewShows::texels);
+    const Image light = render(map(), PreviewShows::light);
+    const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
+    return tone_map(light, of_light * std::exp2(stops_));
+}
+
+double ViewSession::luminance_at(const glm::ivec2& pixel)
+{
+    check_inside(pixel);
+    const Image light = render(map(), PreviewShows::light);
+    const float* const at = light.at(pixel.x, pixel.y);
+    return luminance({at[0], at[1], at[2]});
+}
+
+std::optional<double> ViewSession::lux_at(const glm::ivec2& pixel)
+{
+    check_inside(pixel);
+    const float lux = *luminances(render(map(), PreviewShows::map)).at(pixel.x, pixel.y);
+    return lux < 0.0f ? std::nullopt : std::optional<double>(lux);
+}
+
+}  // namespace lumel

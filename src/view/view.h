@@ -1,0 +1,35 @@
+#pragma once
+// lumel view --headless: a script played on a scene that is kept lit.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/bake.h"
+#include "view/session.h"
+
+namespace lumel {
+
+struct ScriptRun {
+    std::string scene;   ///< .gltf or .glb
+    std::string script;  ///< file of commands, see script.h
+    std::string folder;  ///< of the files that it writes
+};
+
+struct ViewSummary {
+    int frames = 0;                  ///< in which light followed
+    std::vector<std::string> files;  ///< written
+    double seconds = 0.0;            ///< in all
+    std::string report;              ///< JSON: these, and the state at the end
+};
+
+/// Plays the whole script, then puts its files in place; none of them if `progress` returns false
+/// before, or anything is wrong. Throws Error; of a command that cannot be done with "script:line".
+ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
+                        const ProgressFunction& progress = {});
+
+/// The scene with the lights of the options, as its animation begins.
+Scene scene_to_view(const std::string& path, const Animation& animation,
+                    const SessionOptions& options);
+
+}  // namespace lumel

@@ -1,0 +1,450 @@
+// A lit scene under the hand, by scripts.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <png.h>
+
+#include "edited_scene.h"
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+using Json = nlohmann::json;
+using Colour = std::array<int, 3>;
+
+/// A PNG file.
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<unsigned char> rgb;
+
+    Colour at(int x, int y) const
+    {
+        const std::size_t first = 3 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
+        return {rgb[first], rgb[first + 1], rgb[first + 2]};
+    }
+    double mean() const
+    {
+        double sum = 0.0;
+        for (const unsigned char one : rgb)
+            sum += one;
+        return sum / double(rgb.size());
+    }
+    int most() const { return *std::max_element(rgb.begin(), rgb.end()); }
+};
+
+Picture read_picture(const std::string& path)
+{
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    EXPECT_TRUE(png_image_begin_read_from_file(&image, path.c_str())) << path;
+    image.format = PNG_FORMAT_RGB;
+    Picture picture{int(image.width), int(image.height),
+                    std::vector<unsigned char>(PNG_IMAGE_SIZE(image))};
+    EXPECT_TRUE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr));
+    return picture;
+}
+
+/// Largest difference of two pictures' colours, and the mean one.
+struct Difference {
+    int most = 0;
+    double mean = 0.0;
+};
+
+Difference difference(const Picture& a, const Picture& b)
+{
+    Difference result;
+    EXPECT_EQ(a.rgb.size(), b.rgb.size());
+    for (std::size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i) {
+        const int apart = std::abs(int(a.rgb[i]) - int(b.rgb[i]));
+        result.most = std::max(result.most, apart);
+        result.mean += double(apart) / double(a.rgb.size());
+    }
+    return result;
+}
+
+/// A script that was played, with its files.
+class Played {
+public:
+    Played(const std::string& scene, const std::string& script,
+           const std::vector<std::string>& more = {}, const std::string& size = "64")
+    {
+        std::vector<std::string> arguments = {"view",      scene,
+                                              "--script",  place.file("script.txt", script),
+                                              "--folder",  place.path("out"),
+                                              "--size",    size,
+                                              "--width",   "120",
+                                              "--headless"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        outcome = run_lumel(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+    }
+
+    Picture picture(const std::string& name) const
+    {
+        return read_picture(place.path("out/" + name));
+    }
+    Json state(const std::string& name) const
+    {
+        const Json json = Json::parse(bytes_of(place.path("out/" + name)), nullptr, false);
+        EXPECT_FALSE(json.is_discarded()) << name;
+        return json;
+    }
+
+    const Workplace place;
+    Outcome outcome;
+};
+
+/// The node of that name.
+Json& node_of(EditedScene& scene, const std::string& name)
+{
+    for (Json& node : scene.json()["nodes"])
+        if (node.value("name", "") == name)
+            return node;
+    throw std::runtime_error("no node " + name);
+}
+
+TEST(View, ALampThatIsPutOutLeavesDarknessInTheSameFrame)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "wait\npicture lit.png\n"
+                        "lamp light 0\nframes 1\npicture dark.png\nstate dark.json\n"
+                        "lamp light 1,0,0\nwait\npicture red.png\n",
+                        {"--budget", "1000"});
+    EXPECT_GT(played.picture("lit.png").mean(), 30.0);
+    EXPECT_EQ(played.picture("dark.png").most(), 0);
+    EXPECT_EQ(played.state("dark.json")["light"]["links_traced_again"], 0);
+    const Colour red = played.picture("red.png").at(60, 100);
+    EXPECT_GT(red[0], 30);
+    EXPECT_EQ(red[1], 0);
+    EXPECT_EQ(red[2], 0);
+}
+
+TEST(View, ADoorThatIsOpenedLightsTheRoomBehind)
+{
+    EditedScene scene("two-rooms.gltf");
+    scene.add_block("door", {2.3f, -0.3f, 2.95f}, {3.8f, 2.4f, 3.1f});
+    const Workplace place;
+    const Played played(scene.write(place),
+                        "exposure 2\nwait\npicture closed.png\n"
+                        "pick door\nmove -1.6,0,0\n"
+                        "state asked.json\nwait\npicture open.png\nstate open.json\n"
+                        "move 1.6,0,0\nwait\npicture again.png\n",
+                        {}, "128");
+    // At the frame of the door a little light of the other room is in lumels that both see.
+    EXPECT_LT(played.picture("closed.png").mean(), 0.5);
+    EXPECT_GT(played.picture("open.png").mean(), 80.0);
+    EXPECT_LT(difference(played.picture("closed.png"), played.picture("again.png")).mean, 0.1);
+    EXPECT_EQ(played.state("asked.json")["light"]["links_traced_again"], 0);
+    EXPECT_GT(played.state("open.json")["light"]["links_traced_again"], 0);
+    EXPECT_EQ(played.state("open.json")["light"]["at_rest"], true);
+}
+
+TEST(View, PickingHitsWhatIsUnderThePixel)
+{
+    // From straight above, 90 degrees of view, the floor below is as wide as twice the height.
+    EditedScene scene("four-cubes.gltf");
+    for (Json& camera : scene.json()["cameras"])
+        camera["perspective"] = {{"yfov", std::acos(-1.0) / 2.0},
+                                 {"aspectRatio", 1.0},
+                                 {"znear", 0.01},
+                                 {"zfar", 100.0}};
+    node_of(scene, "camera")["matrix"] = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 6, 0, 1};
+    const Workplace place;
+    const double height = 6.0, top = 1.2;  // of the orange cube at x = -0.8, z = -0.5
+    const auto pixel = [&](double x, double y, double z) {
+        const double scale = 60.0 / (height - y);
+        return fmt::format("pick {:.0f},{:.0f}\n", std::floor(60.0 + scale * x),
+                           std::floor(60.0 + scale * z));
+    };
+    const Played played(scene.write(place),
+                        "wait\n" + pixel(-0.8, top, -0.5) + "state cube.json\n" +
+                            pixel(1.5, 0.0, 1.5) + "state slab.json\n" + "pick 1,1\n" +
+                            "state nothing.json\n",
+                        {"--sky", "100,100,100"});
+    const Json cube = played.state("cube.json")["picked"];
+    EXPECT_EQ(cube["name"], "orange cube");
+    EXPECT_EQ(cube["material"], "orange cube");
+    EXPECT_EQ(cube["movable"], true);
+    EXPECT_NEAR(cube["place"][0], -0.8, 0.1);
+    EXPECT_NEAR(cube["place"][1], top, 1e-4);
+    EXPECT_NEAR(cube["place"][2], -0.5, 0.1);
+    EXPECT_NEAR(cube["normal"][1], 1.0, 1e-5);
+    // Nothing stands above it: it has all of the light of the sky, π L.
+    EXPECT_NEAR(cube["lumel"]["illuminance_lx"], std::acos(-1.0) * 100.0, 1.0);
+    const Json slab = played.state("slab.json");
+    EXPECT_EQ(slab["picked"]["name"], "slab");
+    EXPECT_EQ(slab["picked"]["movable"], false);
+    // What a diffuse surface sends of it: L = ρ H / π.
+    EXPECT_NEAR(slab["pixel"]["luminance_cd_m2"].get<double>(),
+                (0.2126 * 0.7 + 0.7152 * 0.68 + 0.0722 * 0.65) / std::acos(-1.0) *
+                    slab["pixel"]["illuminance_lx"].get<double>(),
+                0.01);
+    const Json nothing = played.state("nothing.json");
+    EXPECT_EQ(nothing["picked"], nullptr);
+    EXPECT_EQ(nothing["pixel"]["luminance_cd_m2"], 0.0);
+    EXPECT_EQ(nothing["pixel"]["illuminance_lx"], nullptr);
+}
+
+TEST(View, WalkingShowsWhatACameraThereShows)
+{
+    const Workplace place;
+    EditedScene scene("cornell-box.gltf");
+    // It looks along +z, with +x to its left.
+    Json& matrix = node_of(scene, "camera")["matrix"];
+    matrix[12] = 0.278 - 0.05;
+    matrix[13] = 0.273 + 0.04;
+    matrix[14] = -0.8 + 0.3;
+    const std::string end = "exposure 1\nwait\npicture a.png\n";
+    const Played there(scene.write(place), end);
+    const Played walked(own_scene("cornell-box.gltf"), "walk 0.3,0.05,0.04\n" + end);
+    const Played stayed(own_scene("cornell-box.gltf"), end);
+    EXPECT_LE(difference(walked.picture("a.png"), there.picture("a.png")).most, 2);
+    EXPECT_GT(difference(stayed.picture("a.png"), there.picture("a.png")).mean, 3.0);
+}
+
+TEST(View, OrbitingAllAroundComesBackAndKeepsWhatIsPickedInPlace)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "eye 0.278,0.3,-0.8\nlook 0.278,0.25,0.28\nwait\npick \"tall block\"\n"
+                        "picture before.png\norbit 40,10\nstate aside.json\npicture aside.png\n"
+                        "orbit -40,-10\npicture after.png\n");
+    EXPECT_LE(difference(played.picture("before.png"), played.picture("after.png")).mean, 0.05);
+    EXPECT_GT(difference(played.picture("before.png"), played.picture("aside.png")).mean, 3.0);
+    const Json aside = played.state("aside.json");
+    const Json &eye = aside["camera"]["eye"], &middle = aside["picked"]["place"];
+    double now = 0.0, then = 0.0;
+    const std::array<double, 3> start = {0.278, 0.3, -0.8};
+    for (std::size_t c = 0; c < 3; ++c) {
+        now += std::pow(eye[c].get<double>() - middle[c].get<double>(), 2);
+        then += std::pow(start[c] - middle[c].get<double>(), 2);
+    }
+    EXPECT_NEAR(std::sqrt(now), std::sqrt(then), 1e-4);
+    EXPECT_GT(eye[1].get<double>(), start[1]);
+}
+
+TEST(View, DeletingAThingShowsWhatIsBehind)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "wait\npick 75,85\nstate before.json\ndelete\nwait\nstate after.json\n"
+                        "pick 75,85\nstate behind.json\npicture gone.png\n");
+    EXPECT_EQ(played.state("before.json")["picked"]["name"], "short block");
+    EXPECT_EQ(played.state("after.json")["picked"], nullptr);
+    const Json behind = played.state("behind.json");
+    EXPECT_EQ(behind["picked"]["name"], "back wall");
+
+    // Light and picture are those of a scene without it, whose lumels lie elsewhere in the map.
+    EditedScene scene("cornell-box.gltf");
+    Json& nodes = scene.json()["scenes"][0]["nodes"];
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (scene.json()["nodes"][nodes[n].get<std::size_t>()]["name"] == "short block") {
+            nodes.erase(n);
+            break;
+        }
+    const Workplace place;
+    const Played without(scene.write(place), "wait\npick 75,85\nstate a.json\npicture a.png\n");
+    EXPECT_NEAR(behind["pixel"]["luminance_cd_m2"].get<double>() /
+                    without.state("a.json")["pixel"]["luminance_cd_m2"].get<double>(),
+                1.0, 0.05);
+    EXPECT_LT(difference(played.picture("gone.png"), without.picture("a.png")).mean, 2.0);
+}
+
+TEST(View, FalseColoursAreThoseOfTheLegendAtTheirIlluminance)
+{
+    std::string script = "wait\nmode irradiance\npicture lux.png\n";
+    const std::array<std::array<int, 2>, 4> pixels = {{{60, 110}, {8, 60}, {60, 40}, {112, 80}}};
+    for (std::size_t k = 0; k < pixels.size(); ++k)
+        script += fmt::format("pick {},{}\nstate {}.json\n", pixels[k][0], pixels[k][1], k);
+    const Played played(own_scene("cornell-box.gltf"), script);
+    const Picture picture = played.picture("lux.png");
+    const Json first = played.state("0.json");
+    const int width = first["picture"]["width"], column = width + 20;  // within the bar
+    ASSERT_GT(picture.width, width);
+    // The bar lies between the margins: where its colours change from row to row.
+    const Colour paper = picture.at(width + 3, 3);
+    int top = picture.height / 2, bottom = top;
+    while (picture.at(column, top - 1) != paper)
+        --top;
+    while (bottom + 1 < picture.height && picture.at(column, bottom + 1) != paper)
+        ++bottom;
+    const double low = first["scale_lx"][0], high = first["scale_lx"][1];
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+        const double lux = played.state(fmt::format("{}.json", k))["pixel"]["illuminance_lx"];
+        const double share = std::log(lux / low) / std::log(high / low);
+        ASSERT_GT(share, 0.0);
+        ASSERT_LT(share, 1.0);
+        const int row = bottom - int(std::lround(share * (bottom - top)));
+        const Colour shown = picture.at(pixels[k][0], pixels[k][1]);
+        const Colour legend = picture.at(column, row);
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(shown[c], legend[c], 3) << k;
+    }
+}
+
+TEST(View, AStopMoreIsTwiceAsBright)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "exposure 0.002\nwait\npick 60,110\npicture one.png\nstate one.json\n"
+                        "ev 1\npicture two.png\nstate two.json\n"
+                        "ev -1\nexposure 0.004\npicture same.png\n"
+                        "exposure auto\nstate auto.json\n");
+    const Json one = played.state("one.json"), two = played.state("two.json");
+    EXPECT_NEAR(one["exposure"]["factor"].get<double>(), 0.002, 1e-9);
+    EXPECT_NEAR(two["exposure"]["factor"].get<double>(), 0.004, 1e-9);
+    EXPECT_EQ(one["pixel"]["luminance_cd_m2"], two["pixel"]["luminance_cd_m2"]);
+    EXPECT_EQ(played.picture("two.png").rgb, played.picture("same.png").rgb);
+    EXPECT_GT(played.picture("two.png").mean(), played.picture("one.png").mean());
+    EXPECT_EQ(played.state("auto.json")["exposure"]["automatic"], true);
+}
+
+TEST(View, AShadowMovesWithTheSun)
+{
+    // The orange cube is 1.2 m high, at x = -0.8, z = -0.5. From the east, at 45 degrees, its
+    // shadow reaches to the west of it; from the west, to the east.
+    const Played played(own_scene("four-cubes.gltf"),
+                        "eye 0,8,0.01\nlook 0,0,0\nwait\n"
+                        "pick 34,33\nstate west_lit.json\n"
+                        "sun 270,45\nwait\nstate west_sun.json\n"
+                        "sun 90,-5\nwait\nstate night.json\n",
+                        {"--sun", "90,45", "--sky", "0,0,0"});
+    const Json shadow = played.state("west_lit.json"), lit = played.state("west_sun.json");
+    ASSERT_EQ(shadow["picked"]["name"], "slab");
+    ASSERT_NEAR(shadow["picked"]["place"][1], 0.0, 1e-3);
+    EXPECT_LT(shadow["picked"]["place"][0], -1.45);
+    EXPECT_GT(shadow["picked"]["place"][0], -2.0);
+    EXPECT_LT(shadow["pixel"]["illuminance_lx"].get<double>(), 2000.0);
+    EXPECT_GT(lit["pixel"]["illuminance_lx"].get<double>(), 30000.0);
+    EXPECT_EQ(lit["sun"]["azimuth"], 270.0);
+    EXPECT_EQ(played.state("night.json")["pixel"]["illuminance_lx"], 0.0);
+}
+
+TEST(View, ATurnedSkyLightsWhatItFaces)
+{
+    // The sun's sky is brightest around the sun; the wall of the cube that faces it has most.
+    const Played played(own_scene("four-cubes.gltf"),
+                        "lamp sun 0\neye 6,0.6,-0.5\nlook -0.8,0.6,-0.5\nwait\n"
+                        "pick 60,36\nstate towards.json\n"
+                        "turn-sky 180\nwait\nstate away.json\nturn-sky 0\nwait\nstate back.json\n",
+                        {"--sun", "90,20"});
+    const double towards = played.state("towards.json")["pixel"]["illuminance_lx"];
+    EXPECT_GT(towards, 2.0 * played.state("away.json")["pixel"]["illuminance_lx"].get<double>());
+    EXPECT_NEAR(played.state("back.json")["pixel"]["illuminance_lx"].get<double>(), towards,
+                1e-3 * towards);
+}
+
+TEST(View, AtRestAfterMovesIsANewSolution)
+{
+    // Where the file has them, things are not moved at all.
+    EditedScene scene("four-cubes.gltf");
+    node_of(scene, "blue cube")["translation"] = {0.7, 0.0, -1.2};
+    const Workplace place;
+    const std::vector<std::string> light = {"--sun", "120,40"};
+    const Played anew(scene.write(place), "exposure 0.0001\nwait\npicture a.png\n", light);
+    const Played moved(own_scene("four-cubes.gltf"),
+                       "exposure 0.0001\nwait\npicture before.png\npick \"blue cube\"\n"
+                       "move 0.5,0,0.7\nframes 2\nmove -0.7,0,-1.3\nturn 30\nturn -30\n"
+                       "wait\npicture a.png\nstate a.json\n",
+                       light);
+    EXPECT_EQ(moved.state("a.json")["light"]["at_rest"], true);
+    EXPECT_LT(difference(moved.picture("a.png"), anew.picture("a.png")).mean, 0.05);
+    EXPECT_GT(difference(moved.picture("before.png"), anew.picture("a.png")).mean, 2.0);
+}
+
+TEST(View, TheAnimationIsWhereTimeHasIt)
+{
+    const Workplace place;
+    const Outcome played =
+        run_lumel({"play", own_scene("turning-box.gltf"), place.path("film"), "--solver", "links",
+                   "--size", "64", "--width", "120", "--fps", "8", "--frames", "4", "--film",
+                   "none", "--exposure", "1"});
+    ASSERT_EQ(played.code, 0) << played.err;
+    const Played viewed(own_scene("turning-box.gltf"),
+                        "exposure 1\nwait\ntime 0.375\nwait\npicture a.png\n");
+    const Picture picture = viewed.picture("a.png");
+    const auto frame = [&](int number) {
+        return read_picture(place.path(fmt::format("film/frame-000{}.png", number)));
+    };
+    EXPECT_LT(difference(picture, frame(4)).mean, 0.2);
+    EXPECT_GT(difference(picture, frame(1)).mean, 2.0);
+}
+
+TEST(View, PaintAndLumelsAreShown)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "wait\npick 60,30\npaint 0,0,1\nwait\npicture blue.png\n"
+                        "mode lumels\npicture lumels.png\n");
+    const Colour blue = played.picture("blue.png").at(60, 40);
+    EXPECT_EQ(blue[0], 0);
+    EXPECT_GT(blue[2], 20);
+    EXPECT_GT(played.picture("lumels.png").mean(), 30.0);
+}
+
+TEST(View, WrongLinesAreOneSentenceWithTheirNumber)
+{
+    const Workplace place;
+    const std::string scene = own_scene("cornell-box.gltf"), out = place.path("out");
+    const auto play = [&](const std::string& script) {
+        const std::string file = place.file("script.txt", script);
+        return run_lumel({"view", scene, "--script", file, "--headless", "--folder", out, "--size",
+                          "32", "--width", "16"});
+    };
+    for (const auto& [script, words] :
+         std::vector<std::pair<std::string, std::vector<std::string>>>{
+             {"wait\n# a comment\nfly 1\n", {":3", "\"fly\"", "--help"}},
+             {"wait 2\n", {":1", "wait takes nothing", "2"}},
+             {"frames 1.5\n", {":1", "frames takes N", "1.5"}},
+             {"frames 0\n", {":1", "frames takes N"}},
+             {"eye 1,2\n", {":1", "X,Y,Z"}},
+             {"eye 1,2,nan\n", {":1", "X,Y,Z"}},
+             {"dim 1,2\n", {":1", "R,G,B"}},
+             {"lamp light\n", {":1", "NAME"}},
+             {"pick \"tall block\n", {":1", "quote"}},
+             {"mode xray\n", {":1", "lit"}},
+             {"picture a.jpg\n", {":1", "FILE.png"}},
+             {"picture ../a.png\n", {":1", "FILE.png"}},
+             {"state a.json\nstate a.json\n", {":2", "a.json"}},
+             {"picture a.png\nlamp nothing 1\n", {":2", "\"nothing\"", "\"light\""}},
+             {"picture a.png\npick nothing\n", {":2", "nothing"}},
+             {"picture a.png\npick 16,3\n", {":2", "16,3"}},
+             {"picture a.png\nmove 1,0,0\n", {":2", "nothing is picked"}},
+             {"picture a.png\npick floor\nmove 1,0,0\n", {":3", "\"floor\"", "--movable"}},
+             {"picture a.png\npick floor\ndim 2\n", {":3", "\"floor\""}},
+             {"picture a.png\ncamera 1\n", {":2", "camera 1"}},
+             {"picture a.png\nsun 90,45\n", {":2", "--sun"}},
+             {"picture a.png\nturn-sky 90\n", {":2", "sky"}},
+             {"scale 5,5\n", {":1", "scale"}},
+             {"time 1\n", {"has no animation"}}})
+        expect_one_sentence(play(script), 2, words);
+    expect_one_sentence(run_lumel({"view", scene, "--headless"}), 2, {"--script"});
+    expect_one_sentence(run_lumel({"view", scene}), 3, {"--headless"});
+    EXPECT_EQ(place.listing(), std::vector<std::string>{"script.txt"});
+}
+
+TEST(View, ThePageOfTheManualHasEveryCommand)
+{
+    const std::string page = bytes_of(own_scene("../docs/view.md"));
+    const std::string help = run_lumel({"view", "--help"}).out;
+    const std::size_t begin = help.find("Commands of a script");
+    ASSERT_NE(begin, std::string::npos);
+    std::istringstream lines(help.substr(begin));
+    std::string line;
+    std::getline(lines, line);
+    int commands = 0;
+    while (std::getline(lines, line)) {
+        if (line.size() < 3 || line[2] == ' ')
+            continue;
+        ++commands;
+        const std::string word = line.substr(2, line.find(' ', 2) - 2);
+        EXPECT_NE(page.find(fmt::format("`{}", word)), std::string::npos) << word;
+    }
+    EXPECT_GT(commands, 20);
+}
+
+}  // namespace
+}  // namespace lumel::test
