@@ -17,8 +17,8 @@ Wave::Wave()
     for (int y = 0; y + 1 < kSide; ++y)
         for (int x = 0; x + 1 < kSide; ++x) {
             const int first = y * kSide + x;
-            for (const int corner : {first, first + kSide, first + 1, first + 1, first + kSide,
-                                     first + kSide + 1})
+            for (const int corner :
+                 {first, first + kSide, first + 1, first + 1, first + kSide, first + kSide + 1})
                 indices.push_back(std::uint16_t(corner));
         }
 }

@@ -18,8 +18,8 @@ struct Wave {
     std::vector<std::uint16_t> indices;
 
     Wave();
-    /// Accessors 0 to 3: positions, normals, texture coordinates, indices, each over a bufferView of
-    /// its own.
+    /// Accessors 0 to 3: positions, normals, texture coordinates, indices, each over a bufferView
+    /// of its own.
     GltfBuilder plain() const;
 };
 

@@ -102,6 +102,36 @@ TEST(Meshopt, IndicesKeepTheirOrderAndTrianglesTheirCorners)
     expect_twins(plain, triangles.read(), {});
 }
 
+TEST(Meshopt, FiltersEndWithinTheirSteps)
+{
+    const Wave wave;
+    const std::size_t count = wave.positions.size();
+    constexpr int kBits = 15;  // of the mantissa of positions, one of them its sign
+    GltfBuilder builder = coded_wave();
+    std::vector<std::uint32_t> positions(count * 3);
+    meshopt_encodeFilterExp(positions.data(), count, 12, kBits, &wave.positions[0].x);
+    code_view(builder, 0, coded_vertices(positions.data(), count, 12),
+              attributes(count, 12, "EXPONENTIAL"));
+
+    std::vector<glm::vec4> wide;
+    for (const glm::vec3& normal : wave.normals)
+        wide.emplace_back(normal, 0.0f);
+    std::vector<std::int8_t> normals(count * 4);
+    meshopt_encodeFilterOct(normals.data(), count, 4, 8, &wide[0].x);
+    code_view(builder, 1, coded_vertices(normals.data(), count, 4),
+              attributes(count, 4, "OCTAHEDRAL"));
+    builder.json["accessors"][1]["componentType"] = 5120;
+    builder.json["accessors"][1]["normalized"] = true;
+    builder.json["extensionsUsed"].push_back("KHR_mesh_quantization");
+
+    // A vertex with a 1 in it has the exponent of [1, 2): its steps are 2 / 2^14, and it is half of
+    // one away in each of three directions. Normals: half of 1/127 in the octahedron and again in
+    // the decoded bytes, in three directions each, on a face that is slanted by sqrt(3) at most.
+    expect_twins(
+        wave.plain().read(), builder.read(),
+        {.position = 0.87f * 2.0f / 16384.0f, .normal = 2.0f * 1.74f / 127.0f, .texcoord = 0.0f});
+}
+
 TEST(Meshopt, TurnsOfQuaternionsAreThoseThatWereCoded)
 {
     // Read as vertex colours, which are four normalised numbers too.
@@ -184,7 +214,8 @@ TEST(Meshopt, WhatIsWrongIsSaidWithItsPlace)
 
 TEST(Meshopt, AClassroomHasTheObjectsAndTheAreaOfItsPlainFile)
 {
-    const std::string plain = support::data_path("interiors/japanese_classroom/japanese_classroom.glb");
+    const std::string plain =
+        support::data_path("interiors/japanese_classroom/japanese_classroom.glb");
     const std::string packed =
         support::data_path("gltf_conformance/compressed/classroom_meshopt.glb");
     if (!std::filesystem::exists(packed))
@@ -201,7 +232,8 @@ TEST(Meshopt, AClassroomHasTheObjectsAndTheAreaOfItsPlainFile)
                         return glm::vec3(instance.transform *
                                          glm::vec4(p.positions[p.indices[i + k]], 1.0f));
                     };
-                    sum += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+                    sum +=
+                        0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
                 }
         return sum;
     };

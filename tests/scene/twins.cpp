@@ -33,8 +33,8 @@ std::map<std::string, std::vector<Triangle>> triangles_of(const Scene& scene)
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::size_t v = p.indices[i + k];
                     triangle[k].position = glm::vec3(place * glm::vec4(p.positions[v], 1.0f));
-                    triangle[k].normal = p.normals.empty() ? glm::vec3(0.0f)
-                                                           : glm::normalize(turn * p.normals[v]);
+                    triangle[k].normal =
+                        p.normals.empty() ? glm::vec3(0.0f) : glm::normalize(turn * p.normals[v]);
                     triangle[k].texcoord =
                         p.texcoords[0].empty() ? glm::vec2(0.0f) : p.texcoords[0][v];
                 }
