@@ -8,8 +8,11 @@
 #include "scene/baked_lights.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_draco.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_instancing.h"
 #include "scene/gltf_meshopt.h"
+#include "scene/gltf_webp.h"
 #include "scene/split_sides.h"
 
 namespace lumel {
@@ -147,7 +150,10 @@ GltfDocument load_gltf_document(const std::string& path)
     });
     decode_meshopt(document);
     check_buffer_views(document);
+    decode_draco(document);
     check_accessors(document);
+    expand_instances(document);
+    name_webp_images(document);
     return document;
 }
 

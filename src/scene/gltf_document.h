@@ -48,7 +48,7 @@ AccessorData read_accessor(const GltfDocument& document, std::size_t accessor);
 /// Throws Error{input} if it cannot be read or lies outside the scene's folder.
 Bytes read_linked_bytes(const GltfDocument& document, const JsonView& view);
 
-/// The encoded file (PNG, JPEG) of an image. `image`: index into json["images"].
+/// The encoded file (PNG, JPEG, WebP) of an image. `image`: index into json["images"].
 /// Throws Error{input} if it cannot be read or lies outside the scene's folder.
 Bytes read_image_bytes(const GltfDocument& document, std::size_t image);
 

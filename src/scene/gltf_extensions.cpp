@@ -9,10 +9,13 @@ namespace lumel {
 namespace {
 
 /// Read, or without effect on diffuse light, so a file may require them.
-constexpr std::array<std::string_view, 24> kSupported = {
+constexpr std::array<std::string_view, 27> kSupported = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
     "KHR_meshopt_compression",
@@ -44,11 +47,6 @@ void check_extensions(const JsonView& root)
     root.each("extensionsRequired", [](const JsonView& name, std::size_t) {
         if (std::find(kSupported.begin(), kSupported.end(), name.string()) == kSupported.end())
             refuse_extension(name, quoted(name.string()));
-    });
-    root.each("nodes", [](const JsonView& node, std::size_t) {
-        constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-        if (node.extension(kInstancing))
-            refuse_extension(node, kInstancing);
     });
 }
 

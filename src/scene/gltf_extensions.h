@@ -5,8 +5,7 @@
 
 namespace lumel {
 
-/// Throws Error{input} naming the first extension that the file requires and Lumel cannot honour,
-/// or that would change what its nodes show even where it is optional.
+/// Throws Error{input} naming the first extension that the file requires and Lumel cannot honour.
 void check_extensions(const JsonView& root);
 
 /// Refuses an extension that the file needs at this place.

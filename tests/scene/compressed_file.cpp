@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include <draco/compression/expert_encode.h>
+#include <draco/mesh/mesh.h>
+#include <webp/encode.h>
+
 namespace lumel::test {
 
 Wave::Wave()
@@ -37,6 +41,73 @@ GltfBuilder Wave::plain() const
     builder.add_accessor(indices, "SCALAR", 5123, indices.size());
     builder.show(wave_primitive());
     return builder;
+}
+
+namespace {
+
+template <class Vector>
+int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type,
+                  const std::vector<Vector>& values)
+{
+    draco::GeometryAttribute attribute;
+    attribute.Init(type, nullptr, sizeof(Vector) / sizeof(float), draco::DT_FLOAT32, false,
+                   sizeof(Vector), 0);
+    const int id = mesh.AddAttribute(attribute, true, std::uint32_t(values.size()));
+    for (std::uint32_t i = 0; i < values.size(); ++i)
+        mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i]);
+    return id;
+}
+
+Bytes draco_stream(const Wave& wave, const DracoWay& way)
+{
+    draco::Mesh mesh;
+    mesh.set_num_points(std::uint32_t(wave.positions.size()));
+    const int position = add_attribute(mesh, draco::GeometryAttribute::POSITION, wave.positions);
+    const int normal = add_attribute(mesh, draco::GeometryAttribute::NORMAL, wave.normals);
+    add_attribute(mesh, draco::GeometryAttribute::TEX_COORD, wave.texcoords);
+    for (std::size_t i = 0; i < wave.indices.size(); i += 3)
+        mesh.AddFace({draco::PointIndex(wave.indices[i]), draco::PointIndex(wave.indices[i + 1]),
+                      draco::PointIndex(wave.indices[i + 2])});
+    draco::ExpertEncoder encoder(mesh);
+    encoder.SetEncodingMethod(way.edgebreaker ? draco::MESH_EDGEBREAKER_ENCODING
+                                              : draco::MESH_SEQUENTIAL_ENCODING);
+    if (way.position_bits > 0)
+        encoder.SetAttributeQuantization(position, way.position_bits);
+    if (way.normal_bits > 0)
+        encoder.SetAttributeQuantization(normal, way.normal_bits);
+    draco::EncoderBuffer buffer;
+    if (!encoder.EncodeToBuffer(&buffer).ok())
+        return {};
+    return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+}  // namespace
+
+GltfBuilder draco_wave(const DracoWay& way)
+{
+    const Wave wave;
+    GltfBuilder builder = wave.plain();
+    builder.buffer.clear();
+    builder.json.erase("bufferViews");
+    for (Json& accessor : builder.json["accessors"])
+        accessor.erase("bufferView");
+    const Bytes stream = draco_stream(wave, way);
+    const int view = builder.add_view(stream.data(), stream.size());
+    constexpr const char* kDraco = "KHR_draco_mesh_compression";
+    builder.json["meshes"][0]["primitives"][0]["extensions"][kDraco] = {
+        {"bufferView", view}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}};
+    builder.json["extensionsUsed"] = {kDraco};
+    builder.json["extensionsRequired"] = {kDraco};
+    return builder;
+}
+
+Bytes make_webp(int width, int height, const Bytes& rgba)
+{
+    std::uint8_t* file = nullptr;
+    const std::size_t size = WebPEncodeLosslessRGBA(rgba.data(), width, height, width * 4, &file);
+    Bytes bytes(file, file + size);
+    WebPFree(file);
+    return bytes;
 }
 
 }  // namespace lumel::test

@@ -26,4 +26,17 @@ struct Wave {
 /// The primitive of plain().
 Json wave_primitive();
 
+/// How Draco codes the wave.
+struct DracoWay {
+    bool edgebreaker = true;  ///< else vertices and triangles keep their order
+    int position_bits = 0;    ///< 0: exact
+    int normal_bits = 0;
+};
+
+/// The wave with all its data in a Draco stream, bufferView 0.
+GltfBuilder draco_wave(const DracoWay& way);
+
+/// A lossless WebP picture. rgba: [height][width][4].
+Bytes make_webp(int width, int height, const Bytes& rgba);
+
 }  // namespace lumel::test

@@ -223,20 +223,6 @@ TEST(Meshopt, AClassroomHasTheObjectsAndTheAreaOfItsPlainFile)
     const Scene scene = read_gltf(packed);
     ASSERT_FALSE(scene.instances.empty());
     const Scene original = read_gltf(plain);
-    const auto area = [](const Scene& of) {
-        double sum = 0.0;
-        for (const Instance& instance : of.instances)
-            for (const Primitive& p : of.meshes[std::size_t(instance.mesh)].primitives)
-                for (std::size_t i = 0; i < p.indices.size(); i += 3) {
-                    const auto corner = [&](std::size_t k) {
-                        return glm::vec3(instance.transform *
-                                         glm::vec4(p.positions[p.indices[i + k]], 1.0f));
-                    };
-                    sum +=
-                        0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
-                }
-        return sum;
-    };
     EXPECT_EQ(scene.instances.size(), original.instances.size());
-    EXPECT_NEAR(area(scene), area(original), 1e-3 * area(original));
+    EXPECT_NEAR(area_of(scene), area_of(original), 1e-3 * area_of(original));
 }

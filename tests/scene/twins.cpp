@@ -107,6 +107,16 @@ std::size_t alone(const std::vector<Triangle>& from, const std::vector<Triangle>
 
 }  // namespace
 
+double area_of(const Scene& scene)
+{
+    double sum = 0.0;
+    for (const auto& [key, triangles] : triangles_of(scene))
+        for (const Triangle& t : triangles)
+            sum += 0.5 * glm::length(glm::cross(t[1].position - t[0].position,
+                                                t[2].position - t[0].position));
+    return sum;
+}
+
 void expect_twins(const Scene& plain, const Scene& packed, const TwinSteps& steps)
 {
     const auto left = triangles_of(plain), right = triangles_of(packed);

@@ -16,4 +16,7 @@ struct TwinSteps {
 /// twin in the other with the same sense of rotation. Vertices and triangles may be in any order.
 void expect_twins(const Scene& plain, const Scene& packed, const TwinSteps& steps);
 
+/// Area of all that it shows [m²].
+double area_of(const Scene& scene);
+
 }  // namespace lumel::test
