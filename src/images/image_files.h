@@ -1,6 +1,7 @@
 #pragma once
 // EXR, PNG and KTX2 files.
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -38,6 +39,10 @@ void write_png(const std::string& path, const Image& image);
 
 /// The same PNG in memory. Values outside 0…1 are clamped.
 std::vector<unsigned char> encode_png(const Image& image, PngEncoding encoding = PngEncoding::srgb);
+
+/// PNG in memory of 8-bit RGBA as it is [height][width][4], without alpha where all is opaque.
+/// Throws Error{output}.
+std::vector<unsigned char> encode_png(std::span<const std::uint8_t> rgba, int width, int height);
 
 /// How a texel of a KTX2 file holds RGB.
 enum class FloatTexel {

@@ -99,8 +99,6 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
     primitive["indices"] = gather.add_indices(surface.indices, surface.source_vertex.size());
     primitive["material"] = baked.material.value();
     primitive.erase("mode");
-    if (primitive.contains("extensions"))
-        primitive["extensions"].erase("KHR_draco_mesh_compression");
     for_variants(primitive, [&](Json& mapping) {
         mapping["material"] = baked.copies.at(index_of(mapping["material"]));
     });

@@ -9,6 +9,9 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "images/image_files.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_webp.h"
 
 namespace lumel {
 namespace {
@@ -83,6 +86,20 @@ std::string mime_type_of(const Bytes& file)
     return {};
 }
 
+/// The PNG that stands for a WebP picture, which plain glTF does not have; nothing for what is none
+/// or cannot be decoded.
+std::optional<Bytes> plain_picture(const Bytes& file, const std::string& place)
+{
+    if (!is_webp(file))
+        return std::nullopt;
+    try {
+        const Texture texture = decode_webp(file, place);
+        return encode_png(texture.rgba, texture.width, texture.height);
+    } catch (const Error&) {
+        return std::nullopt;  // the scene was read without it, so light does not depend on it
+    }
+}
+
 void append_word(std::vector<std::uint8_t>& out, std::size_t word)
 {
     for (int shift = 0; shift < 32; shift += 8)
@@ -126,11 +143,6 @@ std::set<std::size_t> used_accessors(const Json& json)
             insert_index(sampler, "input", used);
             insert_index(sampler, "output", used);
         }
-    for (const Json& node : list(json, "nodes"))
-        if (const auto extensions = node.find("extensions"); extensions != node.end())
-            for (const auto& [name, extension] : extensions->items())
-                if (extension.is_object())
-                    insert_members(extension, "attributes", used);
     return used;
 }
 
@@ -153,10 +165,32 @@ GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), docu
 
 void GlbBuilder::release()
 {
+    unpack_images();
     free_accessors();
     free_views();
     copy_views();
     embed_images();
+}
+
+void GlbBuilder::unpack_images()
+{
+    const auto images = json.find("images");
+    for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
+        Json& image = (*images)[i];
+        if (!image.contains("bufferView"))
+            continue;
+        const JsonView view(document_.path, image, "/images/" + std::to_string(i));
+        std::optional<Bytes> png;
+        try {
+            png = plain_picture(buffer_view_bytes(document_, view.get("bufferView")), view.place());
+        } catch (const Error&) {
+            continue;  // as below
+        }
+        if (!png)
+            continue;
+        image.erase("bufferView");
+        unpacked_images_[i] = std::move(*png);
+    }
 }
 
 void GlbBuilder::free_accessors()
@@ -204,12 +238,18 @@ void GlbBuilder::embed_images()
     const auto images = json.find("images");
     for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
         Json& image = (*images)[i];
+        if (const auto unpacked = unpacked_images_.find(i); unpacked != unpacked_images_.end()) {
+            image["mimeType"] = "image/png";
+            image["bufferView"] = add_view(unpacked->second, ViewTarget::none);
+        }
         if (!image.contains("uri"))
             continue;
         Bytes file;
         try {
             JsonView view(document_.path, image, "/images/" + std::to_string(i));
             file = read_uri(view.get("uri"), document_.path);
+            if (auto png = plain_picture(file, view.place()))
+                file = std::move(*png);
         } catch (const Error&) {
             continue;  // the scene was read without it, so light does not depend on it
         }

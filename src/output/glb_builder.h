@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <span>
 #include <string>
@@ -46,6 +47,7 @@ public:
     std::vector<std::uint8_t> finish();
 
 private:
+    void unpack_images();
     void free_accessors();
     void free_views();
     void copy_views();
@@ -57,9 +59,10 @@ private:
     const GltfDocument& document_;
     std::vector<std::uint8_t> binary_;
     std::set<std::size_t> free_views_, free_accessors_, free_textures_, free_images_;
+    std::map<std::size_t, Bytes> unpacked_images_;  ///< PNGs, by image
 };
 
-/// Every accessor that meshes, skins, animations and instancing of a glTF refer to.
+/// Every accessor that meshes, skins and animations of a glTF refer to.
 std::set<std::size_t> used_accessors(const Json& json);
 
 /// Images that a texture shows, for itself or by extensions.

@@ -8,7 +8,11 @@
 #include "scene/baked_lights.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
+#include "scene/gltf_draco.h"
 #include "scene/gltf_extensions.h"
+#include "scene/gltf_instancing.h"
+#include "scene/gltf_meshopt.h"
+#include "scene/gltf_webp.h"
 #include "scene/split_sides.h"
 
 namespace lumel {
@@ -80,10 +84,9 @@ Bytes load_buffer(const JsonView& view, const std::string& path, const Bytes* bi
         bytes = read_uri(*uri, path);
     } else if (binary_chunk) {
         bytes = *binary_chunk;
+    } else if (is_fallback(view)) {
+        return bytes;
     } else {
-        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-            if (view.extension(name))
-                refuse_extension(view, name);
         view.fail("has no data: neither a uri nor a GLB chunk");
     }
     if (bytes.size() < length)
@@ -145,8 +148,12 @@ GltfDocument load_gltf_document(const std::string& path)
     root.each("materials", [&](const JsonView& material, std::size_t) {
         check_texture_uses(material, root.count("textures"));
     });
+    decode_meshopt(document);
     check_buffer_views(document);
+    decode_draco(document);
     check_accessors(document);
+    expand_instances(document);
+    name_webp_images(document);
     return document;
 }
 

@@ -12,12 +12,13 @@
 namespace lumel {
 
 /// A .gltf or .glb file whose buffers, bufferViews and accessors are known to be sound: every
-/// reference resolves and every byte that an accessor names is there.
+/// reference resolves and every byte that an accessor names is there. What extensions compress or
+/// repeat is plain: the JSON is that of the plain file, and what is new is at the end of its lists.
 struct GltfDocument {
     std::string path;
-    Json json;  ///< the file's JSON, members in the file's order
-    std::vector<Bytes>
-        buffers;  ///< buffers[i] holds exactly json["buffers"][i]["byteLength"] bytes
+    Json json;                   ///< the file's JSON, members in the file's order
+    std::vector<Bytes> buffers;  ///< buffers[i] holds exactly json["buffers"][i]["byteLength"]
+                                 ///< bytes, or none if only compressed bufferViews named it
 
     JsonView root() const { return {path, json}; }
 };
@@ -47,7 +48,7 @@ AccessorData read_accessor(const GltfDocument& document, std::size_t accessor);
 /// Throws Error{input} if it cannot be read or lies outside the scene's folder.
 Bytes read_linked_bytes(const GltfDocument& document, const JsonView& view);
 
-/// The encoded file (PNG, JPEG) of an image. `image`: index into json["images"].
+/// The encoded file (PNG, JPEG, WebP) of an image. `image`: index into json["images"].
 /// Throws Error{input} if it cannot be read or lies outside the scene's folder.
 Bytes read_image_bytes(const GltfDocument& document, std::size_t image);
 

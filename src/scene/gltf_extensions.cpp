@@ -9,11 +9,16 @@ namespace lumel {
 namespace {
 
 /// Read, or without effect on diffuse light, so a file may require them.
-constexpr std::array<std::string_view, 22> kSupported = {
+constexpr std::array<std::string_view, 27> kSupported = {
     "EXT_lights_ies",
     "EXT_lights_image_based",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_texture_transform",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
@@ -43,17 +48,34 @@ void check_extensions(const JsonView& root)
         if (std::find(kSupported.begin(), kSupported.end(), name.string()) == kSupported.end())
             refuse_extension(name, quoted(name.string()));
     });
-    root.each("nodes", [](const JsonView& node, std::size_t) {
-        constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-        if (node.extension(kInstancing))
-            refuse_extension(node, kInstancing);
-    });
 }
 
 void refuse_extension(const JsonView& place, const std::string& name)
 {
     place.fail("needs the extension " + name +
                ", which is not supported; export the scene without it");
+}
+
+void erase_extension(Json& object, const char* name)
+{
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->is_object())
+        return;
+    extensions->erase(name);
+    if (extensions->empty())
+        object.erase("extensions");
+}
+
+void forget_extension(Json& gltf, const char* name)
+{
+    for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
+        const auto names = gltf.find(key);
+        if (names == gltf.end())
+            continue;
+        names->erase(std::remove(names->begin(), names->end(), name), names->end());
+        if (names->empty())
+            gltf.erase(key);
+    }
 }
 
 bool uses_extension(const JsonView& root, const char* name)

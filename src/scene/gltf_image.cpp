@@ -9,6 +9,7 @@
 #include <stb/stb_image.h>
 
 #include "core/error.h"
+#include "scene/gltf_webp.h"
 
 namespace lumel {
 
@@ -202,10 +203,12 @@ bool jpeg_is_complete(const Bytes& bytes)
 Texture decode_image(const Bytes& bytes, const std::string& place)
 {
     const bool png = is_png(bytes);
-    if (!png && !is_jpeg(bytes))
-        fail(place, "is neither a PNG nor a JPEG image");
+    if (!png && !is_jpeg(bytes) && !is_webp(bytes))
+        fail(place, "is neither a PNG nor a JPEG nor a WebP image");
     if (bytes.size() > INT_MAX)
         fail(place, "is larger than 2 GiB");
+    if (is_webp(bytes))
+        return decode_webp(bytes, place);
 
     // Believe the claimed size only if it can be true, before any memory is taken for it.
     const Claim claim = png ? png_claim(bytes, place) : jpeg_claim(bytes, place);

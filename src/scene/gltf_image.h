@@ -1,5 +1,5 @@
 #pragma once
-// Decoding of PNG, JPEG and Radiance HDR.
+// Decoding of PNG, JPEG, WebP and Radiance HDR.
 
 #include <string>
 
@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// Decodes a PNG or JPEG file to 8-bit RGBA. `place` names the image in messages.
-/// Throws Error{input} if it is neither, broken, cut short, or claims more pixels than
+/// Decodes a PNG, JPEG or WebP file to 8-bit RGBA. `place` names the image in messages.
+/// Throws Error{input} if it is none of them, broken, cut short, or claims more pixels than
 /// 16384 a side or than its bytes can encode.
 Texture decode_image(const Bytes& bytes, const std::string& place);
 

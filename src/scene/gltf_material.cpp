@@ -161,9 +161,9 @@ private:
     {
         const auto source = texture.find("source");
         if (!source) {
-            for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"})
-                if (texture.extension(name))
-                    refuse_extension(texture, name);
+            constexpr const char* kBasis = "KHR_texture_basisu";
+            if (texture.extension(kBasis))
+                refuse_extension(texture, kBasis);
             list_.missing_textures += in_use_;
             return -1;
         }

@@ -5,7 +5,6 @@
 #include "scene/geometry_checks.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_attributes.h"
-#include "scene/gltf_extensions.h"
 
 namespace lumel {
 
@@ -79,30 +78,10 @@ std::vector<std::uint32_t> triangle_list(std::vector<std::uint32_t> corners, Mod
     return list;
 }
 
-/// Draco keeps geometry in its own stream, unless the file also brings plain accessors.
-void check_compression(const GltfDocument& document, const JsonView& view)
-{
-    constexpr const char* kDraco = "KHR_draco_mesh_compression";
-    if (!view.extension(kDraco))
-        return;
-    const JsonView root = document.root();
-    const auto check = [&](const JsonView& reference) {
-        const std::size_t index = reference.index(root.count("accessors"), "accessors");
-        const JsonView accessor = root.get("accessors").at(index);
-        if (!accessor.find("bufferView") && !accessor.find("sparse"))
-            refuse_extension(view, kDraco);
-    };
-    if (const auto indices = view.find("indices"))
-        check(*indices);
-    if (const auto position = view.get("attributes").find("POSITION"))
-        check(*position);
-}
-
 Primitive read_primitive(const GltfDocument& document, const JsonView& view, Mode mode,
                          const std::vector<float>& weights, MeshNotes& notes)
 {
     Primitive primitive;
-    check_compression(document, view);
     read_attributes(document, view, weights, primitive);
     notes.vertices += primitive.positions.size();
     if (notes.vertices > kLargestVertexTotal)

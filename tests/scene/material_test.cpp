@@ -313,13 +313,12 @@ TEST(Materials, ATransmissionTextureIsNotReadWhichIsSaid)
 
 TEST(Materials, TexturesThatNeedAnotherFormatAreRefusedByName)
 {
-    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"}) {
-        GltfBuilder builder = with_black_and_white();
-        builder.json["textures"][0]["extensions"][name]["source"] = 0;
-        EXPECT_EQ(error_of(builder), "") << "the plain source is there";
-        builder.json["textures"][0].erase("source");
-        EXPECT_TRUE(contains(error_of(builder), name));
-    }
+    constexpr const char* kBasis = "KHR_texture_basisu";
+    GltfBuilder builder = with_black_and_white();
+    builder.json["textures"][0]["extensions"][kBasis]["source"] = 0;
+    EXPECT_EQ(error_of(builder), "") << "the plain source is there";
+    builder.json["textures"][0].erase("source");
+    EXPECT_TRUE(contains(error_of(builder), kBasis));
 }
 
 TEST(Materials, ValuesThatMakeNoSenseAreErrors)

@@ -1,0 +1,76 @@
+#include "scene/gltf_webp.h"
+
+#include <cstring>
+
+#include <webp/decode.h>
+
+#include "core/error.h"
+#include "scene/gltf_extensions.h"
+
+namespace lumel {
+
+namespace {
+
+constexpr const char* kWebp = "EXT_texture_webp";
+/// Equal pixels take no bytes at all, so that the bytes alone are no bound: a picture of 4096 x
+/// 4096 may be of any size, and a larger one has these pixels for each byte. Lossy pictures spend
+/// three bits on a block of 16 x 16 pixels.
+constexpr std::uint64_t kFreePixels = std::uint64_t(1) << 24;
+constexpr std::uint64_t kPixelsPerByte = 1024;
+constexpr std::size_t kChannels = 4;
+
+[[noreturn]] void fail(const std::string& place, const std::string& what)
+{
+    throw Error(ErrorKind::input, place, what);
+}
+
+}  // namespace
+
+bool is_webp(const Bytes& bytes)
+{
+    return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+           std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+Texture decode_webp(const Bytes& bytes, const std::string& place)
+{
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
+        fail(place, "is a WebP image without a readable header");
+    if (features.has_animation)
+        fail(place, "is an animated WebP image");
+    const std::uint64_t pixels = std::uint64_t(features.width) * std::uint64_t(features.height);
+    if (pixels > kFreePixels && pixels > kPixelsPerByte * bytes.size())
+        fail(place, "claims " + std::to_string(features.width) + " x " +
+                        std::to_string(features.height) + " pixels, far more than its " +
+                        std::to_string(bytes.size()) + " bytes can be expected to hold");
+
+    Texture texture{features.width, features.height, {}};
+    texture.rgba.resize(std::size_t(pixels) * kChannels);
+    if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), texture.rgba.data(), texture.rgba.size(),
+                            int(std::size_t(texture.width) * kChannels)))
+        fail(place, "cannot be decoded as WebP: it is broken or cut short");
+    return texture;
+}
+
+void name_webp_images(GltfDocument& document)
+{
+    const JsonView root = document.root();
+    root.each("textures", [&](const JsonView& texture, std::size_t) {
+        if (const auto extension = texture.extension(kWebp))
+            if (const auto source = extension->find("source"))
+                source->index(root.count("images"), "images");
+    });
+    if (document.json.contains("textures"))
+        for (Json& texture : document.json["textures"]) {
+            const Json::json_pointer source(std::string("/extensions/") + kWebp + "/source");
+            if (!texture.contains("source") && texture.contains(source)) {
+                Json image = texture[source];
+                texture["source"] = std::move(image);
+            }
+            erase_extension(texture, kWebp);
+        }
+    forget_extension(document.json, kWebp);
+}
+
+}  // namespace lumel
