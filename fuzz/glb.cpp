@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "memory_file.h"
 #include "scene/animation.h"
+#include "scene/probe_places.h"
 #include "scene/scene.h"
 
 namespace lumel::fuzz {
@@ -48,6 +49,7 @@ void read_glb(Input input)
     const MemoryFile file(input);
     Scene scene = read_gltf(file.path());
     check(scene);
+    probe_places(file.path());
     constexpr std::string_view kAnimations = "animations";
     if (std::search(input.begin(), input.end(), kAnimations.begin(), kAnimations.end()) ==
         input.end())

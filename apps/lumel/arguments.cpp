@@ -38,12 +38,13 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error)
 
 std::vector<Command> add_commands(CLI::App& program)
 {
-    return {bake_command(program),       update_command(program),  relight_command(program),
-            why_command(program),        measure_command(program), render_command(program),
-            play_command(program),       view_command(program),    reference_command(program),
-            info_command(program),       compare_command(program), report_command(program),
-            devices_command(program),    methods_command(program), help_command(program),
-            completion_command(program), man_command(program),     options_command(program)};
+    return {bake_command(program),      update_command(program),     relight_command(program),
+            why_command(program),       measure_command(program),    probes_command(program),
+            render_command(program),    play_command(program),       view_command(program),
+            reference_command(program), info_command(program),       compare_command(program),
+            report_command(program),    devices_command(program),    methods_command(program),
+            help_command(program),      completion_command(program), man_command(program),
+            options_command(program)};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "bake/bake.h"
 #include "bake/measure.h"
 #include "bake/play.h"
+#include "bake/probes.h"
 #include "bake/reference.h"
 #include "bake/relight.h"
 #include "bake/render.h"
@@ -89,6 +90,12 @@ struct MeasureArguments {
     Talk talk;
 };
 
+struct ProbesArguments {
+    std::string folder;  ///< of a finished bake
+    ProbesOptions options;
+    Talk talk;
+};
+
 struct InfoArguments {
     std::string scene;
     BakeOptions options;
@@ -121,9 +128,9 @@ struct TextArguments {
 };
 
 using Arguments = std::variant<BakeArguments, UpdateArguments, RelightArguments, WhyArguments,
-                               MeasureArguments, RenderArguments, PlayArguments, ViewArguments,
-                               ReferenceArguments, InfoArguments, CompareArguments, ReportArguments,
-                               DevicesArguments, MethodsArguments, TextArguments>;
+                               MeasureArguments, ProbesArguments, RenderArguments, PlayArguments,
+                               ViewArguments, ReferenceArguments, InfoArguments, CompareArguments,
+                               ReportArguments, DevicesArguments, MethodsArguments, TextArguments>;
 
 /// Reads the command line. Throws Error{input} with one sentence for anything it cannot use.
 Arguments parse_arguments(int count, char** values);

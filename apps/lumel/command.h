@@ -25,6 +25,7 @@ Command update_command(CLI::App& program);
 Command relight_command(CLI::App& program);
 Command why_command(CLI::App& program);
 Command measure_command(CLI::App& program);
+Command probes_command(CLI::App& program);
 Command render_command(CLI::App& program);
 Command play_command(CLI::App& program);
 Command view_command(CLI::App& program);

@@ -20,6 +20,7 @@ int run(const UpdateArguments& arguments);
 int run(const RelightArguments& arguments);
 int run(const WhyArguments& arguments);
 int run(const MeasureArguments& arguments);
+int run(const ProbesArguments& arguments);
 int run(const RenderArguments& arguments);
 int run(const PlayArguments& arguments);
 int run(const ViewArguments& arguments);

@@ -8,7 +8,6 @@
 
 #include "command.h"
 #include "core/error.h"
-#include "core/number.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -17,7 +16,6 @@ namespace {
 
 constexpr const char* kPlacesGroup = "Where to measure";
 constexpr const char* kFilesGroup = "Files";
-constexpr double kFarthest = 1e6;  ///< coordinates that floats still resolve to a decimetre [m]
 constexpr int kLeastSamples = 64, kMostSamples = 1 << 24;
 
 [[noreturn]] void refuse(const std::string& what)
@@ -25,22 +23,9 @@ constexpr int kLeastSamples = 64, kMostSamples = 1 << 24;
     throw Error(ErrorKind::input, "", what);
 }
 
-/// The numbers of "X,Y,Z"; empty if one is none, or is too large.
-std::vector<double> numbers_of(const std::string& text)
-{
-    std::vector<double> numbers;
-    for (const std::string& part : CLI::detail::split(text, ',')) {
-        const auto number = number_of(part);
-        if (!number || std::abs(*number) > kFarthest)
-            return {};
-        numbers.push_back(*number);
-    }
-    return numbers;
-}
-
 MeasurePoint point_of(const std::string& text)
 {
-    const std::vector<double> n = numbers_of(text);
+    const std::vector<double> n = coordinates_of(text);
     if (n.size() != 3 && n.size() != 6)
         refuse(fmt::format("--at: '{}' is not of the form X,Y,Z or X,Y,Z,NX,NY,NZ", text));
     MeasurePoint point{.place = {n[0], n[1], n[2]}};
@@ -53,7 +38,7 @@ MeasurePoint point_of(const std::string& text)
 
 std::array<double, 4> bounds_of(const std::string& text)
 {
-    const std::vector<double> n = numbers_of(text);
+    const std::vector<double> n = coordinates_of(text);
     if (n.size() != 4 || !(n[0] < n[2]) || !(n[1] < n[3]))
         refuse(fmt::format("--bounds: '{}' is not of the form X0,Z0,X1,Z1 with X0 < X1 and Z0 < Z1",
                            text));

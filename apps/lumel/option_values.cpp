@@ -24,6 +24,18 @@ std::optional<std::int64_t> whole_number_of(const std::string& text)
 
 }  // namespace
 
+std::vector<double> coordinates_of(const std::string& text)
+{
+    std::vector<double> numbers;
+    for (const std::string& part : CLI::detail::split(text, ',')) {
+        const auto number = number_of(part);
+        if (!number || std::abs(*number) > kFarthest)
+            return {};
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
 CLI::Validator whole(std::int64_t low, std::int64_t high)
 {
     const auto check = [low, high](const std::string& text) -> std::string {

@@ -25,6 +25,12 @@ CLI::Validator link_rays();
 /// Accepts finite numbers from `low` to `high`.
 CLI::Validator between(double low, double high);
 
+/// Coordinates that floats still resolve to a decimetre [m].
+inline constexpr double kFarthest = 1e6;
+
+/// The numbers of "X,Y,Z"; empty if one is none, or is beyond kFarthest.
+std::vector<double> coordinates_of(const std::string& text);
+
 /// The bytes of "512M", "2G" or "1.5G"; nothing for what is no such size.
 std::optional<std::uint64_t> bytes_of(const std::string& text);
 

@@ -12,7 +12,6 @@
 #include "bake/memory_plan.h"
 #include "bake/outputs.h"
 #include "bake/sources.h"
-#include "core/log.h"
 #include "lights/direct_light.h"
 #include "live/links_file.h"
 #include "output/folder.h"
@@ -82,12 +81,10 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
     DirectionalLight directional;
     if (options.directional != Directional::none) {
         stages.begin("directional light");
-        if (has_lights(setting.prepared.scene))
-            log_warning("the directional layers say of sky, sun and lamps only how much light they "
-                        "send, as if it came along the normal");
         directional = gather_directional(
-            device, *setting.world, setting.prepared.scene, setting.prepared.lumels, setting.near,
-            solution->irradiance, directional_options(options, solved.shots),
+            device, *setting.world, setting.prepared.scene, setting.prepared.rays,
+            setting.prepared.lumels, setting.near, solution->irradiance,
+            directional_options(options, solved.shots),
             [&](double fraction) { return run.finished && stages.progress(fraction); });
     }
 

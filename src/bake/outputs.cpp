@@ -171,6 +171,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
     if (!written.view)
         folder.outdate(kPreview);
     folder.outdate(kPageFile);
+    folder.outdate(kProbesFile);
     const BakeRecord record = record_of(options, prepared, results, written);
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);

@@ -202,6 +202,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     if (written && !written->view)
         output.outdate(kPreview);
     output.outdate(kPageFile);
+    output.outdate(kProbesFile);
     stages.end();
     if (device)
         device->check_validation();

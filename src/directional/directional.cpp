@@ -4,7 +4,8 @@
 // radiosity B = E + ρH. Shooters are drawn from B and send it once more, as in
 // stochastic.cpp, but receivers keep where it comes from (directional.receive.comp). Close pairs
 // are left out of the shots and taken from the near field (directional.near.comp). Directions go
-// into coefficients by the fit of directional_fit.cpp, about each lumel's normal; at last the
+// into coefficients by the fit of directional_fit.cpp, about each lumel's normal. The light of sky,
+// sun and lamps joins by rays on the host (light_directions.cpp); at last the
 // coefficients are made to give H exactly at that normal, so that the shots' noise is left only in
 // how irradiance changes as the normal is tilted.
 
@@ -17,6 +18,7 @@
 #include "directional/directional.near.comp.h"
 #include "directional/directional.receive.comp.h"
 #include "directional/directional.shared.h"
+#include "directional/light_directions.h"
 #include "nearfield/near_rows.h"
 #include "shooting/lumel_arrays.h"
 #include "shooting/power_pyramid.h"
@@ -197,10 +199,9 @@ private:
     std::uint32_t iteration_ = 0;
 };
 
-void settle_all(DirectionalLight& light, const DirectionalFit& fit, const Scene& scene,
-                const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+void settle_all(DirectionalLight& light, const DirectionalFit& fit,
+                const std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& irradiance)
 {
-    const std::vector<glm::vec3> normals = world_normals(scene, lumels);
     parallel_for(normals.size(), 1024, [&](std::size_t first, std::size_t last) {
         std::vector<glm::vec3> own(light.coefficients.size());
         for (std::size_t i = first; i < last; ++i) {
@@ -245,22 +246,36 @@ std::vector<glm::vec3> world_normals(const Scene& scene, const Lumels& lumels)
 }
 
 DirectionalLight gather_directional(const gpu::Device& device, const World& world,
-                                    const Scene& scene, const Lumels& lumels, const NearField& near,
-                                    const std::vector<glm::vec3>& irradiance,
+                                    const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                                    const NearField& near, const std::vector<glm::vec3>& irradiance,
                                     const DirectionalOptions& options,
                                     const std::function<bool(double)>& go_on)
 {
     const DirectionalFit fit(int(options.kind));
+    // Lights first: their share of the time, about, if there are any.
+    const double share = has_far_lights(scene) ? 0.5 : 0.0;
+    const std::vector<glm::vec3> normals = world_normals(scene, lumels);
+    std::vector<std::vector<glm::vec3>> of_lights(
+        std::size_t(coefficient_count(fit.order())),
+        std::vector<glm::vec3>(lumels.lumels.size(), glm::vec3(0.0f)));
+    if (share > 0.0)
+        add_light_directions(scene, rays, lumels, normals, fit,
+                             {.rule = options.rule, .seed = options.seed}, of_lights,
+                             [&](double done) { return !go_on || go_on(share * done); });
+
     Gathering gathering(device, world, lumels, near, radiosity_of(lumels, irradiance), fit,
                         options);
     while (gathering.sent() < options.shots) {
-        const double fraction = double(gathering.sent()) / double(options.shots);
-        if (go_on && !go_on(fraction) && gathering.sent() >= kShotsBeforeStop)
+        const double done = double(gathering.sent()) / double(options.shots);
+        if (go_on && !go_on(share + (1.0 - share) * done) && gathering.sent() >= kShotsBeforeStop)
             break;
         gathering.shoot();
     }
     DirectionalLight light{gathering.finish(), gathering.sent(), gathering.times()};
-    settle_all(light, fit, scene, lumels, irradiance);
+    for (std::size_t c = 0; c < light.coefficients.size(); ++c)
+        for (std::size_t i = 0; i < normals.size(); ++i)
+            light.coefficients[c][i] += of_lights[c][i];
+    settle_all(light, fit, normals, irradiance);
     return light;
 }
 

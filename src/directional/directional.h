@@ -45,12 +45,13 @@ std::uint64_t directional_shots(std::uint64_t solver_shots);
 /// Unit shading normals of the lumels [N], in the world.
 std::vector<glm::vec3> world_normals(const Scene& scene, const Lumels& lumels);
 
-/// Gathers light from all lumels' radiosity E + ρH, whichever method found `irradiance` [N] [lx].
+/// Gathers light from all lumels' radiosity E + ρH, whichever method found `irradiance` [N] [lx],
+/// and from sky, sun and lamps.
 /// irradiance_at() of a lumel's coefficients at its own normal is its irradiance. `near`: as in
 /// the solve, may be empty. `go_on` is given the fraction done and returns false to stop early.
 DirectionalLight gather_directional(const gpu::Device& device, const World& world,
-                                    const Scene& scene, const Lumels& lumels, const NearField& near,
-                                    const std::vector<glm::vec3>& irradiance,
+                                    const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                                    const NearField& near, const std::vector<glm::vec3>& irradiance,
                                     const DirectionalOptions& options,
                                     const std::function<bool(double)>& go_on = {});
 

@@ -149,6 +149,34 @@ DirectionalFit::DirectionalFit(int order) : order_(order), rows_(kElevations)
     }
 }
 
+/// The same as in directional.glsl.
+std::array<float, kMostCoefficients> DirectionalFit::coefficients_of(const glm::vec3& from,
+                                                                     const glm::vec3& n) const
+{
+    const float z = glm::dot(n, from);
+    const float at = std::clamp(0.5f * z + 0.5f, 0.0f, 1.0f) * float(kElevations - 1);
+    const std::size_t row = std::min(std::size_t(at), std::size_t(kElevations - 2));
+    const FitRow &a = rows_[row], &b = rows_[row + 1];
+    const float part = at - float(row);
+    const auto mixed = [&](float FitRow::*of) { return a.*of + part * (b.*of - a.*of); };
+    const glm::vec3 t = from - z * n;
+    const glm::vec3 u = mixed(&FitRow::along) * n + mixed(&FitRow::across) * t;
+    std::array<float, kMostCoefficients> c{mixed(&FitRow::zero), u.y, u.z, u.x};
+    if (order_ < 2)
+        return c;
+    const float skew = mixed(&FitRow::skew), planar = mixed(&FitRow::planar);
+    const float axial = mixed(&FitRow::axial), even = 0.5f * planar * glm::dot(t, t);
+    const glm::mat3 m = (axial + even) * glm::outerProduct(n, n) +
+                        skew * (glm::outerProduct(n, t) + glm::outerProduct(t, n)) +
+                        planar * glm::outerProduct(t, t) - (axial / 3.0f + even) * glm::mat3(1.0f);
+    c[4] = kY2 * m[0][1];
+    c[5] = kY2 * m[1][2];
+    c[6] = 3.0f * kY20 * m[2][2];
+    c[7] = kY2 * m[0][2];
+    c[8] = kY22 * (m[0][0] - m[1][1]);
+    return c;
+}
+
 void DirectionalFit::match(std::span<glm::vec3> coefficients, const glm::vec3& normal,
                            const glm::vec3& irradiance) const
 {

@@ -7,8 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "core/spherical_harmonics.h"
 #include "directional/directional.shared.h"
-#include "directional/spherical_harmonics.h"
 
 namespace lumel {
 
@@ -21,6 +21,11 @@ public:
     int order() const { return order_; }
     /// [kElevations], for directional.glsl.
     const std::vector<FitRow>& rows() const { return rows_; }
+
+    /// What light of radiance × solid angle 1 from a unit direction adds to the coefficients of a
+    /// lumel of that unit normal; 0 beyond the order.
+    std::array<float, kMostCoefficients> coefficients_of(const glm::vec3& from,
+                                                         const glm::vec3& normal) const;
 
     /// Changes the coefficients [4 or 9] of radiance [cd/m²] as little as possible so that
     /// irradiance_at(coefficients, normal) is `irradiance` [lx].

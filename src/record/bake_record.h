@@ -20,8 +20,8 @@ namespace lumel {
 /// Files of a finished bake that are read again.
 inline constexpr const char *kReportFile = "report.json", *kSceneFile = "scene.glb",
                             *kSolutionFile = "solution.exr", *kPreview = "preview.png";
-/// What lumel report makes of them, stale once they are others.
-inline constexpr const char* kPageFile = "report.html";
+/// What lumel report and lumel probes make of them, stale once they are others.
+inline constexpr const char *kPageFile = "report.html", *kProbesFile = "probes.json";
 
 /// What the side of the texture of scene-baked.glb is limited to, unless another is asked for or
 /// the lightmap is larger [texels].

@@ -12,14 +12,26 @@ std::optional<JsonView> object_in(const JsonView& parent, const char* key)
     return found && found->json().is_object() ? found : std::nullopt;
 }
 
+/// extras.lumel.KEY
+std::optional<JsonView> own_in_extras(const JsonView& object, const char* key)
+{
+    const auto extras = object_in(object, "extras");
+    const auto own = extras ? object_in(*extras, "lumel") : std::nullopt;
+    return own ? own->find(key) : std::nullopt;
+}
+
 }  // namespace
 
 float density_in_extras(const JsonView& object)
 {
-    const auto extras = object_in(object, "extras");
-    const auto own = extras ? object_in(*extras, "lumel") : std::nullopt;
-    const auto density = own ? own->find("texels_per_metre") : std::nullopt;
+    const auto density = own_in_extras(object, "texels_per_metre");
     return density ? float(density->number(kLeast, kMost)) : 0.0f;
+}
+
+bool is_probe_in_extras(const JsonView& node)
+{
+    const auto probe = own_in_extras(node, "probe");
+    return probe && probe->boolean();
 }
 
 }  // namespace lumel

@@ -9,4 +9,8 @@ namespace lumel {
 /// has none. Throws Error{input} if it is not a positive number.
 float density_in_extras(const JsonView& object);
 
+/// extras.lumel.probe of a node: is a light probe wanted there? Throws Error{input} if it is
+/// neither true nor false.
+bool is_probe_in_extras(const JsonView& node);
+
 }  // namespace lumel

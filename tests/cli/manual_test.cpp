@@ -12,9 +12,9 @@
 namespace lumel::test {
 namespace {
 
-const std::array kCommands = {"bake",    "update",  "relight", "why",       "measure",   "report",
-                              "render",  "play",    "view",    "reference", "info",      "compare",
-                              "devices", "methods", "help",    "man",       "completion"};
+const std::array kCommands = {"bake",    "update",  "relight", "why",  "measure",   "probes",
+                              "report",  "render",  "play",    "view", "reference", "info",
+                              "compare", "devices", "methods", "help", "man",       "completion"};
 
 /// What a shell command prints on both of its streams, and how it ends.
 Outcome run_shell(const std::string& command)

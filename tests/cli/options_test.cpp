@@ -89,6 +89,10 @@ TEST(Options, EveryMistakeIsOneSentenceAndExitCode2)
         {{"info", scene, "--ies", "lamp"}, {"--ies", "LIGHT=FILE"}},
         {{"info", scene, "--ies", "lamp=file.ies"}, {"--ies", "lamp"}},
         {{"reference", scene, "out", "--only", "some"}, {"--only", "some", "indirect"}},
+        {{"probes", "out", "--spacing", "0"}, {"--spacing"}},
+        {{"probes", "out", "--bounds", "0,0,0,1,1,1"}, {"--bounds", "--spacing"}},
+        {{"probes", "out", "--spacing", "1", "--bounds", "0,0,0,1,1,0"}, {"--bounds", "Z0 < Z1"}},
+        {{"probes", "out", "--at", "1,2"}, {"--at", "X,Y,Z"}},
         {{"compare", "one.exr"}, {"B"}},
         {{"info"}, {"scene"}},
     };
@@ -137,8 +141,8 @@ TEST(Options, OptionsPageHoldsEveryOptionThatHelpLists)
 {
     const std::string page = run_lumel({"options"}).out;
     for (const char* command :
-         {"bake", "update", "relight", "why", "measure", "render", "play", "reference", "info",
-          "compare", "devices", "methods", "help", "man", "completion"}) {
+         {"bake", "update", "relight", "why", "measure", "probes", "render", "play", "reference",
+          "info", "compare", "devices", "methods", "help", "man", "completion"}) {
         const std::string help = run_lumel({command, "--help"}).out;
         for (std::size_t at = help.find("\n  --"); at != std::string::npos;
              at = help.find("\n  --", at + 1)) {

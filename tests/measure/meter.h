@@ -5,6 +5,7 @@
 
 #include "../support/box_lumels.h"
 #include "measure/light_meter.h"
+#include "measure/light_probe.h"
 
 namespace lumel::test {
 
@@ -33,6 +34,14 @@ public:
         const LightMeter meter(made_.scene, rays, atlas_, made_.lumels, irradiance_,
                                {.samples = samples, .seed = seed});
         return meter.read(point, 0);
+    }
+
+    ProbeLight probe(const glm::vec3& position, std::uint32_t samples = kManyRays) const
+    {
+        const RayScene rays(made_.scene);
+        const LightProbe probe(made_.scene, rays, atlas_, made_.lumels, irradiance_,
+                               {.samples = samples});
+        return probe.read(position, 0);
     }
 
 private:

@@ -1,6 +1,6 @@
-#include "directional/spherical_harmonics.h"
+#include "core/spherical_harmonics.h"
 
-#include "directional/directional.shared.h"
+#include "core/harmonics.shared.h"
 
 namespace lumel {
 

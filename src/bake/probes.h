@@ -1,0 +1,44 @@
+#pragma once
+// lumel probes: the light in the air of a finished bake, as spherical harmonics.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "bake/bake.h"
+#include "measure/light_probe.h"
+#include "measure/probe_grid.h"
+#include "scene/probe_places.h"
+
+namespace lumel {
+
+/// Beside the probes that the scene names itself.
+struct ProbesOptions {
+    double spacing = 0.0;                         ///< of a grid [m]; 0: none
+    std::optional<std::array<double, 6>> bounds;  ///< of the grid: two corners; else the scene's
+    std::vector<glm::dvec3> places;               ///< in the world [m]
+    std::uint32_t samples = LightProbeOptions{}.samples;
+    std::string file;  ///< JSON to write; empty: kProbesFile in the folder
+};
+
+struct ProbeRow {
+    ProbePlace place;
+    ProbeLight light;
+};
+
+struct ProbesSummary {
+    std::vector<ProbeRow> rows;  ///< those of the grid first
+    std::optional<ProbeGrid> grid;
+    std::size_t inside = 0;  ///< probes inside of things
+    std::string file;        ///< that was written
+    std::string report;      ///< JSON: what it holds
+};
+
+/// Finds the light at probes in a folder that lumel bake wrote. Throws Error.
+ProbesSummary probes(const std::string& folder, const ProbesOptions& options,
+                     const ProgressFunction& progress = {});
+
+}  // namespace lumel

@@ -1,0 +1,109 @@
+// lumel probes, from outside.
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+using Json = nlohmann::json;
+
+void bake(const std::string& scene, const std::string& folder,
+          const std::vector<std::string>& more = {})
+{
+    std::vector<std::string> arguments = {"bake", scene, folder, "--size", "64", "--preview-width",
+                                          "0",    "-q"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_lumel(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+Json probes(const std::string& folder, std::vector<std::string> more)
+{
+    std::vector<std::string> arguments = {"probes", folder, "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_lumel(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(outcome.out);
+}
+
+/// A scene of the project's own with one more node.
+std::string scene_with(const Workplace& place, const std::string& name, const Json& node)
+{
+    Json scene = Json::parse(bytes_of(own_scene(name)));
+    scene["scenes"][0]["nodes"].push_back(scene["nodes"].size());
+    scene["nodes"].push_back(node);
+    return place.file(name, scene.dump());
+}
+
+// 2 √π L with L = B / π and B = E / (1 - ρ), E = 1.
+TEST(Probes, InAFurnaceAreTheSameEverywhereAndKnowNoDirection)
+{
+    const Workplace place;
+    const std::string folder = place.path("out");
+    bake(own_scene("furnace-0.5.gltf"), folder, {"--error", "0.2"});
+    const Json file = probes(folder, {"--spacing", "0.4"});
+    EXPECT_EQ(file["grid"]["counts"], Json({2, 2, 2}));
+    ASSERT_EQ(file["probes"].size(), 8u);
+    const double expected = 2.0 / std::sqrt(std::numbers::pi) * 2.0;
+    for (const Json& probe : file["probes"]) {
+        EXPECT_FALSE(probe["inside"]);
+        ASSERT_EQ(probe["coefficients"].size(), 27u);
+        for (std::size_t i = 0; i < 27; ++i)
+            EXPECT_NEAR(probe["coefficients"][i].get<double>(), i < 3 ? expected : 0.0,
+                        0.02 * expected);
+    }
+    EXPECT_EQ(file["probes"][1]["position"][0].get<double>() -
+                  file["probes"][0]["position"][0].get<double>(),
+              0.4);
+    EXPECT_EQ(Json::parse(bytes_of(folder + "/probes.json")), file);
+    // The same rays each time.
+    EXPECT_EQ(probes(folder, {"--spacing", "0.4"}), file);
+    // They are of this bake, not of the next.
+    bake(own_scene("furnace-0.5.gltf"), folder, {"--error", "0.2"});
+    EXPECT_EQ(bytes_of(folder + "/probes.json"), "");
+}
+
+TEST(Probes, StandWhereNodesOfTheFileSay)
+{
+    const Workplace place;
+    const std::string scene = scene_with(place, "cornell-box.gltf",
+                                         {{"name", "sofa"},
+                                          {"translation", {0.3, 0.4, 0.1}},
+                                          {"extras", {{"lumel", {{"probe", true}}}}}});
+    bake(scene, place.path("out"), {"--shots", "64"});
+    const std::string elsewhere = place.path("mine.json");
+    const Json file =
+        probes(place.path("out"), {"--at", "0.186,0.08,0.168", "--output", elsewhere});
+    EXPECT_FALSE(file.contains("grid"));
+    ASSERT_EQ(file["probes"].size(), 2u);
+    EXPECT_EQ(file["probes"][0]["name"], "sofa");
+    EXPECT_NEAR(file["probes"][0]["position"][1].get<double>(), 0.4, 1e-6);
+    EXPECT_GT(file["probes"][0]["coefficients"][0].get<double>(), 0.0);
+    // The other is in the short block.
+    EXPECT_TRUE(file["probes"][1]["inside"]);
+    EXPECT_FALSE(file["probes"][1].contains("coefficients"));
+    EXPECT_EQ(Json::parse(bytes_of(elsewhere)), file);
+}
+
+TEST(Probes, NeedAPlaceAndExtrasThatSayYesOrNo)
+{
+    const Workplace place;
+    bake(own_scene("furnace-0.5.gltf"), place.path("out"), {"--shots", "64"});
+    expect_one_sentence(run_lumel({"probes", place.path("out")}), 2, {"--spacing", "--at"});
+    expect_one_sentence(run_lumel({"probes", place.path("out"), "--spacing", "1e-5"}), 2,
+                        {"--spacing", "million"});
+    expect_one_sentence(run_lumel({"probes", place.path("none"), "--spacing", "1"}), 2, {"none"});
+    const std::string scene =
+        scene_with(place, "furnace-0.5.gltf", {{"extras", {{"lumel", {{"probe", "yes"}}}}}});
+    bake(scene, place.path("yes"), {"--shots", "64"});
+    expect_one_sentence(run_lumel({"probes", place.path("yes")}), 2, {"extras/lumel/probe"});
+}
+
+}  // namespace
+}  // namespace lumel::test
