@@ -15,8 +15,21 @@
 namespace lumel {
 namespace {
 
-const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    kSolutionFile,
-                                              kSceneFile,     "scene-baked.glb", kReportFile};
+std::vector<std::string> files_of_map(const Pages& pages)
+{
+    std::vector<std::string> files;
+    for (const char* ending : {".exr", ".png"})
+        for (int page = 0; page < pages.count; ++page)
+            files.push_back(page_name(pages, page, kLightmapName) + ending);
+    return files;
+}
+
+std::vector<std::string> baked_files(const Pages& pages)
+{
+    std::vector<std::string> files = files_of_map(pages);
+    files.insert(files.end(), {kSolutionFile, kSceneFile, "scene-baked.glb", kReportFile});
+    return files;
+}
 
 std::string file_of(const Scene& scene)
 {
@@ -52,6 +65,7 @@ void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lum
 {
     report.atlas_width = atlas.width;
     report.atlas_height = atlas.height;
+    report.pages = atlas.pages.count;
     report.texels_per_metre = double(atlas.texels_per_metre);
     report.charts = atlas.chart_count;
     report.instances = scene.instances.size();
@@ -137,7 +151,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .keep_lights = options.keep_lights,
                       .lightmap_format = options.lightmap_format,
                       .baked_size = options.baked_size,
-                      .side = prepared.atlas.width,
+                      .pages = prepared.atlas.pages,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),
                       .shots = results.shots,
                       .iterations = results.iterations,
@@ -145,7 +159,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .dark_error = results.dark_error,
                       .interrupted = results.interrupted,
                       .exposure = written.exposure,
-                      .files = kBakedFiles};
+                      .files = baked_files(prepared.atlas.pages)};
     if (written.view)
         record.files.emplace_back(kPreview);
     if (results.relightable)
@@ -170,7 +184,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     baked.scene = file_of(prepared.scene);
     baked.scene_hash = prepared.scene.hash;
     baked.lights = options.lights;
-    baked.side = prepared.atlas.width;
+    baked.pages = prepared.atlas.pages;
     baked.texels_per_metre = double(prepared.atlas.texels_per_metre);
     if (row.solved_anew)
         baked.error = row.residual;
@@ -179,7 +193,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     baked.interrupted = interrupted;
     if (written)
         baked.exposure = written->exposure;
-    baked.files = kBakedFiles;
+    baked.files = baked_files(prepared.atlas.pages);
     if (written && written->view)
         baked.files.emplace_back(kPreview);
     return baked;
@@ -220,7 +234,8 @@ Report reference_report(const BakeOptions& options, const ReferenceOptions& refe
     report.settings["only"] = word_of(reference.parts);
     report.solver = path_tracer_settings(reference.seed);
     report.interrupted = stopped;
-    report.files = {"lightmap.exr", "lightmap.png", kReportFile};
+    report.files = files_of_map(prepared.atlas.pages);
+    report.files.emplace_back(kReportFile);
     return report;
 }
 

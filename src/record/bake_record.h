@@ -42,7 +42,7 @@ struct BakeRecord {
     LightmapFormat lightmap_format = LightmapFormat::ktx2;
     int baked_size = kBakedSize;
 
-    int side = 0;                   ///< of the square atlas [texels]
+    Pages pages;                    ///< of the square atlas
     double texels_per_metre = 0.0;  ///< as laid out
     std::uint64_t shots = 0, iterations = 0;
     double error = -1.0;       ///< estimated relative error, < 0: not known

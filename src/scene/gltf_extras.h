@@ -9,4 +9,8 @@ namespace lumel {
 /// has none. Throws Error{input} if it is not a positive number.
 float density_in_extras(const JsonView& object);
 
+/// extras.lumel.page of a material: the page of the lightmap that shows it, as a bake of several
+/// wrote it; else 0. Throws Error{input} if it is no such number.
+int page_in_extras(const JsonView& material);
+
 }  // namespace lumel
