@@ -70,6 +70,13 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
     app.add_flag(
         "--coarse-afar", atlas.coarse_afar,
         "Fewer texels for what is far from cameras and detail, as the ground around a house");
+    app.add_option(
+           "--pages", atlas.pages,
+           "Most lightmaps of that side to spread over, lightmap-0.exr and so on, where one "
+           "is too small for the density, or to fill where only --size is given")
+        ->type_name("N")
+        ->default_str("1")
+        ->check(whole(1, kMostPages));
     app.add_option("--max-size", atlas.max_size,
                    "Largest side of the atlas; the density is lowered to fit")
         ->type_name("N")

@@ -23,11 +23,12 @@ std::string place_of(const WhyRow& row)
 std::string head_of(const WhySummary& summary)
 {
     return fmt::format(
-        "column {}, row {}: \"{}\" at {:.2f} {:.2f} {:.2f} m gets {:.4g} {:.4g} {:.4g} lx "
+        "{}column {}, row {}: \"{}\" at {:.2f} {:.2f} {:.2f} m gets {:.4g} {:.4g} {:.4g} lx "
         "(rays find {:.4g} {:.4g} {:.4g})\n",
-        summary.texel.x, summary.texel.y, summary.instance, summary.place.x, summary.place.y,
-        summary.place.z, summary.solved.r, summary.solved.g, summary.solved.b, summary.found.r,
-        summary.found.g, summary.found.b);
+        summary.page > 0 ? fmt::format("page {}, ", summary.page) : "", summary.texel.x,
+        summary.texel.y, summary.instance, summary.place.x, summary.place.y, summary.place.z,
+        summary.solved.r, summary.solved.g, summary.solved.b, summary.found.r, summary.found.g,
+        summary.found.b);
 }
 
 /// Widest text of a column.

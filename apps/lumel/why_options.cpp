@@ -38,6 +38,10 @@ void add_place_options(CLI::App& app, WhyOptions& options)
             ->expected(2)
             ->check(whole(0, kLargestAtlas - 1));
     texel->excludes(lumel);
+    app.add_option("--page", options.page, "Of several pages of the lightmap the one that is meant")
+        ->type_name("N")
+        ->default_val(options.page)
+        ->check(whole(0, kMostPages - 1));
     app.callback([&app] {
         if (app.count("--lumel") + app.count("--texel") == 0)
             throw Error(ErrorKind::input, "", "lumel why needs --lumel U,V or --texel X,Y");

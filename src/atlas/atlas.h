@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "atlas/lumel.shared.h"
+#include "atlas/pages.h"
 #include "core/watch.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,7 @@ struct AtlasOptions {
     float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`, or a side of 512 and more
     int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
     int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
+    int pages = 1;                  ///< most maps of that side to use where one is too small
     int gutter = 2;                 ///< empty texels kept between any two charts
     Sides sides = Sides::automatic;
     std::vector<DensityRule> densities;  ///< of two that fit, the later one counts
@@ -55,6 +57,7 @@ struct Surface {
 struct Atlas {
     int width = 0;                  ///< [texels]
     int height = 0;                 ///< [texels]
+    Pages pages;                    ///< that it is written as
     float texels_per_metre = 0.0f;  ///< density where people look and none is set
     std::uint32_t chart_count = 0;
     std::vector<Surface> surfaces;  ///< in order of instance, then primitive

@@ -64,6 +64,12 @@ void check(const Scene& scene, const AtlasOptions& options)
         throw Error(ErrorKind::input, "",
                     fmt::format("a map can have at most {} texels a side and gutters of {}",
                                 kLargestSide, kLargestGutter));
+    if (const Pages most{options.pages, std::max(options.size, options.max_size)};
+        options.pages < 1 || options.pages > kMostPages || most.map_side() > kLargestSide)
+        throw Error(ErrorKind::input, "",
+                    fmt::format("{} pages of {} texels a side are too many: all of them together "
+                                "can have {} a side",
+                                options.pages, most.side, kLargestSide));
     for (const DensityRule& rule : options.densities)
         if (!(rule.texels_per_metre > 0.0f) || !std::isfinite(rule.texels_per_metre))
             throw Error(ErrorKind::input, rule.pattern, "its density must be positive");
@@ -108,11 +114,13 @@ double likely_density(const Scene& scene, const Densities& densities, const Atla
         }
     }
     const double density = options.texels_per_metre > 0.0f ? options.texels_per_metre : 1e30;
+    const bool asked = options.size > 0 || options.texels_per_metre > 0.0f;
+    const double pages = asked ? options.pages : 1;
     const int side = options.size > 0 ? options.size
                      : density < 1e30 ? options.max_size
                                       : std::min(kDefaultSide, options.max_size);
-    const double left = std::max(kLikelyFill - fixed / (double(side) * side), kLeastLeft);
-    return std::min(density, side * std::sqrt(left / std::max(area, 1e-30)));
+    const double left = std::max(kLikelyFill - fixed / (pages * side * side), kLeastLeft);
+    return std::min(density, side * std::sqrt(pages * left / std::max(area, 1e-30)));
 }
 
 /// What lengths a transform makes, rounded: instances that differ only in place share charts.
@@ -162,7 +170,7 @@ void plan_authored(const Scene& scene, std::uint32_t instance_index, const Autho
     }
     const double metres = std::sqrt(world_area(mesh, instance.transform) / report.area);
     plans.extent.push_back(high - low);
-    plans.items.push_back({metres * (high - low), densest(densities)});
+    plans.items.push_back({metres * (high - low), densest(densities), std::uint32_t(first)});
 }
 
 /// Charts for every planned surface that has no layout yet, on all cores.
@@ -215,12 +223,13 @@ Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports,
             plans.surfaces.push_back({i, p, false, nullptr, 0, {}});
     }
     plan_charts(scene, densities, likely_density(scene, densities, options), options.gutter, plans);
-    for (Plan& surface : plans.surfaces) {
+    for (std::uint32_t group = 0; group < plans.surfaces.size(); ++group) {
+        Plan& surface = plans.surfaces[group];
         if (surface.authored)
             continue;
         surface.first_item = std::uint32_t(plans.items.size());
         for (const glm::dvec2& size : surface.layout->chart_size) {
-            plans.items.push_back({size, densities[surface.instance][surface.primitive]});
+            plans.items.push_back({size, densities[surface.instance][surface.primitive], group});
             plans.extent.push_back(size);
         }
     }
@@ -250,8 +259,9 @@ Packing pack_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& r
     plans.items = {{glm::dvec2(std::sqrt(metres / area)), {}}};
     AtlasOptions whole = options;
     whole.gutter = 0;
+    whole.pages = 1;
     Packing packing = pack(plans.items, whole, notes);
-    packing.rectangles[0] = {glm::ivec2(0), glm::ivec2(packing.side)};
+    packing.rectangles[0] = {glm::ivec2(0), glm::ivec2(packing.pages.side)};
     return packing;
 }
 
@@ -479,7 +489,8 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Watch&
         packing = pack_sides(plans, *sheets, both, options, back, atlas.notes);
     }
     tell(watch, kPacked);
-    atlas.width = atlas.height = packing.side;
+    atlas.pages = packing.pages;
+    atlas.width = atlas.height = packing.pages.map_side();
     atlas.texels_per_metre = float(packing.density);
     for (const Plan& surface : plans.surfaces)
         atlas.surfaces.push_back(place(surface, plans, packing));

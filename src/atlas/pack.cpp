@@ -1,9 +1,12 @@
 #include "atlas/pack.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -22,11 +25,14 @@ constexpr int kDefaultSide = 512;      // detail for a room, seconds to minutes 
 constexpr double kDefaultFill = 0.25;  // below this gutters and tiny charts eat a default map
 constexpr int kBisections = 9;         // density to 0.1 per cent
 constexpr double kSideGrowth = 1.02;
+// Shares of pages that are tried: the fuller they are, the fewer are needed, if all then fits.
+constexpr std::array kPageFills = {0.97, 0.92, 0.85, 0.75, 0.6, 0.4};
 
 /// The rectangles to place and the rules for doing so.
 struct Task {
     const std::vector<Rectangle>& rectangles;
     int gutter;
+    int pages = 1;
 
     static glm::ivec2 texels(const Rectangle& rectangle, double density)
     {
@@ -78,16 +84,16 @@ struct Task {
     }
 };
 
-std::optional<Packing> try_pack(const Task& task, double density, int side)
+/// Places some of the rectangles in a square of that side.
+bool pack_page(const Task& task, double density, int side, std::span<const std::uint32_t> chosen,
+               const glm::ivec2& corner, std::vector<PackedRectangle>& placed)
 {
-    if (task.footprint(density) > double(side) * side)
-        return std::nullopt;
-    std::vector<stbrp_rect> rectangles(task.rectangles.size());
+    std::vector<stbrp_rect> rectangles(chosen.size());
     for (std::size_t i = 0; i < rectangles.size(); ++i) {
-        const glm::ivec2 padded = Task::texels(task.rectangles[i], density) + task.gutter;
+        const glm::ivec2 padded = Task::texels(task.rectangles[chosen[i]], density) + task.gutter;
         if (padded.x > side || padded.y > side)
-            return std::nullopt;
-        rectangles[i] = {int(i), padded.x, padded.y, 0, 0, 0};
+            return false;
+        rectangles[i] = {int(chosen[i]), padded.x, padded.y, 0, 0, 0};
     }
     // The packer's own sort does not specify the order of equal items: leave it no choice.
     std::stable_sort(rectangles.begin(), rectangles.end(),
@@ -104,20 +110,67 @@ std::optional<Packing> try_pack(const Task& task, double density, int side)
     };
     if (!packs_with(STBRP_HEURISTIC_Skyline_BL_sortHeight) &&
         !packs_with(STBRP_HEURISTIC_Skyline_BF_sortHeight))
-        return std::nullopt;
-
-    Packing packing{side, density, std::vector<PackedRectangle>(rectangles.size())};
+        return false;
     for (const stbrp_rect& rectangle : rectangles)
-        packing.rectangles[rectangle.id] = {glm::ivec2(rectangle.x, rectangle.y) + task.gutter / 2,
-                                            glm::ivec2(rectangle.w, rectangle.h) - task.gutter};
+        placed[std::size_t(rectangle.id)] = {corner + glm::ivec2(rectangle.x, rectangle.y) +
+                                                 task.gutter / 2,
+                                             glm::ivec2(rectangle.w, rectangle.h) - task.gutter};
+    return true;
+}
+
+/// The rectangles of each page, as few pages as hold them if they are filled so far.
+std::vector<std::vector<std::uint32_t>> deal(const Task& task, double density, int side,
+                                             double fill)
+{
+    std::vector<double> footprints;  // of groups
+    for (const Rectangle& r : task.rectangles) {
+        footprints.resize(std::max(footprints.size(), std::size_t(r.group) + 1), 0.0);
+        const glm::dvec2 padded(Task::texels(r, density) + task.gutter);
+        footprints[r.group] += padded.x * padded.y;
+    }
+    const std::vector<int> page_of_group = deal_to_pages(footprints, fill * side * side);
+    std::vector<std::vector<std::uint32_t>> pages;
+    for (std::uint32_t i = 0; i < task.rectangles.size(); ++i) {
+        const std::size_t page = std::size_t(page_of_group[task.rectangles[i].group]);
+        pages.resize(std::max(pages.size(), page + 1));
+        pages[page].push_back(i);
+    }
+    return pages;
+}
+
+std::optional<Packing> pack_pages(const Task& task, double density, int side,
+                                  const std::vector<std::vector<std::uint32_t>>& dealt)
+{
+    const Pages pages{int(dealt.size()), side};
+    Packing packing{pages, density, std::vector<PackedRectangle>(task.rectangles.size())};
+    for (int page = 0; page < pages.count; ++page)
+        if (!pack_page(task, density, side, dealt[std::size_t(page)], pages.corner(page),
+                       packing.rectangles))
+            return std::nullopt;
     return packing;
+}
+
+std::optional<Packing> try_pack(const Task& task, double density, int side)
+{
+    if (task.footprint(density) > double(task.pages) * side * side)
+        return std::nullopt;
+    if (task.pages == 1) {
+        std::vector<std::uint32_t> all(task.rectangles.size());
+        std::iota(all.begin(), all.end(), 0u);
+        return pack_pages(task, density, side, {all});
+    }
+    for (const double fill : kPageFills)
+        if (const auto dealt = deal(task, density, side, fill); int(dealt.size()) <= task.pages)
+            if (std::optional<Packing> packing = pack_pages(task, density, side, dealt))
+                return packing;
+    return std::nullopt;
 }
 
 /// The densest packing that fits a square of this side, no denser than `limit` [texels/m].
 std::optional<Packing> fill(const Task& task, int side, double limit)
 {
     // Even rounding down cannot bring more than this much of the rectangles into the square.
-    double above = std::min(2.0 * side / std::sqrt(task.area()), limit);
+    double above = std::min(2.0 * side * std::sqrt(task.pages / task.area()), limit);
     if (std::optional<Packing> packing = try_pack(task, above, side))
         return packing;
     // Below `least` every rectangle is a single texel.
@@ -186,21 +239,23 @@ std::optional<Packing> pack_default(const Task& task, int max_side)
 Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& options,
              std::vector<std::string>& notes)
 {
-    const Task task{rectangles, options.gutter};
+    const Task one_page{rectangles, options.gutter},
+        task{rectangles, options.gutter, options.pages};
     const double density = options.texels_per_metre;
     const int side = options.size > 0 ? options.size : options.max_size;
     std::optional<Packing> packing;
     if (options.size == 0 && density > 0.0)
-        packing = grow_to_fit(task, density, options.max_size);
+        packing = grow_to_fit(one_page, density, options.max_size);
     else if (options.size == 0)
-        packing = pack_default(task, options.max_size);
+        packing = pack_default(one_page, options.max_size);
     if (!packing)
         packing = fill(task, side, density > 0.0 ? density : 1e30);
     if (!packing)
         throw_too_small(task, side);
     if (density > 0.0 && packing->density < density)
-        notes.push_back(fmt::format("the map is limited to {} × {} texels: density lowered from "
+        notes.push_back(fmt::format("the map is limited to {}{} × {} texels: density lowered from "
                                     "{:.4g} to {:.4g} texels per metre",
+                                    options.pages > 1 ? fmt::format("{} × ", options.pages) : "",
                                     side, side, density, packing->density));
     if (task.longest_side() == 0.0)  // nothing follows the common density
         packing->density = task.largest_fixed();

@@ -19,6 +19,7 @@ constexpr int kDefaultSide = 512;
 struct Rectangle {
     glm::dvec2 size{0.0};  ///< [m]
     Density density;
+    std::uint32_t group = 0;  ///< rectangles of one group are on one page
 };
 
 struct PackedRectangle {
@@ -27,14 +28,16 @@ struct PackedRectangle {
 };
 
 struct Packing {
-    int side = 0;          ///< of the square [texels]
+    Pages pages;
     double density = 0.0;  ///< of rectangles whose own is neither fixed nor lowered [texels/m]
     std::vector<PackedRectangle> rectangles;
 };
 
 /// Places rectangles with `options.gutter` empty texels between any two, and half as many along
-/// the rim. Each size is rounded to whole texels. Adds to `notes` where
-/// the requested density was not possible. Throws Error{input} if they cannot be made to fit.
+/// the rim of each page. More than one page is used where the density that is asked for needs it,
+/// or to fill maps of `options.size` where none is asked for. Each size is rounded to whole texels.
+/// Adds to `notes` where the requested density was not possible. Throws Error{input} if they cannot
+/// be made to fit.
 Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& options,
              std::vector<std::string>& notes);
 

@@ -31,7 +31,7 @@ FinishedBake::FinishedBake(Files files)
       prepared(
           std::move(files.scene),
           [&](const Scene& scene, const RayScene&, const Watch&) {
-              return written_atlas(scene, solution.side, float(record.texels_per_metre),
+              return written_atlas(scene, record.pages, float(record.texels_per_metre),
                                    solution.charts);
           },
           [&](const Scene&, const RayScene&, Lumels& lumels) {

@@ -24,7 +24,6 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kLightmap = "lightmap";
 constexpr float kLargestHalf = 65504.0f;
 
 /// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
@@ -76,12 +75,33 @@ float write_map(const OutputFolder& folder, const std::string& name, const Image
         {"sceneHash", prepared.scene.hash}, {"software", "lumel " + lumel_version()}};
     if (!directional.empty())
         metadata.merge(directional_metadata());
-    write_exr(folder.path(name + ".exr"), map, half ? Precision::float16 : Precision::float32,
-              metadata, directional);
     if (exposure <= 0.0f)
         exposure = choose_exposure(map);
-    write_png(folder.path(name + ".png"), tone_map(map, exposure));
+    const Pages& pages = prepared.atlas.pages;
+    for (int page = 0; page < pages.count; ++page) {
+        const std::string file = folder.path(page_name(pages, page, name));
+        const Image part = cut_page(pages, page, map);
+        std::vector<Layer> layers;
+        for (const Layer& layer : directional)
+            layers.push_back({layer.name, cut_page(pages, page, layer.image)});
+        write_exr(file + ".exr", part, half ? Precision::float16 : Precision::float32, metadata,
+                  layers);
+        write_png(file + ".png", tone_map(part, exposure));
+    }
     return exposure;
+}
+
+void outdate_other_pages(OutputFolder& folder, const Pages& pages)
+{
+    const auto outdate = [&](const std::string& name) {
+        for (const char* ending : {".exr", ".png"})
+            folder.outdate(name + ending);
+    };
+    if (pages.count > 1)
+        outdate(kLightmapName);
+    const Pages most{kMostPages, pages.side};
+    for (int page = pages.count > 1 ? pages.count : 0; page < kMostPages; ++page)
+        outdate(page_name(most, page, kLightmapName));
 }
 
 namespace {
@@ -111,7 +131,7 @@ Image baked_texture(const BakeOptions& options, const Prepared& prepared, const 
                     const Image& radiance, Stages& stages)
 {
     const int wanted = texture_density(prepared.scene, prepared.atlas);
-    const int scale = std::clamp(options.baked_size / prepared.atlas.width, 1, wanted);
+    const int scale = std::clamp(options.baked_size / prepared.atlas.pages.side, 1, wanted);
     if (scale < wanted)
         stages.tell("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
                     " % of their density, as --baked-size is " +
@@ -144,7 +164,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
     if (picture)
         write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
-    write_map(folder, kLightmap, map, options.half, prepared, stages, written.exposure,
+    write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
     // Where only indirect light is baked, viewers add the direct light of lamps themselves.
@@ -172,6 +192,7 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
         folder.outdate(kPreview);
     folder.outdate(kPageFile);
     folder.outdate(kProbesFile);
+    outdate_other_pages(folder, prepared.atlas.pages);
     const BakeRecord record = record_of(options, prepared, results, written);
     Report facts = bake_report(record, prepared, device, solver, results, stages);
     facts.preview = preview_row(written, prepared.scene);
@@ -190,14 +211,16 @@ BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
                             const ReferenceOptions& reference, const Prepared& prepared,
                             const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
 {
-    const float exposure = write_map(
-        folder, kLightmap, finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance),
-        options.half, prepared, stages);
+    const float exposure =
+        write_map(folder, kLightmapName,
+                  finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance),
+                  options.half, prepared, stages);
     stages.end();
     Report facts = reference_report(options, reference, prepared, stopped, stages);
     facts.exposure = exposure;
     const Json report = to_json(facts);
     write_json(folder.path(kReportFile), report);
+    outdate_other_pages(folder, prepared.atlas.pages);
     folder.commit();
     return {.shots = std::uint64_t(reference.samples_per_lumel),
             .seconds = stages.seconds(),

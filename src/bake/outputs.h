@@ -33,12 +33,16 @@ struct Results {
     DirectionalLight directional;  ///< empty if not asked for
 };
 
-/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking.
+/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking; of
+/// several pages as NAME-0.exr and so on.
 /// exposure of the latter [1/lx], 0: that suits the map. Returns it. Warns of what half precision
 /// cannot hold.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
                 const Prepared& prepared, Stages& stages, float exposure = 0.0f,
                 std::span<const Layer> directional = {});
+
+/// Takes from the folder what a bake with other pages has left there.
+void outdate_other_pages(OutputFolder& folder, const Pages& pages);
 
 /// What write_light() wrote.
 struct WrittenLight {

@@ -54,7 +54,7 @@ Prepared read_world(const std::string& folder, const BakeRecord& baked,
     Scene scene = read_scene((fs::path(folder) / kSceneFile).string(), MaterialModel::diffuse, {});
     scene.hash = baked.scene_hash;  // its vertices are split, its light is the same
     return Prepared(std::move(scene), [&](const Scene& read, const RayScene&, const Watch&) {
-        return written_atlas(read, solution.side, float(baked.texels_per_metre), solution.charts);
+        return written_atlas(read, baked.pages, float(baked.texels_per_metre), solution.charts);
     });
 }
 

@@ -16,8 +16,21 @@
 namespace lumel {
 namespace {
 
-const std::vector<std::string> kBakedFiles = {"lightmap.exr", "lightmap.png",    kSolutionFile,
-                                              kSceneFile,     "scene-baked.glb", kReportFile};
+std::vector<std::string> files_of_map(const Pages& pages)
+{
+    std::vector<std::string> files;
+    for (const char* ending : {".exr", ".png"})
+        for (int page = 0; page < pages.count; ++page)
+            files.push_back(page_name(pages, page, kLightmapName) + ending);
+    return files;
+}
+
+std::vector<std::string> baked_files(const Pages& pages)
+{
+    std::vector<std::string> files = files_of_map(pages);
+    files.insert(files.end(), {kSolutionFile, kSceneFile, "scene-baked.glb", kReportFile});
+    return files;
+}
 
 std::string file_of(const Scene& scene)
 {
@@ -53,6 +66,7 @@ void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lum
 {
     report.atlas_width = atlas.width;
     report.atlas_height = atlas.height;
+    report.pages = atlas.pages.count;
     report.texels_per_metre = double(atlas.texels_per_metre);
     report.charts = atlas.chart_count;
     report.instances = scene.instances.size();
@@ -139,7 +153,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .lightmap_format = options.lightmap_format,
                       .baked_size = options.baked_size,
                       .keep_links = options.keep_links,
-                      .side = prepared.atlas.width,
+                      .pages = prepared.atlas.pages,
                       .texels_per_metre = double(prepared.atlas.texels_per_metre),
                       .shots = results.shots,
                       .iterations = results.iterations,
@@ -147,7 +161,7 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
                       .dark_error = results.dark_error,
                       .interrupted = results.interrupted,
                       .exposure = written.exposure,
-                      .files = kBakedFiles};
+                      .files = baked_files(prepared.atlas.pages)};
     if (written.view)
         record.files.emplace_back(kPreview);
     if (results.relightable)
@@ -174,7 +188,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     baked.scene = file_of(prepared.scene);
     baked.scene_hash = prepared.scene.hash;
     baked.lights = options.lights;
-    baked.side = prepared.atlas.width;
+    baked.pages = prepared.atlas.pages;
     baked.texels_per_metre = double(prepared.atlas.texels_per_metre);
     if (row.solved_anew)
         baked.error = row.residual;
@@ -183,7 +197,7 @@ BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const Updat
     baked.interrupted = interrupted;
     if (written)
         baked.exposure = written->exposure;
-    baked.files = kBakedFiles;
+    baked.files = baked_files(prepared.atlas.pages);
     if (written && written->view)
         baked.files.emplace_back(kPreview);
     if (baked.keep_links > 0)
@@ -226,7 +240,8 @@ Report reference_report(const BakeOptions& options, const ReferenceOptions& refe
     report.settings["only"] = word_of(reference.parts);
     report.solver = path_tracer_settings(reference.seed);
     report.interrupted = stopped;
-    report.files = {"lightmap.exr", "lightmap.png", kReportFile};
+    report.files = files_of_map(prepared.atlas.pages);
+    report.files.emplace_back(kReportFile);
     return report;
 }
 

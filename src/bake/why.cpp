@@ -25,14 +25,31 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPicture = "why.png";
 
-glm::ivec2 texel_of(const WhyOptions& options, int side)
+/// In the whole map.
+glm::ivec2 texel_of(const WhyOptions& options, const Pages& pages)
 {
+    if (options.page >= pages.count)
+        throw Error(ErrorKind::input, "--page",
+                    pages.count == 1
+                        ? "the lightmap has one page, 0"
+                        : fmt::format("the lightmap has {} pages, from 0", pages.count));
+    const glm::ivec2 corner = pages.corner(options.page);
     if (!options.texel)
-        return glm::min(glm::ivec2(options.place * double(side)), glm::ivec2(side - 1));
-    if (glm::any(glm::greaterThanEqual(*options.texel, glm::ivec2(side))))
+        return corner +
+               glm::min(glm::ivec2(options.place * double(pages.side)), glm::ivec2(pages.side - 1));
+    if (glm::any(glm::greaterThanEqual(*options.texel, glm::ivec2(pages.side))))
         throw Error(ErrorKind::input, "--texel",
-                    fmt::format("the lightmap has {} columns and rows, from 0", side));
-    return *options.texel;
+                    fmt::format("the lightmap has {} columns and rows, from 0", pages.side));
+    return corner + *options.texel;
+}
+
+/// As the user counts: --texel X,Y, and --page where there are several.
+std::string name_of(const glm::ivec2& texel, const Pages& pages)
+{
+    const int page = pages.at(glm::vec2(texel));
+    const glm::ivec2 there = texel - pages.corner(page);
+    return fmt::format("{}--texel {},{}", pages.count > 1 ? fmt::format("--page {} ", page) : "",
+                       there.x, there.y);
 }
 
 /// The texel of `shown` that is nearest.
@@ -53,7 +70,7 @@ glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm:
     return best;
 }
 
-std::uint32_t lumel_at(const glm::ivec2& texel, const Lumels& lumels,
+std::uint32_t lumel_at(const glm::ivec2& texel, const Pages& pages, const Lumels& lumels,
                        const std::vector<glm::vec3>& irradiance)
 {
     std::vector<std::uint32_t> shown = shown_lumels(lumels, irradiance);
@@ -67,9 +84,9 @@ std::uint32_t lumel_at(const glm::ivec2& texel, const Lumels& lumels,
     const glm::ivec2 other = nearest(shown, lumels.width, texel);
     throw Error(ErrorKind::input, "",
                 fmt::format("{} column {}, row {} of the lightmap; the nearest place that light "
-                            "can reach is --texel {},{}",
-                            covered ? "other geometry lies on" : "no surface is at", texel.x,
-                            texel.y, other.x, other.y));
+                            "can reach is {}",
+                            covered ? "other geometry lies on" : "no surface is at",
+                            texel.x % pages.side, texel.y % pages.side, name_of(other, pages)));
 }
 
 WhyRow row_of(const Scene& scene, const Sender& sender, double whole)
@@ -110,6 +127,7 @@ std::string report_of(const WhySummary& summary)
     Json json;
     json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
     json["lumel"] = {{"instance", summary.instance},
+                     {"page", summary.page},
                      {"texel", {summary.texel.x, summary.texel.y}},
                      {"place", numbers(summary.place)},
                      {"irradiance", numbers(summary.solved)},
@@ -157,15 +175,17 @@ WhySummary why(const std::string& folder, const WhyOptions& options,
     const FinishedBake bake(folder);
     const Prepared& prepared = bake.prepared;
     const std::vector<glm::vec3>& irradiance = bake.irradiance;
-    const glm::ivec2 texel = texel_of(options, bake.solution.side);
-    const std::uint32_t lumel = lumel_at(texel, prepared.lumels, irradiance);
+    const Pages& pages = prepared.atlas.pages;
+    const glm::ivec2 texel = texel_of(options, pages);
+    const std::uint32_t lumel = lumel_at(texel, pages, prepared.lumels, irradiance);
 
     stages.begin("rays");
     const Senders senders =
         find_senders(prepared.scene, prepared.rays, prepared.atlas, prepared.lumels, irradiance,
                      lumel, {.seed = seed_of(bake.record.solver.method)});
     WhySummary summary = summary_of(prepared, lumel, senders);
-    summary.texel = texel;
+    summary.page = pages.at(glm::vec2(texel));
+    summary.texel = texel - pages.corner(summary.page);
     summary.solved = irradiance[lumel];
     summary.report = report_of(summary);
     if (options.width > 0) {

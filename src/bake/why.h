@@ -14,6 +14,7 @@ namespace lumel {
 struct WhyOptions {
     glm::dvec2 place{0.5};  ///< in the lightmap as TEXCOORD_1 has it: 0…1, from the top left corner
     std::optional<glm::ivec2> texel;  ///< column and row of the lightmap, instead
+    int page = 0;                     ///< of the lightmap that these are in
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     int width = 1280;    ///< of why.png [pixels], 0: none
 };
@@ -30,7 +31,8 @@ struct WhyRow {
 
 struct WhySummary {
     std::string instance;                                 ///< that the lumel belongs to
-    glm::ivec2 texel{0};                                  ///< of the lumel
+    glm::ivec2 texel{0};                                  ///< of the lumel, in its page
+    int page = 0;                                         ///< of the lightmap
     glm::dvec3 place{0.0};                                ///< in the world [m]
     glm::vec3 solved{0.0f};                               ///< H of the bake [lx]
     glm::vec3 found{0.0f};                                ///< Σ light of the rows [lx]

@@ -54,6 +54,7 @@ void drop_told(Json& extras)
         return;
     own->erase("lightmap");
     own->erase("texCoord");
+    own->erase("page");
     if (own->empty())
         extras.erase(kOwnExtras);
 }
@@ -231,17 +232,18 @@ std::set<int> texcoords_read_by(const Json& material)
     return numbers;
 }
 
-std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimitive>& baked)
+std::vector<std::vector<std::size_t>> separate_materials(Json& json,
+                                                         std::vector<BakedPrimitive>& baked)
 {
     const Json originals = json.value("materials", Json::array());
     std::set<std::size_t> taken = materials_in_use(json);
-    std::map<std::tuple<std::optional<std::size_t>, int, bool>, std::size_t> copies;
-    std::vector<std::size_t> all;
+    std::map<std::tuple<std::optional<std::size_t>, int, bool, int>, std::size_t> copies;
+    std::vector<std::vector<std::size_t>> all;
 
     // The first user of a material keeps it, if nothing unbaked needs it as it is.
     const auto copy_of = [&](std::optional<std::size_t> material, const BakedPrimitive& b) {
         const auto [copy, is_new] =
-            copies.try_emplace({material, b.moved_texcoord, b.back.has_value()});
+            copies.try_emplace({material, b.moved_texcoord, b.back.has_value(), b.page});
         if (!is_new)
             return copy->second;
         Json own = material ? originals.at(*material) : Json::object();
@@ -257,7 +259,8 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
             json["materials"].push_back(own);
             copy->second = json["materials"].size() - 1;
         }
-        all.push_back(copy->second);
+        all.resize(std::max(all.size(), std::size_t(b.page) + 1));
+        all[std::size_t(b.page)].push_back(copy->second);
         return copy->second;
     };
     for (BakedPrimitive& b : baked) {
@@ -268,12 +271,13 @@ std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimiti
     return all;
 }
 
-std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& original)
+std::vector<std::size_t> outdated_lightmaps(const Json& json, const Json& original)
 {
     const Json none = Json::array();
     const Json materials = json.value("materials", none), textures = json.value("textures", none);
     std::set<std::size_t> used = lightmap_textures(materials);
     for_texture_uses(materials, [&](const Json& use) { used.insert(index_of(use["index"])); });
+    std::vector<std::size_t> outdated;
     for (const std::size_t old : lightmap_textures(original.value("materials", none))) {
         const std::set<std::size_t> images = images_of(textures.at(old));
         const auto shows_them = [&](const Json& texture) {
@@ -283,9 +287,9 @@ std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& origi
         };
         if (!used.contains(old) && !images.empty() &&
             std::count_if(textures.begin(), textures.end(), shows_them) == 1)
-            return old;
+            outdated.push_back(old);
     }
-    return std::nullopt;
+    return outdated;
 }
 
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,
@@ -296,24 +300,27 @@ void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::s
             {"index", texture}, {"texCoord", 1}, {"intensity", intensity}};
 }
 
-void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials,
-                      const std::string& file)
+void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials, const Pages& pages,
+                      int page)
 {
     for (const std::size_t material : materials) {
         Json& own = extras_of(json["materials"][material])[kOwnExtras];
         if (!own.is_object())
             own = Json::object();
-        own["lightmap"] = file;
+        own["lightmap"] = page_name(pages, page, kLightmapName) + ".exr";
         own["texCoord"] = 1;
+        if (pages.count > 1)
+            own["page"] = page;
     }
 }
 
-void reduce_to_core(Json& json, const std::vector<std::size_t>& materials)
+void reduce_to_core(Json& json, const std::vector<std::vector<std::size_t>>& materials)
 {
-    for (const std::size_t material : materials) {
-        Json& place = json["materials"][material];
-        place = black_material(place);
-    }
+    for (const std::vector<std::size_t>& of_page : materials)
+        for (const std::size_t material : of_page) {
+            Json& place = json["materials"][material];
+            place = black_material(place);
+        }
     erase_extensions(json);
     drop_pointer_channels(json);
     drop_unused_textures(json);

@@ -2,7 +2,6 @@
 // Materials of baked primitives.
 
 #include <cstddef>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,12 +30,13 @@ std::set<int> texcoords_read_by(const Json& material);
 
 /// Gives every baked primitive materials that nothing unbaked uses, copied only where needed,
 /// with their texture coordinates renumbered as the primitive requires. Fills `copies` and
-/// `material` of `baked` and returns all of them. Call after cut_baked_primitives.
-std::vector<std::size_t> separate_materials(Json& json, std::vector<BakedPrimitive>& baked);
+/// `material` of `baked` and returns all of them, page by page. Call after cut_baked_primitives.
+std::vector<std::vector<std::size_t>> separate_materials(Json& json,
+                                                         std::vector<BakedPrimitive>& baked);
 
-/// A texture that only lightmaps of an earlier bake needed, and whose image no other texture
-/// shows; nothing if there is none. Call after separate_materials.
-std::optional<std::size_t> outdated_lightmap(const Json& json, const Json& original);
+/// Textures that only lightmaps of an earlier bake needed, and whose images no other texture
+/// shows. Call after separate_materials.
+std::vector<std::size_t> outdated_lightmaps(const Json& json, const Json& original);
 
 /// Binds the lightmap by MOZ_lightmap. `intensity` [lx]: irradiance of a white texel.
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,
@@ -44,12 +44,12 @@ void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::s
 
 /// Names the map [lx] in the extras of materials, for viewers of a file whose MOZ_lightmap a tool
 /// has dropped.
-void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials,
-                      const std::string& file);
+void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials, const Pages& pages,
+                      int page);
 
 /// Makes the materials black and everything else core glTF: extensions go, and so do textures
 /// and images that are then unused. Call before the builder releases.
-void reduce_to_core(Json& json, const std::vector<std::size_t>& materials);
+void reduce_to_core(Json& json, const std::vector<std::vector<std::size_t>>& materials);
 
 /// Removes all extensions but those that a kept texture needs.
 void erase_extensions(Json& json);

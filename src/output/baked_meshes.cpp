@@ -88,8 +88,9 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
 
     // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
     std::vector<glm::vec2> places;
+    const glm::vec2 corner = glm::vec2(atlas.pages.corner(baked.page));
     for (const glm::vec2& texcoord : surface.texcoord)
-        places.push_back(texcoord / glm::vec2(atlas.width, atlas.height));
+        places.push_back((texcoord - corner) / float(atlas.pages.side));
     const std::size_t place = gather.add_texcoords(places);
     if (!attributes.contains("TEXCOORD_0"))
         attributes["TEXCOORD_0"] = place;
@@ -120,6 +121,7 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
         const Json& nodes = document.json.at("nodes");
         BakedPrimitive baked;
         baked.surface = &surface;
+        baked.page = page_of(atlas.pages, surface);
         if (has_own_back(atlas, surface))
             baked.back = back_of(atlas, surface);
         baked.node = std::size_t(instance.node);

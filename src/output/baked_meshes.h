@@ -22,6 +22,7 @@ struct BakedPrimitive {
     std::size_t node = 0;            ///< index into the file's nodes
     std::size_t mesh = 0;            ///< index into the file's meshes
     std::size_t primitive = 0;       ///< index into that mesh's primitives
+    int page = 0;                    ///< of the map
     int moved_texcoord = kNotMoved;  ///< new number of the old TEXCOORD_1
     std::optional<std::size_t> material;        ///< in the file; after separate_materials: its copy
     std::vector<std::size_t> file_materials;    ///< the same and those of its variants

@@ -16,8 +16,6 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kMapBeside = "lightmap.exr";
-
 // A PNG clips where exposure × irradiance is beyond this: a surface of albedo 0.25 is just below
 // white there. To store more would take its few bits away from everything else.
 constexpr float kLargestExposed = 4.0f;
@@ -68,7 +66,8 @@ void tell_of_lights(Json& gltf, const SceneLights& lights)
     extras_of(gltf["asset"])["lumel"] = std::move(told);
 }
 
-std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale, LightmapFormat format)
+std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
+                         const std::string& name, LightmapFormat format)
 {
     const Image texels = without_alpha(map, 1.0f / scale);
     std::vector<unsigned char> ktx2;
@@ -76,7 +75,7 @@ std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale, Lig
         ktx2 = encode_ktx2(texels, FloatTexel::half);
     if (format == LightmapFormat::rgb9e5)
         ktx2 = encode_ktx2(texels, FloatTexel::shared_exponent);
-    return builder.add_texture("lightmap", encode_png(texels, PngEncoding::linear), ktx2);
+    return builder.add_texture(name, encode_png(texels, PngEncoding::linear), ktx2);
 }
 
 void write(const std::string& path, GlbBuilder& builder)
@@ -103,19 +102,23 @@ try {
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
     cut_baked_primitives(builder.json, baked);
-    const std::vector<std::size_t> materials = separate_materials(builder.json, baked);
-    if (const auto old = outdated_lightmap(builder.json, document.json))
-        builder.retire_texture(*old);
+    const auto materials = separate_materials(builder.json, baked);
+    for (const std::size_t old : outdated_lightmaps(builder.json, document.json))
+        builder.retire_texture(old);
     builder.release();
     tell_of_lights(builder.json, lights);  // what they refer to is no longer seen from now on
 
     place_baked_primitives(builder, baked, atlas);
-    if (lights.format != LightmapFormat::none) {
-        const float scale = lightmap_scale(map, lights.exposure);
-        bind_lightmap(builder.json, materials, add_lightmap(builder, map, scale, lights.format),
-                      scale);
+    const float scale = lightmap_scale(map, lights.exposure);
+    for (std::size_t page = 0; page < materials.size(); ++page) {
+        if (lights.format != LightmapFormat::none)
+            bind_lightmap(builder.json, materials[page],
+                          add_lightmap(builder, cut_page(atlas.pages, int(page), map), scale,
+                                       page_name(atlas.pages, int(page), kLightmapName),
+                                       lights.format),
+                          scale);
+        tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
     }
-    tell_of_lightmap(builder.json, materials, kMapBeside);
     write(path, builder);
 } catch (const Json::exception& error) {
     fail_to_rewrite(scene, error);
@@ -129,14 +132,18 @@ try {
     std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
 
     cut_baked_primitives(builder.json, baked);
-    const std::vector<std::size_t> materials = separate_materials(builder.json, baked);
+    const auto materials = separate_materials(builder.json, baked);
     reduce_to_core(builder.json, materials);
     builder.release();
 
-    const std::vector<unsigned char> png = encode_png(without_alpha(shown, 1.0f));
     place_baked_primitives(builder, baked, atlas);
     erase_extensions(builder.json);
-    bind_emission(builder.json, materials, builder.add_texture("baked light", png));
+    for (std::size_t page = 0; page < materials.size(); ++page) {
+        const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);
+        bind_emission(builder.json, materials[page],
+                      builder.add_texture(page_name(atlas.pages, int(page), "baked light"),
+                                          encode_png(part)));
+    }
     write(path, builder);
 } catch (const Json::exception& error) {
     fail_to_rewrite(scene, error);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "atlas/pages.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "images/image_files.h"
@@ -21,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kReport = "report.json", *kScene = "scene.glb", *kMap = "lightmap.exr";
+constexpr const char *kReport = "report.json", *kScene = "scene.glb";
 constexpr const char* kLightmap = "MOZ_lightmap";
 
 /// Texels go up to this: shared exponents hold 65408, and have all their digits down to 2^-15.
@@ -45,11 +46,29 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
     return builder.finish();
 }
 
-/// lightmap.exr as shared exponents in KTX2, a fourth of its floats, and the irradiance of a texel
-/// of 1 [lx].
-std::pair<std::vector<unsigned char>, float> small_lightmap(const std::string& path)
+/// The pages of a lightmap, beside and below each other as Pages has them.
+Image whole_map(const std::string& folder, const Pages& pages)
 {
-    Image map = read_exr(path);
+    Image map;
+    for (int page = 0; page < pages.count; ++page) {
+        const std::string file = page_name(pages, page, kLightmapName) + ".exr";
+        const Image part = read_exr((fs::path(folder) / file).string());
+        if (pages.count == 1)
+            return part;
+        const Pages read{pages.count, part.width};
+        if (page == 0)
+            map = Image(read.map_side(), read.map_side(), part.channels);
+        if (part.height != part.width || read.map_side() != map.width)
+            throw Error(ErrorKind::input, file, "has another size than the other pages");
+        paste_page(read, page, part, map);
+    }
+    return map;
+}
+
+/// A lightmap as shared exponents in KTX2, a fourth of its floats, and the irradiance of a texel
+/// of 1 [lx].
+std::pair<std::vector<unsigned char>, float> small_lightmap(Image map)
+{
     float brightest = 0.0f;
     for (std::size_t i = 0; i < map.values.size(); ++i)
         if (i % 4 < 3)
@@ -60,13 +79,22 @@ std::pair<std::vector<unsigned char>, float> small_lightmap(const std::string& p
     return {encode_ktx2(map, FloatTexel::shared_exponent), unit};
 }
 
+int pages_in(const std::optional<JsonView>& sizes)
+{
+    const auto pages = sizes ? sizes->find("pages") : std::nullopt;
+    return pages ? int(pages->integer(1, kMostPages)) : 1;
+}
+
 /// What viewer/bakes.js reads.
 Json page_data(const std::string& folder, const std::string& name)
 {
     const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
-    const auto [lightmap, unit] = small_lightmap(in_folder(kMap));
+    const Json report = read_json(in_folder(kReport));
+    const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
+    const auto [lightmap, unit] = small_lightmap(whole_map(folder, pages));
     return {{"name", name},
-            {"report", read_json(in_folder(kReport))},
+            {"report", report},
+            {"pages_across", pages.across()},
             {"glb", packed_text(without_lightmap(in_folder(kScene)))},
             {"lightmap", packed_text(lightmap)},
             {"unit", shortest(unit)}};

@@ -14,6 +14,7 @@ namespace lumel {
 namespace {
 
 constexpr Limits kSides{0.0, 65536.0};  // [texels]
+constexpr Limits kPages{1.0, kMostPages};
 constexpr Limits kDensities{0.0, 1e9};  // [1/m]
 constexpr Limits kCounts{0.0, 1e15};
 constexpr int kMostLinks = 256;  // rays of a lumel that are kept
@@ -34,14 +35,23 @@ void write_densities(const AtlasOptions& options, Json& settings)
 {
     if (options.coarse_afar)
         settings["coarse-afar"] = true;
+    if (options.pages > 1)
+        settings["pages"] = options.pages;
     for (const DensityRule& rule : options.densities)
         settings["density"].push_back(
             {{"name", rule.pattern}, {"texels_per_metre", shortest(rule.texels_per_metre)}});
 }
 
+int pages_of(const JsonView& object)
+{
+    const auto pages = object.find("pages");
+    return pages ? int(pages->integer(std::int64_t(kPages.low), std::int64_t(kPages.high))) : 1;
+}
+
 void read_densities(const JsonView& settings, AtlasOptions& options)
 {
     options.coarse_afar = settings.boolean_or("coarse-afar", false);
+    options.pages = pages_of(settings);
     settings.each("density", [&](const JsonView& rule, std::size_t) {
         options.densities.push_back(
             {rule.get("name").string(),
@@ -113,7 +123,8 @@ Report report_of(const BakeRecord& record)
     write_kept_links(record, report.settings);
     report.lights = light_settings(record.lights);
     report.solver = solver_settings(record.solver);
-    report.atlas_width = report.atlas_height = record.side;
+    report.atlas_width = report.atlas_height = record.pages.map_side();
+    report.pages = record.pages.count;
     report.texels_per_metre = record.texels_per_metre;
     report.shots = record.shots;
     report.iterations = record.iterations;
@@ -138,7 +149,10 @@ BakeRecord record_of(const JsonView& report, const std::string& folder)
     record.solver = solver_options_of(report.get("solver"));
 
     const FieldReader size(report.get("sizes"));
-    size("atlas_width", record.side, kSides);
+    int side = 0;
+    size("atlas_width", side, kSides);
+    record.pages.count = pages_of(report.get("sizes"));
+    record.pages.side = side / record.pages.across();
     size("texels_per_metre", record.texels_per_metre, kDensities);
 
     const JsonView solution = report.get("solution");

@@ -43,7 +43,7 @@ struct BakeRecord {
     int baked_size = kBakedSize;
     std::uint32_t keep_links = 0;  ///< rays of each lumel that are kept, 0: none
 
-    int side = 0;                   ///< of the square atlas [texels]
+    Pages pages;                    ///< of the square atlas
     double texels_per_metre = 0.0;  ///< as laid out
     std::uint64_t shots = 0, iterations = 0;
     double error = -1.0;       ///< estimated relative error, < 0: not known

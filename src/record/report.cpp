@@ -9,7 +9,7 @@ namespace lumel {
 namespace {
 
 // What the numbers in the other files mean.
-Json map_units(bool directional)
+Json map_units(bool directional, int pages)
 {
     Json json = {
         {"length", "m"},
@@ -26,6 +26,9 @@ Json map_units(bool directional)
                       "texel linear, intensity in lx"},
         {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
         {"texture_coordinates", "TEXCOORD_1, (0, 0) at the top left corner"}};
+    if (pages > 1)
+        json["pages"] = "lightmap-0.exr and so on are pages of equal density; "
+                        "extras.lumel.page of a material of scene.glb names its own";
     if (directional)
         json["lightmap.exr, layers sh.i"] =
             "coefficient i = l*l + l + m of incoming radiance [cd/m2], orthonormal real spherical "
@@ -156,6 +159,8 @@ Json sizes(const Report& report)
                      {"lumels", report.lumels},
                      {"buried_lumels", report.buried_lumels},
                      {"pieces", report.pieces}});
+    if (report.pages > 1)
+        json["pages"] = report.pages;
     if (report.near_pairs)
         json["near_field_pairs"] = *report.near_pairs;
     return json;
@@ -212,8 +217,9 @@ Json to_json(const Report& report)
         json["preview"] = preview(*report.preview);
     json["timings"] = timings(report);
     json["memory"] = memory(report);
-    json["units"] =
-        report.picture_width > 0 ? picture_units() : map_units(report.directional_shots > 0);
+    json["units"] = report.picture_width > 0
+                        ? picture_units()
+                        : map_units(report.directional_shots > 0, report.pages);
     json["files"] = report.files;
     json["warnings"] = report.warnings;
     json["notes"] = report.notes;

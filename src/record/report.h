@@ -101,6 +101,7 @@ struct Report {
 
     int atlas_width = 0;   ///< [texels]
     int atlas_height = 0;  ///< [texels]
+    int pages = 1;         ///< equal squares of it, in rows, each a file
     double texels_per_metre = 0.0;
     std::uint64_t charts = 0, lumels = 0, pieces = 0, triangles = 0, instances = 0;
     std::uint64_t buried_lumels = 0;

@@ -3,6 +3,7 @@
 namespace lumel {
 namespace {
 
+constexpr int kMostPages = 256;
 constexpr double kLeast = 1e-6, kMost = 1e9;  // [texels/m]
 
 /// A member that is an object. Extras may be anything.
@@ -32,6 +33,12 @@ bool is_probe_in_extras(const JsonView& node)
 {
     const auto probe = own_in_extras(node, "probe");
     return probe && probe->boolean();
+}
+
+int page_in_extras(const JsonView& material)
+{
+    const auto page = own_in_extras(material, "page");
+    return page ? int(page->integer(0, kMostPages - 1)) : 0;
 }
 
 }  // namespace lumel

@@ -13,4 +13,8 @@ float density_in_extras(const JsonView& object);
 /// neither true nor false.
 bool is_probe_in_extras(const JsonView& node);
 
+/// extras.lumel.page of a material: the page of the lightmap that shows it, as a bake of several
+/// wrote it; else 0. Throws Error{input} if it is no such number.
+int page_in_extras(const JsonView& material);
+
 }  // namespace lumel

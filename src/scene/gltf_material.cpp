@@ -43,6 +43,7 @@ private:
         read_alpha(view, material);
         material.double_sided = view.boolean_or("doubleSided", false);
         material.texels_per_metre = density_in_extras(view);
+        material.lightmap_page = page_in_extras(view);
         read_transmission(view, material);
         return material;
     }

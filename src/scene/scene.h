@@ -59,6 +59,7 @@ struct Material {
     float transmission = 0.0f;
     bool double_sided = false;
     float texels_per_metre = 0.0f;  ///< extras.lumel: density of its lightmap, 0: not set
+    int lightmap_page = 0;          ///< extras.lumel.page, which a bake wrote
 };
 
 /// A triangle list. Vertex arrays keep the order of the file's accessors; empty: absent.

@@ -119,7 +119,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
     : EditedScene(
           std::move(scene_before), std::move(scene_now), solution, baked,
           [&](const Scene& scene, const RayScene&, const Watch&) {
-              return written_atlas(scene, solution.side, float(baked.texels_per_metre),
+              return written_atlas(scene, baked.pages, float(baked.texels_per_metre),
                                    solution.charts);
           },
           false)

@@ -55,6 +55,7 @@ class Room {
 public:
     Room(const Atlas& atlas, int gutter)
         : side_(atlas.width),
+          page_side_(std::max(atlas.pages.side, 1)),
           sums_(std::size_t(side_ + 1) * std::size_t(side_ + 1), 0)
     {
         std::vector<char> taken(std::size_t(side_) * std::size_t(side_), 0);
@@ -70,13 +71,17 @@ public:
                     taken[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
     }
 
-    /// The corner of a free rectangle, or (-1, -1).
+    /// The corner of a free rectangle on one page, or (-1, -1).
     glm::ivec2 find(const glm::ivec2& size) const
     {
+        const auto on_one = [&](int first, int count) {
+            return first / page_side_ == (first + std::max(count, 1) - 1) / page_side_;
+        };
         for (int y = 0; y + size.y <= side_; ++y)
             for (int x = 0; x + size.x <= side_; ++x)
-                if (sums_[at(x + size.x, y + size.y)] + sums_[at(x, y)] ==
-                    sums_[at(x, y + size.y)] + sums_[at(x + size.x, y)])
+                if (on_one(x, size.x) && on_one(y, size.y) &&
+                    sums_[at(x + size.x, y + size.y)] + sums_[at(x, y)] ==
+                        sums_[at(x, y + size.y)] + sums_[at(x + size.x, y)])
                     return {x, y};
         return glm::ivec2(-1);
     }
@@ -108,7 +113,7 @@ private:
                         std::max(last.x - first.x, 0), char(1));
     }
 
-    int side_;
+    int side_, page_side_;
     std::vector<std::uint32_t> sums_;  // [side + 1][side + 1] of taken texels above and left of it
 };
 
@@ -145,11 +150,17 @@ void add_beside(Atlas& atlas, Atlas fresh, int gutter)
     const Extent extent = extent_of(fresh);
     const glm::ivec2 size = extent.high - extent.low;
     glm::ivec2 corner = Room(atlas, gutter).find(size);
+    if (corner.x < 0 && atlas.pages.count > 1)
+        throw Error(
+            ErrorKind::input, "",
+            "what is new does not fit into the pages of the lightmap; bake the scene again");
     if (corner.x < 0) {
         corner = {atlas.width + gutter, 0};
         atlas.width = atlas.height = std::max(corner.x + size.x, std::max(atlas.height, size.y));
+        atlas.pages.side = atlas.width;
         atlas.notes.emplace_back("what is new did not fit, so the map is larger than it was");
     }
+    atlas.pages.count = std::max(atlas.pages.count, atlas.pages.at(glm::vec2(corner)) + 1);
     for (Surface& surface : fresh.surfaces) {
         for (glm::vec2& place : surface.texcoord)
             place += glm::vec2(corner - extent.low);
@@ -164,11 +175,15 @@ void add_beside(Atlas& atlas, Atlas fresh, int gutter)
 
 }  // namespace
 
-Atlas written_atlas(const Scene& scene, int side, float texels_per_metre,
+Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_metre,
                     const StoredCharts& charts)
 {
     Atlas atlas;
-    atlas.width = atlas.height = side;
+    atlas.pages = pages;
+    atlas.width = atlas.height = pages.map_side();
+    if (charts.of_texel.size() != std::size_t(atlas.width) * std::size_t(atlas.height))
+        throw Error(ErrorKind::input, scene.path,
+                    "does not fit the files beside it: their maps have other sizes");
     atlas.texels_per_metre = texels_per_metre;
     for (const std::uint32_t chart : charts.of_texel)
         if (chart != kNoChart)
@@ -180,10 +195,15 @@ Atlas written_atlas(const Scene& scene, int side, float texels_per_metre,
             if (primitive.texcoords[1].empty())
                 throw Error(ErrorKind::input, scene.path,
                             "has no TEXCOORD_1: it is not as lumel bake wrote it");
+            const int page = scene.materials[std::size_t(primitive.material)].lightmap_page;
+            if (page >= pages.count)
+                throw Error(ErrorKind::input, scene.path,
+                            "names a page of the lightmap that it does not have");
+            const glm::vec2 corner(pages.corner(page));
             Surface surface{.instance = i, .primitive = p, .indices = primitive.indices};
             for (std::uint32_t v = 0; v < primitive.positions.size(); ++v) {
                 surface.source_vertex.push_back(v);
-                const glm::vec2 texel = primitive.texcoords[1][v] * float(side);
+                const glm::vec2 texel = corner + primitive.texcoords[1][v] * float(pages.side);
                 surface.texcoord.emplace_back(snapped(texel.x), snapped(texel.y));
             }
             surface.chart = charts_of(surface, atlas, charts);

@@ -17,9 +17,10 @@ struct StoredCharts {
     bool shows_front = false;             ///< as of the atlas
 };
 
-/// The atlas of side × side texels that `scene`, as written by write_scene_glb, has in TEXCOORD_1.
-/// charts: of the same atlas. Throws Error{input} if the scene has no such coordinates.
-Atlas written_atlas(const Scene& scene, int side, float texels_per_metre,
+/// The atlas of these pages that `scene`, as written by write_scene_glb, has in TEXCOORD_1.
+/// charts: of the same atlas. Throws Error{input} if the scene has no such coordinates, or the
+/// charts are of another atlas.
+Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_metre,
                     const StoredCharts& charts);
 
 /// An atlas for the edited scene: what was there before keeps its texels; what is new gets a place

@@ -23,7 +23,7 @@ BakeRecord unusual()
                       .parts = Parts::indirect,
                       .directional = Directional::sh2,
                       .half = true,
-                      .side = 96,
+                      .pages = {4, 48},
                       .texels_per_metre = 12.345678,
                       .shots = 123456,
                       .iterations = 789,
@@ -39,7 +39,7 @@ BakeRecord unusual()
     record.lights.sun_angle = float(glm::radians(0.3));
     record.lights.light_radius = 0.025f;
     record.lights.profiles = {{"bulb", "/lamps/a.ies"}, {"spot", "/lamps/b.ies"}};
-    record.atlas = {.texels_per_metre = 12.3f, .size = 96, .max_size = 1024, .gutter = 3};
+    record.atlas = {.texels_per_metre = 12.3f, .size = 96, .max_size = 1024, .pages = 9, .gutter = 3};
     record.solver.method = DirectionsOptions{.seed = 4294967295u,
                                              .batch = 5,
                                              .rule = SampleRule::centre,
@@ -97,7 +97,7 @@ std::vector<std::string> fields_of(const Json& report)
 TEST(BakeRecord, IsReadBackAsItWasWritten)
 {
     for (const BakeRecord& record :
-         {unusual(), BakeRecord{.scene = "a", .scene_hash = "b", .side = 32}}) {
+         {unusual(), BakeRecord{.scene = "a", .scene_hash = "b", .pages = {1, 32}}}) {
         const Json report = json_of(record);
         // Through text, as in a file.
         EXPECT_EQ(json_of(read(Json::parse(json_text(report)))), report);

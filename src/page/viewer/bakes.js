@@ -11,12 +11,23 @@ async function unpack(text) {
     return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
+// The texture as a material reads it: of several pages, squares of the map in rows, its own.
+function pageOf(material, map) {
+    if (map.pagesAcross === 1) return map.texture;
+    const page = material.userData.lumel.page ?? 0, part = 1 / map.pagesAcross;
+    const texture = map.texture.clone();
+    texture.repeat.set(part, part);
+    texture.offset.set((page % map.pagesAcross) * part, Math.floor(page / map.pagesAcross) * part);
+    texture.updateMatrix();
+    return texture;
+}
+
 // Lights what was baked by its lightmap, and returns it.
 function bindLightmap(scene, map) {
     const lit = [];
     scene.traverse((object) => {
         if (!object.material?.userData.lumel?.lightmap) return;
-        object.material.lightMap = map.texture;
+        object.material.lightMap = pageOf(object.material, map);
         object.material.lightMapIntensity = map.unit; // [lx]
         lit.push(object);
     });
@@ -43,8 +54,8 @@ function firstView(gltf, preview) {
 }
 
 /** One baked folder: its report, its scene with materials that its lightmap lights, and the view it opens with. */
-async function readBake(renderer, { name, report, glb, lightmap, unit }) {
-    const map = await readLightmap(renderer, await unpack(lightmap), unit);
+async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross }) {
+    const map = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
     const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
     makeDiffuse(gltf);
     return {

@@ -19,8 +19,9 @@ function unpacked(word) {
 
 export class Lightmap {
     /** unit: irradiance of a texel of 1. [lx] */
-    constructor(texture, unit) {
+    constructor(texture, unit, pagesAcross) {
         this.unit = unit;
+        this.pagesAcross = pagesAcross;
         this.texture = texture;
         this.width = texture.image.width;
         this.height = texture.image.height;
@@ -54,11 +55,11 @@ export class Lightmap {
 }
 
 /** From the bytes of a KTX2 file with shared exponents. unit: irradiance of a texel of 1. [lx] */
-export async function readLightmap(renderer, bytes, unit) {
+export async function readLightmap(renderer, bytes, unit, pagesAcross) {
     const loader = new KTX2Loader().detectSupport(renderer);
     const texture = await new Promise((done, failed) => loader.parse(bytes, done, failed));
     texture.channel = textureCoordinates;
     texture.minFilter = texture.magFilter = THREE.LinearFilter;
     loader.dispose();
-    return new Lightmap(texture, unit);
+    return new Lightmap(texture, unit, pagesAcross);
 }

@@ -111,6 +111,7 @@ export class Stage {
         this.caster.setFromCamera(new THREE.Vector2(2 * x / width - 1, 1 - 2 * y / height), this.camera);
         const hit = this.caster.intersectObjects(bake.lit, false).find((met) => met.uv1);
         if (!hit) return null;
-        return { bake, place: hit.point, uv: hit.uv1, light: bake.map.sample(hit.uv1.x, hit.uv1.y) };
+        const uv = hit.object.material.lightMap.transformUv(hit.uv1.clone()); // in the whole map
+        return { bake, place: hit.point, uv, light: bake.map.sample(uv.x, uv.y) };
     }
 }
