@@ -74,7 +74,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
     Baked baked = read(folder);
     const std::vector<NamedState> states = read_states(states_path);
     Prepared world(std::move(baked.scene), [&](const Scene& scene, const RayScene&, const Watch&) {
-        return atlas_of(baked.links, scene);
+        return atlas_of(baked.links, scene, baked.record.pages);
     });
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });

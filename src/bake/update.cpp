@@ -170,7 +170,7 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     const EditedScene edit = kept
                                  ? EditedScene(std::move(before), std::move(now), solution, baked,
                                                [&](const Scene& scene, const RayScene&,
-                                                   const Watch&) { return atlas_of(*kept, scene); })
+                                                   const Watch&) { return atlas_of(*kept, scene, baked.pages); })
                                  : EditedScene(std::move(before), std::move(now), solution, baked);
     tell_user(edit.now);
     UpdateRow row = changes_of(edit);

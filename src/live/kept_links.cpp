@@ -33,9 +33,12 @@ void keep_places(const Atlas& atlas, KeptLinks& kept)
         kept.sheets.push_back({surface.texcoord, surface.chart, surface.authored ? 1u : 0u});
 }
 
-Atlas atlas_of(const KeptLinks& kept, const Scene& scene)
+Atlas atlas_of(const KeptLinks& kept, const Scene& scene, const Pages& pages)
 {
+    if (pages.map_side() != int(kept.side))
+        fail_other_scene(scene);
     Atlas atlas;
+    atlas.pages = pages;
     atlas.width = atlas.height = int(kept.side);
     atlas.texels_per_metre = kept.texels_per_metre;
     atlas.chart_count = kept.charts;

@@ -52,7 +52,7 @@ std::uint32_t side_of_rays(std::uint32_t rays);
 void keep_places(const Atlas& atlas, KeptLinks& kept);
 
 /// The atlas whose places were kept. scene: as write_scene_glb wrote it from that atlas.
-/// Throws Error{input} if it has other surfaces.
-Atlas atlas_of(const KeptLinks& kept, const Scene& scene);
+/// pages: that it was written as. Throws Error{input} if it has other surfaces or another size.
+Atlas atlas_of(const KeptLinks& kept, const Scene& scene, const Pages& pages);
 
 }  // namespace lumel
