@@ -250,7 +250,7 @@ public:
     /// Throws Error{input}.
     void add_daylight(const Daylight& daylight);
 
-    std::vector<Instance> instances() const;  ///< those shown
+    std::vector<Instance> instances() const;  ///< those shown, in the world of the scene's file
     std::vector<std::string> lights() const;  ///< names
     /// Index of the first instance of a name. Throws Error{input} if there is none.
     std::uint32_t find_instance(const std::string& name) const;
@@ -380,8 +380,9 @@ public:
     LiveScene(LiveScene&&) noexcept;
     LiveScene& operator=(LiveScene&&) noexcept;
 
-    /// Puts a mover elsewhere (mesh to world); takes effect in update(). Of several moves before
-    /// one update(), the last counts. Turns and shifts only. Throws Error{input}.
+    /// Puts a mover elsewhere (mesh to world, as of Scene::instances()); takes effect in update().
+    /// Of several moves before one update(), the last counts. Turns and shifts only. Throws
+    /// Error{input}.
     void move(std::uint32_t instance, const Mat4& transform);
 
     /// An instance emits, or reflects, `factor` times what the scene says; reflectances are kept
@@ -450,8 +451,9 @@ public:
     LiveLinks(LiveLinks&&) noexcept;
     LiveLinks& operator=(LiveLinks&&) noexcept;
 
-    /// Puts a mover elsewhere (mesh to world); takes effect in update(). Of several moves before
-    /// it is followed, the last counts. Turns and shifts only. Throws Error{input}.
+    /// Puts a mover elsewhere (mesh to world, as of Scene::instances()); takes effect in update().
+    /// Of several moves before it is followed, the last counts. Turns and shifts only. Throws
+    /// Error{input}.
     void move(std::uint32_t instance, const Mat4& transform);
     /// Moves or turns the lamps of that name; what of `place` is not set is as it is. Finds their
     /// light at once. Throws Error{input} if there is none, for positions of directional lights,

@@ -41,6 +41,7 @@ LiveState state_of(const lumel::LiveState& state)
 struct LiveImpl {
     const gpu::Device* device;
     lumel::LiveScene live;
+    std::vector<glm::mat4> given;  ///< [instances] places of the scene
     std::vector<Surface> surfaces;
     LiveState state;
 
@@ -49,6 +50,8 @@ struct LiveImpl {
           live(on, scene, options),
           surfaces(surfaces_of(live.scene(), live.atlas()))
     {
+        for (const lumel::Instance& instance : scene.instances)
+            given.push_back(instance.transform);
     }
 };
 
@@ -67,7 +70,10 @@ LiveScene& LiveScene::operator=(LiveScene&&) noexcept = default;
 void LiveScene::move(std::uint32_t instance, const Mat4& transform)
 {
     translated([&] {
-        const glm::mat4 place = to_glm(transform);
+        const glm::mat4 place = instance < impl_->given.size()
+                                    ? place_in_scene(transform, impl_->given[instance],
+                                                     impl_->live.scene().origin)
+                                    : to_glm(transform);  // which is refused
         if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, "instance " + std::to_string(instance),
                                "is moved to a place that is no number, or too far out");

@@ -101,7 +101,8 @@ void LiveLinks::move(std::uint32_t instance, const Mat4& transform)
         const auto mover = std::find(impl_->movers.begin(), impl_->movers.end(), instance);
         if (mover == impl_->movers.end())
             throw lumel::Error(lumel::ErrorKind::input, name, "is not one that may move");
-        const glm::mat4 place = to_glm(transform), &given = impl_->given[instance];
+        const glm::mat4 &given = impl_->given[instance],
+                        place = place_in_scene(transform, given, impl_->live.scene().origin);
         if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, name,
                                "is moved to a place that is no number, or too far out");

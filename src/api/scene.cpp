@@ -77,7 +77,7 @@ std::vector<Instance> Scene::instances() const
     for (const lumel::Instance& instance : impl_->scene.instances)
         list.push_back({.name = instance.name,
                         .mesh = std::uint32_t(instance.mesh),
-                        .transform = from_glm(instance.transform),
+                        .transform = place_in_file(instance.transform, impl_->scene.origin),
                         .node = instance.node});
     return list;
 }

@@ -40,6 +40,28 @@ glm::mat4 to_glm(const Mat4& m)
     return glm::make_mat4(m.data());
 }
 
+Mat4 place_in_file(const glm::mat4& place, const glm::dvec3& origin)
+{
+    glm::mat4 there = place;
+    there[3] = glm::vec4(glm::dvec4(place[3]) + glm::dvec4(origin, 0.0));
+    return from_glm(there);
+}
+
+glm::mat4 place_in_scene(const Mat4& place, const glm::mat4& given, const glm::dvec3& origin)
+{
+    if (origin == glm::dvec3(0.0))
+        return to_glm(place);
+    const Mat4 start = place_in_file(given, origin);
+    if (place == start)
+        return given;
+    const auto centred = [&](const Mat4& far) {
+        glm::dmat4 near(to_glm(far));
+        near[3] -= glm::dvec4(origin, 0.0);
+        return near;
+    };
+    return glm::mat4(centred(place) * glm::inverse(centred(start)) * glm::dmat4(given));
+}
+
 Mat4 from_glm(const glm::mat4& m)
 {
     Mat4 result;

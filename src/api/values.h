@@ -18,6 +18,11 @@ glm::vec2 to_glm(const Vec2& v);
 glm::vec3 to_glm(const Vec3& v);
 glm::vec4 to_glm(const Vec4& v);
 glm::mat4 to_glm(const Mat4& m);
+/// A place of a scene in the world of its file. origin: of the scene, in that world.
+Mat4 place_in_file(const glm::mat4& place, const glm::dvec3& origin);
+/// A place in the world of the file in the scene's own. given: where the scene has what is placed;
+/// place_in_file() of that is exactly there, though far out floats are coarse.
+glm::mat4 place_in_scene(const Mat4& place, const glm::mat4& given, const glm::dvec3& origin);
 template <class T>
 auto to_glm(const std::vector<T>& values)
 {

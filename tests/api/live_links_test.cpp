@@ -1,10 +1,13 @@
 // Scenes kept lit by a host over links.
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
+#include "../support/temporary_folder.h"
 #include "boxes.h"
 
 namespace lumel::v0 {
@@ -107,6 +110,48 @@ TEST(LiveLinkScenes, MovedAndMovedBackAreLitAsBefore)
         count += 1.0;
     }
     EXPECT_LT(std::sqrt(squares / count), 5e-4 * mean_of(before));
+}
+
+/// The room as it would lie on a map, so far out that floats are coarse.
+Scene far_room(const lumel::test::TemporaryFolder& folder, const Vec3& offset)
+{
+    std::ifstream file(scene_path("moving-large-lamp"));
+    nlohmann::json gltf = nlohmann::json::parse(file);
+    nlohmann::json& roots = gltf["scenes"][0]["nodes"];
+    gltf["nodes"].push_back({{"translation", offset}, {"children", roots}});
+    roots = {gltf["nodes"].size() - 1};
+    std::ofstream(folder / "far.gltf") << gltf;
+    return Scene::load(folder / "far.gltf");
+}
+
+TEST(LiveLinkScenes, FarOutThingsMoveInTheWorldOfTheirFile)
+{
+    const lumel::test::TemporaryFolder folder;
+    const Vec3 offset{1048576.0f, 0.0f, 2097152.0f}, shift{0.25f, 0.0f, 0.25f};
+    const Scene near = room(), far = far_room(folder, offset);
+    const std::uint32_t box = near.find_instance("box");
+    const Mat4 here = near.instances()[box].transform, there = far.instances()[box].transform;
+    for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(there[12 + c], here[12 + c] + offset[c], 0.2);
+    LiveLinks live(near, settings_for(near)), out(far, settings_for(far));
+    live.update(kUntilAtRest);
+    out.update(kUntilAtRest);
+    const double before = mean_of(live.map());
+    EXPECT_NEAR(mean_of(out.map()), before, 0.005 * before);
+    out.move(box, there);
+    EXPECT_TRUE(out.update(0.0).at_rest) << "nothing has moved";
+    for (const auto& [one, place] : {std::pair(&live, here), {&out, there}}) {
+        one->move(box, shifted(place, {40.0f, 0.0f, 0.0f}));  // out of the room
+        one->update(kUntilAtRest);
+    }
+    const double without = mean_of(live.map());
+    EXPECT_GT(std::abs(without - before), 0.02 * before);
+    EXPECT_NEAR(mean_of(out.map()), without, 0.005 * before);
+    for (const auto& [one, place] : {std::pair(&live, here), {&out, there}}) {
+        one->move(box, shifted(place, shift));
+        one->update(kUntilAtRest);
+    }
+    EXPECT_NEAR(mean_of(out.map()), mean_of(live.map()), 0.005 * before);
 }
 
 TEST(LiveLinkScenes, LampsShineFromWhereTheyAreMovedTo)

@@ -1,6 +1,8 @@
 // Light over links of a former run is that of links that were just traced.
 
+#include <cstring>
 #include <fstream>
+#include <iterator>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
 #include "core/error.h"
+#include "core/fingerprint.h"
 #include "live/kept_light.h"
 #include "live/links_file.h"
 #include "prepare/prepare.h"
@@ -149,6 +152,50 @@ TEST(KeptLinks, FromADamagedFileAreRefused)
     file.put('?');
     file.close();
     EXPECT_THROW(read_links(path), Error);
+}
+
+/// A file whose contents have any byte changed, and vouch for themselves again.
+TEST(KeptLinks, ForgedAreRefusedOrSound)
+{
+    constexpr std::size_t kHead = 32, kFingerprint = 24;  // [bytes]
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "scene.lumellinks";
+    KeptLinks kept{.scene_hash = "hash",
+                   .rays = 4,
+                   .lift = 0.1f,
+                   .lumels = {1, 2, 3},
+                   .instances = {4},
+                   .links = {0, 1, 2, 3, 4, 5, 0, 1, 2, 3, 4, 5}};
+    kept.sheets = {{.texcoord = {{0, 0}, {1, 0}, {0, 1}}, .chart = {0}}};
+    kept.side = 8;
+    kept.charts = 1;
+    write_links(path, kept);
+    EXPECT_EQ(read_links(path).links, kept.links);
+    std::ifstream file(path, std::ios::binary);
+    const std::string given{std::istreambuf_iterator<char>(file), {}};
+    std::size_t refused = 0, tried = 0;
+    for (std::size_t at = kHead; at < given.size(); ++at)
+        for (const char forged : {'\x00', '\x01', '\x7f', '\xff'}) {
+            std::string bytes = given;
+            bytes[at] = forged;
+            Fingerprint print;
+            print.add_bytes(bytes.data() + kHead, bytes.size() - kHead);
+            const std::uint64_t value = print.value();
+            std::memcpy(bytes.data() + kFingerprint, &value, sizeof value);
+            std::ofstream(path, std::ios::binary) << bytes;
+            ++tried;
+            try {
+                const KeptLinks read = read_links(path);
+                EXPECT_EQ(read.links.size(), read.lumels.size() * read.rays);
+                for (const std::uint32_t link : read.links)
+                    EXPECT_LT(link, read.ends());
+            } catch (const Error& error) {
+                EXPECT_EQ(error.kind(), ErrorKind::input);
+                ++refused;
+            }
+        }
+    EXPECT_GT(refused, tried / 5);
+    EXPECT_LT(refused, tried);
 }
 
 }  // namespace
