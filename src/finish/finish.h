@@ -59,6 +59,16 @@ void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers = {})
 /// sampling never sees black. Alpha and covered texels stay as they are.
 void dilate(Image& map);
 
+/// How much the two sides of seams differ.
+struct SeamGaps {
+    double length = 0.0;   ///< of all seams [texels]
+    double gap = 0.0;      ///< root mean square over it of |a - b| / max(a, b), sampled bilinearly
+    double jumping = 0.0;  ///< share of the length where the light itself jumps, not in `gap`
+};
+
+/// Of a map with gutters. What jumps is decided by `judge`, a map of the same seams.
+SeamGaps seam_gaps(const Image& map, const Image& judge, const Scene& scene, const Atlas& atlas);
+
 /// Makes both sides of chart borders that share an edge in the world sample alike, within one
 /// instance and between neighbours, wherever the surface goes on smoothly. Creases keep their
 /// contrast, and so do borders where the light itself jumps (a wall may stand there).

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "atlas/sides.h"
+#include "finish/border_edges.h"
 
 namespace lumel {
 namespace {
@@ -19,16 +20,7 @@ constexpr float kSameNormal = 0.9397f;  // cos 20°: a crease below this is smoo
 constexpr float kSamePlace = 1e-3f;     // [texels] in the atlas: no tear
 constexpr std::size_t kLookAhead = 8;   // partners tried per edge, where many edges coincide
 
-struct EdgeEnd {
-    glm::vec3 position;  // world
-    glm::vec3 normal;    // world, unit
-    glm::vec2 place;     // atlas [texels]
-    std::uint32_t point = 0;
-};
-
-struct Edge {
-    EdgeEnd ends[2];
-};
+using Edge = BorderEdge;
 
 // Gives points closer than `tolerance` on every axis the same number.
 class Welder {
@@ -139,7 +131,8 @@ void add_borders(const Scene& scene, const Surface& surface, bool turned, std::v
     }
 }
 
-// Numbers the end points and lets every edge run from the lower number to the higher.
+// Cuts edges that overlap, numbers the end points and lets every edge run from the lower number to
+// the higher.
 void weld(std::vector<Edge>& edges)
 {
     float size = 0.0f;
@@ -147,7 +140,9 @@ void weld(std::vector<Edge>& edges)
         for (const EdgeEnd& end : edge.ends)
             for (int axis = 0; axis < 3; ++axis)
                 size = std::max(size, std::abs(end.position[axis]));
-    Welder welder(std::max(size * kWeldShare, std::numeric_limits<float>::min()));
+    const float tolerance = std::max(size * kWeldShare, std::numeric_limits<float>::min());
+    cut_at_ends(edges, tolerance);
+    Welder welder(tolerance);
     for (Edge& edge : edges) {
         for (EdgeEnd& end : edge.ends)
             end.point = welder.number_of(end.position);

@@ -15,9 +15,8 @@ struct Seam {
     glm::vec2 b[2];
 };
 
-/// All pairs of triangle edges whose ends coincide in the world, whose shading normals agree at
-/// both ends, and whose places in the atlas differ. Edges that only overlap (T-junctions) are
-/// not paired.
+/// All pairs of triangle edges, or of the parts of them that overlap, whose ends coincide in the
+/// world, whose shading normals agree at both ends, and whose places in the atlas differ.
 std::vector<Seam> find_seams(const Scene& scene, const Atlas& atlas);
 
 }  // namespace lumel

@@ -34,7 +34,7 @@ constexpr double kHold = 1.0;
 constexpr double kHoldGutter = 0.02;
 constexpr float kSamplesPerTexel = 2.0f;  // bilinear weights have a kink every texel
 constexpr float kMaxSamples = 1.0e5f;     // per edge
-constexpr float kLargestJump = 0.5f;      // relative; more is an edge of the light itself
+constexpr float kLargestJump = 0.5f;      // relative
 constexpr int kMaxIterations = 200;
 constexpr double kTolerance = 1e-4;  // of the residual's first length: gaps change no more
 constexpr std::uint32_t kUntouched = ~0u;
@@ -82,8 +82,9 @@ float brightness(const Image& map, const Footprint& footprint)
     return sum;
 }
 
-// Rows hold texel numbers here; number_unknowns replaces them.
-void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
+// Calls visit(a, b, length) for points along a seam: both places, and the texels each stands for.
+template <class Visit>
+void along(const Image& map, const Seam& seam, const Visit& visit)
 {
     const float length =
         std::max(glm::distance(seam.a[0], seam.a[1]), glm::distance(seam.b[0], seam.b[1]));
@@ -92,11 +93,23 @@ void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
     const int count = int(std::clamp(std::ceil(kSamplesPerTexel * length), 1.0f, kMaxSamples)) + 1;
     for (int i = 0; i < count; ++i) {
         const float t = float(i) / float(count - 1);
-        const Footprint a = bilinear(map, glm::mix(seam.a[0], seam.a[1], t));
-        const Footprint b = bilinear(map, glm::mix(seam.b[0], seam.b[1], t));
-        const float light_a = brightness(map, a), light_b = brightness(map, b);
-        if (std::abs(light_a - light_b) > kLargestJump * std::max(light_a, light_b))
-            continue;
+        visit(bilinear(map, glm::mix(seam.a[0], seam.a[1], t)),
+              bilinear(map, glm::mix(seam.b[0], seam.b[1], t)), double(length) / double(count));
+    }
+}
+
+// More is an edge of the light itself.
+bool jumps(float light_a, float light_b)
+{
+    return std::abs(light_a - light_b) > kLargestJump * std::max(light_a, light_b);
+}
+
+// Rows hold texel numbers here; number_unknowns replaces them.
+void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
+{
+    along(map, seam, [&](const Footprint& a, const Footprint& b, double length) {
+        if (jumps(brightness(map, a), brightness(map, b)))
+            return;
         Row row;
         for (std::size_t k = 0; k < 4; ++k) {
             row.unknowns[k] = a.texels[k];
@@ -104,9 +117,9 @@ void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
             row.unknowns[k + 4] = b.texels[k];
             row.weights[k + 4] = -b.weights[k];
         }
-        row.pull = kPull * double(length) / double(count);
+        row.pull = kPull * length;
         rows.push_back(row);
-    }
+    });
 }
 
 void number_unknowns(const Lumels& lumels, System& system)
@@ -209,6 +222,29 @@ void apply(const System& system, Image& map, double least)
 }
 
 }  // namespace
+
+SeamGaps seam_gaps(const Image& map, const Image& judge, const Scene& scene, const Atlas& atlas)
+{
+    SeamGaps gaps;
+    double squares = 0.0;
+    for (const Seam& seam : find_seams(scene, atlas))
+        along(map, seam, [&](const Footprint& a, const Footprint& b, double length) {
+            gaps.length += length;
+            if (jumps(brightness(judge, a), brightness(judge, b))) {
+                gaps.jumping += length;
+                return;
+            }
+            const double light_a = double(brightness(map, a)), light_b = double(brightness(map, b));
+            const double most = std::max(light_a, light_b);
+            const double gap = most > 0.0 ? (light_a - light_b) / most : 0.0;
+            squares += gap * gap * length;
+        });
+    if (gaps.length > gaps.jumping)
+        gaps.gap = std::sqrt(squares / (gaps.length - gaps.jumping));
+    if (gaps.length > 0.0)
+        gaps.jumping /= gaps.length;
+    return gaps;
+}
 
 void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                  std::span<Image> layers)

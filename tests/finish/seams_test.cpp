@@ -234,6 +234,37 @@ TEST(FindSeams, EdgesInsideAChartAreNotSeams)
     EXPECT_TRUE(find_seams(world.scene, world.atlas).empty());
 }
 
+// A wall of 1 m, and beside it one of 2 m whose edge goes on above and below.
+TEST(MatchSeams, ObjectsMatchWhereTheirEdgesOverlap)
+{
+    const glm::vec3 up(0, 1, 0), x(1, 0, 0), z(0, 0, 1);
+    const std::vector<Patch> patches = {{{0, 0, 0}, x, up, z, z, {4, 4}, {16, 16}},
+                                        {{1, -0.5f, 0}, x, 2.0f * up, z, z, {30, 4}, {16, 32}}};
+    World world;
+    for (const Patch& patch : patches)
+        add(world, patch);
+    const auto light = [](std::size_t patch, float, float) { return patch == 0 ? 10.0f : 8.0f; };
+    const Image before = lit_map(world, patches, light);
+    Image map = before;
+    match_seams(map, world.scene, world.atlas, world.lumels);
+    const auto at_edge = [&](float height) {
+        const float left = sample(map, patches[0].place + glm::vec2(1, height) * patches[0].size);
+        const float right =
+            sample(map, patches[1].place + glm::vec2(0, 0.25f + 0.5f * height) * patches[1].size);
+        return std::abs(left - right);
+    };
+    for (float height = 0.05f; height < 1.0f; height += 0.1f)
+        EXPECT_LT(at_edge(height), 0.02f) << height;
+    // Where the taller one goes on alone nothing changes.
+    for (const float part : {0.1f, 0.9f})
+        EXPECT_EQ(sample(map, patches[1].place + glm::vec2(0, part) * patches[1].size), 8.0f);
+    EXPECT_NEAR(seam_gaps(before, before, world.scene, world.atlas).gap, 0.2, 0.001);
+    const SeamGaps after = seam_gaps(map, before, world.scene, world.atlas);
+    EXPECT_LT(after.gap, 0.002);
+    EXPECT_NEAR(after.length, 16.0, 0.1);
+    EXPECT_EQ(after.jumping, 0.0);
+}
+
 TEST(FindSeams, BacksOfAThinSheetAreNotJoinedToItsFront)
 {
     const glm::vec3 up(0, 1, 0), x(1, 0, 0), z(0, 0, 1);
