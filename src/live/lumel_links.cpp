@@ -100,6 +100,11 @@ LumelLinks::LumelLinks(const LivePlace& place, const Atlas& atlas, std::uint32_t
     });
 }
 
+glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
+{
+    return Rays(*this, lumel).direction(ray);
+}
+
 /// Where ray k of a lumel ends.
 std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
 {
