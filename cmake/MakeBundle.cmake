@@ -34,7 +34,7 @@ function(find_package_of library result)
 endfunction()
 
 # Packages that are compiled in as headers need their notices too.
-set(packages libcli11-dev nlohmann-json3-dev libglm-dev libvulkan-volk-dev libvulkan-dev)
+set(packages libcli11-dev nlohmann-json3-dev libglm-dev libvulkan-volk-dev libvulkan-dev libimgui-dev)
 foreach(library ${libraries})
     file(COPY ${library} DESTINATION ${stage}/lib FOLLOW_SYMLINK_CHAIN)
     file(REAL_PATH ${library} real)

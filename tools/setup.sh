@@ -6,21 +6,23 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-volk-dev
     mesa-vulkan-drivers libglm-dev libopenexr-dev libpng-dev libzstd-dev libstb-dev libopenblas-pthread-dev
     libtbb-dev libembree-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev zlib1g-dev
-    libmeshoptimizer-dev libdraco-dev libwebp-dev"
-test_packages="$build_packages vulkan-validationlayers libgtest-dev"
+    libmeshoptimizer-dev libdraco-dev libwebp-dev libglfw3-dev libimgui-dev
+    libgl1-mesa-dri"
+test_packages="$build_packages vulkan-validationlayers libgtest-dev xvfb xdotool"
 fuzz_packages="clang-14 libclang-rt-14-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
 # What proves each package where there is no dpkg to ask: a command or a header.
 package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config glslc:glslc
-    clang-14:clang++-14 clang-format:clang-format clang-tidy:clang-tidy"
+    xvfb:Xvfb xdotool:xdotool clang-14:clang++-14 clang-format:clang-format clang-tidy:clang-tidy"
 package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
     libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h libzstd-dev:zstd.h libstb-dev:stb/stb_image.h
     libopenblas-pthread-dev:cblas.h libtbb-dev:tbb/parallel_for.h libembree-dev:embree3/rtcore.h
     libcli11-dev:CLI/CLI.hpp libfmt-dev:fmt/core.h libspdlog-dev:spdlog/spdlog.h
     nlohmann-json3-dev:nlohmann/json.hpp zlib1g-dev:zlib.h
     libmeshoptimizer-dev:meshoptimizer.h libdraco-dev:draco/compression/mesh/mesh_sequential_decoder.h
-    libwebp-dev:webp/decode.h libgtest-dev:gtest/gtest.h"
+    libwebp-dev:webp/decode.h libglfw3-dev:GLFW/glfw3.h
+    libimgui-dev:imgui/imgui.h libgtest-dev:gtest/gtest.h"
 
 say() { echo "lumel: $*" >&2; }
 die() { say "$*"; exit 1; }

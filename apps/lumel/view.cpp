@@ -5,18 +5,16 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "core/error.h"
 #include "long_work.h"
+#include "window/window.h"
 
 namespace lumel {
 
 int run(const ViewArguments& arguments)
 {
-    if (!arguments.headless)
-        throw Error(ErrorKind::device, "lumel view",
-                    "this build has no window; --script FILE --headless works without one");
     const auto work = [&](const ProgressFunction& progress) {
-        const ViewSummary summary = play_script(arguments.run, arguments.options, progress);
+        const ViewSummary summary = (arguments.headless ? play_script : show_window)(
+            arguments.run, arguments.options, progress);
         return Conclusion{summary.report,
                           fmt::format("{}: {} files, {} frames in {:.1f} s", arguments.run.folder,
                                       summary.files.size(), summary.frames, summary.seconds),

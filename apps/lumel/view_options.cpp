@@ -80,7 +80,7 @@ Command view_command(CLI::App& program)
     ViewArguments& view = *given;
     view.run.folder = ".";
     CLI::App& command = *program.add_subcommand(
-        "view", "Walk through a lit scene while things are moved and lamps dimmed, by a script");
+        "view", "Walk through a lit scene while things are moved and lamps dimmed");
     command.add_option("scene", view.run.scene, "A .gltf or .glb file")
         ->required()
         ->type_name("FILE");

@@ -14,8 +14,8 @@ namespace lumel {
 namespace {
 
 /// Lumels between two looks at the clock: of a sweep, about a tenth of a millisecond; that follow a
-/// move, 20 ms at most, where all of them are on the thing.
-constexpr std::size_t kStep = 4096, kPiece = 1024;
+/// move, 5 ms at most, where all of them are on the thing.
+constexpr std::size_t kStep = 4096, kPiece = 256;
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
 

@@ -118,6 +118,8 @@ public:
     const Atlas& atlas() const { return laid_out_.atlas; }
     const Lumels& lumels() const { return laid_out_.lumels; }
     const LumelLinks& links() const { return links_; }
+    /// ρ [N], with what was painted.
+    const std::vector<glm::vec3>& albedo() const { return paint_.albedo(); }
     /// Memory that links and light take, without what the scene and its rays do.
     std::uint64_t bytes() const;
     /// D [N] [lx], what rays bring from the sky included.

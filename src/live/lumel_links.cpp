@@ -205,6 +205,11 @@ void LumelLinks::keep(KeptLinks& kept) const
     kept.links = links_;
 }
 
+glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
+{
+    return Rays(*this, lumel).direction(ray);
+}
+
 /// Where ray k of a lumel ends.
 std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
 {

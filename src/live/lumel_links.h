@@ -53,6 +53,8 @@ public:
     {
         return {links_.data() + lumel * rays(), rays()};
     }
+    /// Where one of these rays goes: unit, world.
+    glm::vec3 direction(std::size_t lumel, std::uint32_t ray) const;
     std::uint32_t sky() const { return lumels_; }
     /// Not above the surface, or nothing that reflects of an instance.
     std::uint32_t lost() const { return lumels_ + 1; }

@@ -12,7 +12,20 @@ namespace {
 
 constexpr float kSteepest = 0.999f * glm::half_pi<float>();  ///< [rad] that still has an upright
 
+constexpr float kNearest = 1e-6f;  ///< depth that has a place in the picture [m]
+
 }  // namespace
+
+std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& point)
+{
+    const glm::vec3 seen(glm::inverse(view.transform) * glm::vec4(point, 1.0f));
+    if (!(-seen.z > kNearest))
+        return std::nullopt;
+    const float half = view.orthographic_height > 0.0f
+                           ? 0.5f * view.orthographic_height
+                           : -seen.z * std::tan(0.5f * view.vertical_fov);
+    return glm::vec2(0.5f + 0.5f * seen.x / (half * view.aspect), 0.5f - 0.5f * seen.y / half);
+}
 
 glm::vec2 ViewCamera::angles() const
 {

@@ -1,9 +1,15 @@
 #pragma once
 // A camera that walks and orbits.
 
+#include <optional>
+
 #include "scene/view.h"
 
 namespace lumel {
+
+/// Where a picture shows a point, (0, 0) at its top left and (1, 1) at its bottom right; nothing if
+/// it is not before the eye.
+std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& point);
 
 class ViewCamera {
 public:

@@ -170,9 +170,9 @@ constexpr std::array kForms = {
                 .high = kStops},
     CommandForm{.verb = Verb::mode,
                 .word = "mode",
-                .arguments = "lit | irradiance | lumels",
-                .meaning = "show light, irradiance in false colours with a legend, or lumels as "
-                           "fields of their charts",
+                .arguments = "lit | irradiance | lumels | links",
+                .meaning = "show light, irradiance in false colours with a legend, lumels as "
+                           "fields of their charts, or what lights the lumel that is picked",
                 .takes = Word::mode},
     CommandForm{.verb = Verb::scale,
                 .word = "scale",
@@ -206,6 +206,20 @@ constexpr std::array kForms = {
                 .arguments = "FILE.json",
                 .meaning = "write light, camera, what is picked, and what frames cost",
                 .takes = Word::json},
+    CommandForm{.verb = Verb::window,
+                .word = "window",
+                .arguments = "FILE.png",
+                .meaning = "write what the window shows, its panel included",
+                .takes = Word::png},
+    CommandForm{.verb = Verb::save,
+                .word = "save",
+                .arguments = "FOLDER",
+                .meaning = "bake the scene as it stands now into this folder, at once",
+                .takes = Word::folder},
+    CommandForm{.verb = Verb::quit,
+                .word = "quit",
+                .arguments = "",
+                .meaning = "end here; a window closes"},
 };
 
 /// The words of a line; those in quotes may hold blanks. # begins what is not read.
@@ -281,11 +295,13 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     case Word::automatic:
         return word == "auto";
     case Word::mode:
-        return word == "lit" || word == "irradiance" || word == "lumels";
+        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links";
     case Word::png:
         return is_file_name(word, ".png");
     case Word::json:
         return is_file_name(word, ".json");
+    case Word::folder:
+        return is_file_name(word, "");
     }
     return false;
 }
@@ -345,7 +361,8 @@ void check_files(const std::vector<ScriptCommand>& commands, const std::string& 
 {
     std::vector<std::string> files;
     for (const ScriptCommand& command : commands) {
-        if (command.form->takes != Word::png && command.form->takes != Word::json)
+        const Word takes = command.form->takes;
+        if (takes != Word::png && takes != Word::json && takes != Word::folder)
             continue;
         if (std::find(files.begin(), files.end(), command.text) != files.end())
             throw Error(ErrorKind::input, place_of(place, command.line),

@@ -34,6 +34,9 @@ enum class Verb {
     wait,
     picture,
     state,
+    window,
+    save,
+    quit,
 };
 
 /// What a command takes: first a word, if it takes one, then numbers as one word.
@@ -42,9 +45,10 @@ enum class Word {
     name,             ///< of something in the scene
     name_or_numbers,  ///< one of the two
     automatic,        ///< "auto", or the numbers
-    mode,             ///< "lit", "irradiance" or "lumels"
+    mode,             ///< "lit", "irradiance", "lumels" or "links"
     png,              ///< name of a file
     json,
+    folder,  ///< its name
 };
 
 struct CommandForm {

@@ -171,6 +171,17 @@ std::optional<Picked> ViewSession::seen_at(const glm::vec2& place)
                   .distance = hit.distance};
 }
 
+std::optional<Picked> ViewSession::seen_at(const glm::ivec2& pixel)
+{
+    return seen_at((glm::vec2(pixel) + 0.5f) / glm::vec2(size()));
+}
+
+void ViewSession::set_size(const glm::ivec2& pixels)
+{
+    options_.width = pixels.x;
+    camera_.set_aspect(float(pixels.x) / float(pixels.y));
+}
+
 void ViewSession::check_inside(const glm::ivec2& pixel) const
 {
     const glm::ivec2 all = size();
@@ -183,8 +194,16 @@ void ViewSession::check_inside(const glm::ivec2& pixel) const
 void ViewSession::pick(const glm::ivec2& pixel)
 {
     check_inside(pixel);
-    picked_ = seen_at((glm::vec2(pixel) + 0.5f) / glm::vec2(size()));
+    picked_ = seen_at(pixel);
+    probe_ = picked_;
     pixel_ = pixel;
+}
+
+void ViewSession::unpick()
+{
+    picked_.reset();
+    probe_.reset();
+    pixel_.reset();
 }
 
 void ViewSession::pick(const std::string& name)
@@ -200,6 +219,7 @@ void ViewSession::pick(const std::string& name)
                      .thing = thing,
                      .place = 0.5f * (low + high)};
     pixel_.reset();
+    probe_.reset();
 }
 
 ViewThing& ViewSession::picked_thing()
@@ -262,6 +282,7 @@ void ViewSession::remove()
     drawn_.surfaces.erase(std::remove_if(drawn_.surfaces.begin(), drawn_.surfaces.end(), is_gone),
                           drawn_.surfaces.end());
     picked_.reset();
+    probe_.reset();
 }
 
 void ViewSession::apply(const ViewLamp& lamp)
@@ -319,6 +340,7 @@ void ViewSession::paint(const glm::vec3& colour)
 void ViewSession::set_sky(const glm::vec3& factor)
 {
     live_.set_sky(factor);
+    sky_ = factor;
 }
 
 /// A clear sky that came with the sun goes round with it.

@@ -37,7 +37,9 @@ enum class ViewMode {
     lit,
     irradiance,  ///< in false colours
     lumels,      ///< a colour for each chart, lumels as a board
+    links,       ///< what sends light to a lumel, as lines in space
 };
+inline constexpr int kViewModes = 4;
 
 /// What lies under a pixel.
 struct Picked {
@@ -55,6 +57,13 @@ struct ViewLamp {
     bool is_light = false;
     std::uint32_t index = 0;  ///< into the scene's lights or materials
     glm::vec3 factor{1.0f};   ///< by hand
+};
+
+/// What a ray that a lumel keeps has met.
+struct ViewLink {
+    std::string name;       ///< of an instance, "sky", or empty: nothing that reflects
+    glm::vec3 to{0.0f};     ///< where it is; of the sky: a diagonal of the scene away [m]
+    glm::vec3 light{0.0f};  ///< that it brings, emission included [lx]
 };
 
 /// What frames took.
@@ -82,12 +91,21 @@ public:
     /// Around what is picked, or what the middle of the picture shows [rad].
     void orbit(float around, float over);
 
+    /// What the picture shows at a pixel.
+    std::optional<Picked> seen_at(const glm::ivec2& pixel);
     /// Picks what the picture shows at a pixel: nothing, where nothing is.
     void pick(const glm::ivec2& pixel);
     /// The first instance of that name.
     void pick(const std::string& name);
+    void unpick();
     const std::optional<Picked>& picked() const { return picked_; }
     const std::optional<glm::ivec2>& pixel() const { return pixel_; }
+
+    /// The lumel whose links are shown: what is picked, or what lies under this pixel instead.
+    void probe(const glm::ivec2& pixel);
+    /// The links of that lumel; empty where there is none. The sky's part of what sources send, and
+    /// lamps that are no surface, have no links.
+    std::vector<ViewLink> links();
 
     // What is picked must be a thing.
     void move(const glm::vec3& way);  ///< [m]
@@ -100,15 +118,23 @@ public:
     /// The base colour of what is picked, 0 to 1.
     void paint(const glm::vec3& colour);
     void set_sky(const glm::vec3& factor);
+    const glm::vec3& sky() const { return sky_; }
     void turn_sky(double angle);  ///< [rad] counter-clockwise, from how it was given
     /// The sun of the options, or else the first directional light. Below the horizon it is off.
     void set_sun(const SunPosition& sun);
     void set_time(double seconds);
 
     void set_exposure(std::optional<float> factor) { exposure_ = factor; }  ///< none: automatic
+    /// Or as it is now.
+    void set_automatic_exposure(bool automatic);
     void step_exposure(float stops) { stops_ += stops; }
     void set_mode(ViewMode mode) { mode_ = mode; }
     void set_scale(const std::optional<LuxScale>& scale) { scale_ = scale; }  ///< none: automatic
+
+    /// Pictures are so large, and their shape is that of the view.
+    void set_size(const glm::ivec2& pixels);
+    void set_budget(double ms) { options_.budget_ms = ms; }
+    double budget() const { return options_.budget_ms; }
 
     /// Follows what has changed, for the budget of a frame.
     const LiveLinksState& frame();
@@ -137,12 +163,18 @@ public:
     bool has_sun() const { return sun_light_.has_value(); }
     double sky_angle() const { return sky_angle_; }
     const Animation& animation() const { return animation_; }
+    const SessionOptions& options() const { return options_; }
+    const gpu::Device& device() const { return *device_; }
 
 private:
     ViewThing& picked_thing();
     std::optional<std::uint32_t> thing_of(std::uint32_t instance) const;
     const RayScene& rays();
     std::optional<Picked> seen_at(const glm::vec2& place);
+    glm::vec3 emission_of(const Lumel& lumel) const;
+    Image lit_picture();
+    Image links_picture();
+    void draw_link(Image& picture, const glm::vec3& from, const ViewLink& link, float heat);
     void put(std::uint32_t thing);
     glm::vec3 away();
     void place_sky();
@@ -166,12 +198,14 @@ private:
     float sun_factor_ = 1.0f;  ///< of its illuminance, where it stands now
     ViewCamera camera_;
     std::optional<Picked> picked_;
+    std::optional<Picked> probe_;
     std::optional<glm::ivec2> pixel_;
     std::optional<float> exposure_;
     float stops_ = 0.0f;
     ViewMode mode_ = ViewMode::lit;
     std::optional<LuxScale> scale_;
     std::optional<SunPosition> sun_;
+    glm::vec3 sky_{1.0f};  ///< factor by hand
     double sky_angle_ = 0.0, time_ = 0.0;
     FrameCosts costs_;
     // Made when they are asked for.

@@ -103,15 +103,30 @@ LuxScale ViewSession::scale()
     return scale_for(lux);
 }
 
+void ViewSession::set_automatic_exposure(bool automatic)
+{
+    if (automatic)
+        exposure_.reset();
+    else
+        exposure_ = exposure() / std::exp2(stops_);
+}
+
+Image ViewSession::lit_picture()
+{
+    const Image light = render(map(), PreviewShows::light);
+    const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
+    return tone_map(light, of_light * std::exp2(stops_));
+}
+
 Image ViewSession::picture()
 {
+    if (mode_ == ViewMode::links)
+        return links_picture();
     if (mode_ == ViewMode::irradiance)
         return false_colour(luminances(render(map(), PreviewShows::map)), scale());
     if (mode_ == ViewMode::lumels)
         return render(board(live_.lumels()), PreviewShows::texels);
-    const Image light = render(map(), PreviewShows::light);
-    const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
-    return tone_map(light, of_light * std::exp2(stops_));
+    return lit_picture();
 }
 
 double ViewSession::luminance_at(const glm::ivec2& pixel)

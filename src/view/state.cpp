@@ -1,6 +1,7 @@
 // A session as JSON.
 
 #include <algorithm>
+#include <map>
 
 #include <glm/trigonometric.hpp>
 
@@ -10,7 +11,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kModes[] = {"lit", "irradiance", "lumels"};
+constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links"};
 
 Json numbers(const glm::vec3& v)
 {
@@ -87,6 +88,25 @@ Json pixel_of(ViewSession& session)
     return json;
 }
 
+/// What lights the lumel that is picked: parts of what its links bring, by name.
+Json links_of(ViewSession& session)
+{
+    const std::vector<ViewLink> links = session.links();
+    if (links.empty())
+        return nullptr;
+    std::map<std::string, double> sums;
+    double all = 0.0;
+    for (const ViewLink& link : links) {
+        all += luminance(link.light);
+        if (!link.name.empty())
+            sums[link.name] += luminance(link.light);
+    }
+    Json by_name = Json::array();
+    for (const auto& [name, lux] : sums)
+        by_name.push_back({{"name", name}, {"share", all > 0.0 ? lux / all : 0.0}});
+    return {{"count", links.size()}, {"illuminance_lx", all}, {"by_name", by_name}};
+}
+
 Json lamps_of(const ViewSession& session)
 {
     Json json = Json::array();
@@ -116,6 +136,7 @@ Json state_of(ViewSession& session)
     json["scale_lx"] = Json::array({scale.low, scale.high});
     json["pixel"] = pixel_of(session);
     json["picked"] = picked_of(session);
+    json["links"] = links_of(session);
     json["lamps"] = lamps_of(session);
     json["sun"] = session.sun() ? numbers(*session.sun()) : Json(nullptr);
     json["sky_degrees"] = glm::degrees(session.sky_angle());

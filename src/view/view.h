@@ -28,6 +28,13 @@ struct ViewSummary {
 ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
                         const ProgressFunction& progress = {});
 
+/// What is to be said of a session at its end.
+ViewSummary summary_of(const std::string& scene, ViewSession& session,
+                       const std::vector<std::string>& files, double seconds);
+
+/// The Error{stopped} of a script that did not come to its end.
+[[noreturn]] void throw_stopped_script();
+
 /// The scene with the lights of the options, as its animation begins.
 Scene scene_to_view(const std::string& path, const Animation& animation,
                     const SessionOptions& options);

@@ -8,67 +8,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <png.h>
 
 #include "edited_scene.h"
+#include "png_picture.h"
 #include "program.h"
 
 namespace lumel::test {
 namespace {
 
 using Json = nlohmann::json;
-using Colour = std::array<int, 3>;
-
-/// A PNG file.
-struct Picture {
-    int width = 0, height = 0;
-    std::vector<unsigned char> rgb;
-
-    Colour at(int x, int y) const
-    {
-        const std::size_t first = 3 * (std::size_t(y) * std::size_t(width) + std::size_t(x));
-        return {rgb[first], rgb[first + 1], rgb[first + 2]};
-    }
-    double mean() const
-    {
-        double sum = 0.0;
-        for (const unsigned char one : rgb)
-            sum += one;
-        return sum / double(rgb.size());
-    }
-    int most() const { return *std::max_element(rgb.begin(), rgb.end()); }
-};
-
-Picture read_picture(const std::string& path)
-{
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    EXPECT_TRUE(png_image_begin_read_from_file(&image, path.c_str())) << path;
-    image.format = PNG_FORMAT_RGB;
-    Picture picture{int(image.width), int(image.height),
-                    std::vector<unsigned char>(PNG_IMAGE_SIZE(image))};
-    EXPECT_TRUE(png_image_finish_read(&image, nullptr, picture.rgb.data(), 0, nullptr));
-    return picture;
-}
-
-/// Largest difference of two pictures' colours, and the mean one.
-struct Difference {
-    int most = 0;
-    double mean = 0.0;
-};
-
-Difference difference(const Picture& a, const Picture& b)
-{
-    Difference result;
-    EXPECT_EQ(a.rgb.size(), b.rgb.size());
-    for (std::size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i) {
-        const int apart = std::abs(int(a.rgb[i]) - int(b.rgb[i]));
-        result.most = std::max(result.most, apart);
-        result.mean += double(apart) / double(a.rgb.size());
-    }
-    return result;
-}
-
 /// A script that was played, with its files.
 class Played {
 public:
@@ -385,6 +333,83 @@ TEST(View, PaintAndLumelsAreShown)
     EXPECT_GT(played.picture("lumels.png").mean(), 30.0);
 }
 
+TEST(View, LinksOfALumelGoToWhatItSees)
+{
+    // A wall does not see itself, nor what stands at its other side.
+    const Played played(
+        own_scene("cornell-box.gltf"),
+        "wait\npick 60,5\nstate ceiling.json\npick 30,112\nstate floor.json\n"
+        "picture lit.png\nmode links\npicture links.png\npick 6,60\nstate wall.json\n"
+        "lamp light 0\nwait\nstate dark.json\n",
+        {"--links", "256"});
+    const auto share = [](const Json& state, const std::string& name) {
+        for (const Json& one : state["links"]["by_name"])
+            if (one["name"] == name)
+                return one["share"].get<double>();
+        return 0.0;
+    };
+    const Json floor = played.state("floor.json"), wall = played.state("wall.json");
+    ASSERT_EQ(floor["picked"]["name"], "floor");
+    EXPECT_EQ(floor["links"]["count"], 256);
+    EXPECT_EQ(share(floor, "floor"), 0.0);
+    EXPECT_GT(share(floor, "light"), 0.5);
+    double all = 0.0;
+    for (const Json& one : floor["links"]["by_name"])
+        all += one["share"].get<double>();
+    EXPECT_NEAR(all, 1.0, 1e-6);
+    // No ray meets the lamp by chance where it is not seen: what links bring is what arrives.
+    const Json ceiling = played.state("ceiling.json");
+    ASSERT_EQ(ceiling["picked"]["name"], "ceiling");
+    EXPECT_EQ(share(ceiling, "light"), 0.0);
+    EXPECT_NEAR(ceiling["links"]["illuminance_lx"].get<double>() /
+                    ceiling["picked"]["lumel"]["illuminance_lx"].get<double>(),
+                1.0, 0.1);
+    const std::string name = wall["picked"]["name"];
+    EXPECT_EQ(share(wall, name), 0.0) << name;
+    EXPECT_EQ(played.state("dark.json")["links"]["illuminance_lx"], 0.0);
+    // Lines in colours, where the dimmed scene behind them is grey.
+    const Picture links = played.picture("links.png");
+    int coloured = 0;
+    for (int y = 0; y < links.height; ++y)
+        for (int x = 0; x < links.width; ++x) {
+            const Colour colour = links.at(x, y);
+            coloured += *std::max_element(colour.begin(), colour.end()) -
+                            *std::min_element(colour.begin(), colour.end()) >
+                        40;
+        }
+    EXPECT_GT(coloured, 200);
+    EXPECT_GT(difference(links, played.picture("lit.png")).mean, 5.0);
+}
+
+TEST(View, ASavedSceneIsABakeOfWhatWasSeen)
+{
+    const std::string look = "exposure 10\nwait\npicture a.png\nstate a.json\n";
+    const Played played(own_scene("cornell-box.gltf"),
+                        "pick \"short block\"\nmove 0.1,0,0\nturn 20\npick \"tall block\"\n"
+                        "delete\npick 60,30\npaint 0,0,1\nlamp light 0.5,0.25,0.25\n" +
+                            look + "save saved\n");
+    const std::string saved = played.place.path("out/saved");
+    const Played again(saved + "/scene.glb", look);
+    EXPECT_LT(difference(again.picture("a.png"), played.picture("a.png")).mean, 1.5);
+    const Played before(own_scene("cornell-box.gltf"), look);
+    EXPECT_GT(difference(before.picture("a.png"), played.picture("a.png")).mean, 10.0);
+    const Json report = Json::parse(bytes_of(saved + "/report.json"), nullptr, false);
+    ASSERT_FALSE(report.is_discarded());
+    EXPECT_EQ(report["scene"]["file"], "cornell-box.glb");
+    EXPECT_FALSE(bytes_of(saved + "/lightmap.exr").empty());
+}
+
+TEST(View, WhatAFileCannotHoldIsNotSaved)
+{
+    const Workplace place;
+    const std::string file = place.file("s.txt", "turn-sky 40\nsave saved\n");
+    expect_one_sentence(
+        run_lumel({"view", own_scene("four-cubes.gltf"), "--script", file, "--headless", "--folder",
+                   place.path("out"), "--size", "32", "--width", "16", "--sun", "90,45"}),
+        2, {":2", "sky"});
+    EXPECT_EQ(place.listing(), std::vector<std::string>{"s.txt"});
+}
+
 TEST(View, WrongLinesAreOneSentenceWithTheirNumber)
 {
     const Workplace place;
@@ -419,6 +444,8 @@ TEST(View, WrongLinesAreOneSentenceWithTheirNumber)
              {"picture a.png\nsun 90,45\n", {":2", "--sun"}},
              {"picture a.png\nturn-sky 90\n", {":2", "sky"}},
              {"scale 5,5\n", {":1", "scale"}},
+             {"save ../a\n", {":1", "FOLDER"}},
+             {"picture a.png\nwindow b.png\n", {":2", "--headless"}},
              {"time 1\n", {"has no animation"}}})
         expect_one_sentence(play(script), 2, words);
     expect_one_sentence(run_lumel({"view", scene, "--headless"}), 2, {"--script"});

@@ -1,0 +1,295 @@
+#include "window/panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "core/error.h"
+#include "core/luminance.h"
+#include "window/controls.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kBrightest = 4.0f;  ///< of a lamp's slider, times its own light
+constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;                 ///< [ms]
+constexpr float kDarkest = 1e-6f, kLightest = 1e3f;                        ///< exposure by hand
+constexpr float kTurnStep = 15.0f;                                         ///< [degrees]
+constexpr float kLowestSun = -10.0f, kZenith = 90.0f, kHalfTurn = 180.0f;  ///< [degrees]
+/// Where and on which day the sun goes its way, where the options do not say.
+constexpr double kLatitude = 50.0, kLongitude = 0.0;  ///< [degrees]
+constexpr const char* kDay = "2024-06-21T00:00:00Z";
+constexpr double kHour = 3600.0;  ///< [s]
+constexpr float kHours = 24.0f;
+
+/// Widgets leave room for their names.
+constexpr float kNames = -90.0f;
+
+void text(const std::string& line)
+{
+    ImGui::TextUnformatted(line.c_str());
+}
+
+void wrapped(const std::string& line)
+{
+    ImGui::PushTextWrapPos();
+    text(line);
+    ImGui::PopTextWrapPos();
+}
+
+/// Brightness and colour of a factor. True if they were changed.
+bool edit_factor(glm::vec3& factor)
+{
+    float bright = std::max({factor.x, factor.y, factor.z});
+    glm::vec3 colour = bright > 0.0f ? factor / bright : glm::vec3(1.0f);
+    bool changed = ImGui::SliderFloat("times", &bright, 0.0f, kBrightest, "%.2f");
+    changed |= ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_NoInputs);
+    factor = bright * colour;
+    return changed;
+}
+
+bool show_lamps(ViewSession& session)
+{
+    bool changed = false;
+    for (std::size_t l = 0; l < session.lamps().size(); ++l) {
+        const ViewLamp& lamp = session.lamps()[l];
+        ImGui::PushID(int(l));
+        text(lamp.name.empty() ? "lamp" : lamp.name);
+        glm::vec3 factor = lamp.factor;
+        if (edit_factor(factor)) {
+            session.set_lamp(lamp.name, factor);
+            changed = true;
+        }
+        ImGui::PopID();
+    }
+    return changed;
+}
+
+/// The sun on its way through a day, as seen from where the options say.
+SunPosition sun_at(const ViewSession& session, float hour)
+{
+    const auto& seen = session.options().lights.sun_seen;
+    const double latitude = seen ? seen->latitude : kLatitude,
+                 longitude = seen ? seen->longitude : kLongitude;
+    const double day =
+        seen ? std::floor(seconds_since_2000(seen->time) / (kHours * kHour) + 0.5) - 0.5
+             : seconds_since_2000(kDay) / (kHours * kHour);
+    return sun_position(glm::radians(latitude), glm::radians(longitude),
+                        day * kHours * kHour + double(hour) * kHour);
+}
+
+bool show_sun(ViewSession& session)
+{
+    const SunPosition sun = session.sun().value_or(SunPosition{});
+    auto azimuth = float(glm::degrees(sun.azimuth)), elevation = float(glm::degrees(sun.elevation));
+    bool changed = ImGui::SliderFloat("azimuth", &azimuth, -kHalfTurn, 2.0f * kHalfTurn, "%.0f");
+    changed |= ImGui::SliderFloat("elevation", &elevation, kLowestSun, kZenith, "%.0f");
+    if (changed)
+        session.set_sun({glm::radians(double(azimuth)), glm::radians(double(elevation))});
+    float& hour = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID("hour of day"), kHours / 2);
+    if (ImGui::SliderFloat("hour", &hour, 0.0f, kHours, "%.1f UTC")) {
+        session.set_sun(sun_at(session, hour));
+        changed = true;
+    }
+    return changed;
+}
+
+bool show_sky(ViewSession& session)
+{
+    bool changed = false;
+    ImGui::PushID("sky");
+    glm::vec3 factor = session.sky();
+    if (edit_factor(factor)) {
+        session.set_sky(factor);
+        changed = true;
+    }
+    auto angle = float(glm::degrees(session.sky_angle()));
+    if (ImGui::SliderFloat("turned", &angle, -kHalfTurn, kHalfTurn, "%.0f")) {
+        session.turn_sky(glm::radians(double(angle)));
+        changed = true;
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool show_time(ViewSession& session, Desk& desk)
+{
+    ImGui::Checkbox("play", &desk.playing);
+    auto time = float(session.time());
+    if (!ImGui::SliderFloat("time", &time, 0.0f, float(session.animation().duration), "%.2f s"))
+        return false;
+    session.set_time(double(time));
+    return true;
+}
+
+bool show_picked(ViewSession& session)
+{
+    if (!session.picked()) {
+        text("click on the picture");
+        return false;
+    }
+    const Picked picked = *session.picked();
+    const Scene& scene = session.scene();
+    const Material& material = scene.materials[std::size_t(picked.material)];
+    wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
+    if (picked.lumel != kNoLumel)
+        text(fmt::format("{:.4g} lx", luminance(session.irradiance()[picked.lumel])));
+    bool changed = false;
+    glm::vec3 colour(material.base_color);
+    if (ImGui::ColorEdit3("paint", &colour.x, ImGuiColorEditFlags_NoInputs)) {
+        session.paint(glm::clamp(colour, 0.0f, 1.0f));
+        changed = true;
+    }
+    if (!picked.thing)
+        return changed;
+    for (const auto& [name, angle] :
+         {std::pair("turn left", kTurnStep), {"turn right", -kTurnStep}}) {
+        if (ImGui::SmallButton(name)) {
+            session.turn(glm::radians(angle));
+            changed = true;
+        }
+        ImGui::SameLine();
+    }
+    if (ImGui::SmallButton("delete")) {
+        session.remove();
+        changed = true;
+    }
+    return changed;
+}
+
+bool show_mode(ViewSession& session, Desk& desk)
+{
+    int mode = int(session.mode());
+    bool changed = ImGui::Combo("mode", &mode, "light\0lux\0lumels, charts\0links\0");
+    session.set_mode(ViewMode(mode));
+    bool automatic = session.has_automatic_exposure();
+    if (ImGui::Checkbox("automatic exposure", &automatic)) {
+        session.set_automatic_exposure(automatic);
+        changed = true;
+    }
+    if (!automatic) {
+        float exposure = session.exposure() / std::exp2(session.stops());
+        if (ImGui::SliderFloat("exposure", &exposure, kDarkest, kLightest, "%.3g",
+                               ImGuiSliderFlags_Logarithmic)) {
+            session.set_exposure(exposure);
+            changed = true;
+        }
+    }
+    changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
+    return changed;
+}
+
+void show_light(ViewSession& session, Desk& desk)
+{
+    const LiveLinksState& light = session.light().state();
+    auto budget = float(session.budget());
+    if (ImGui::SliderFloat("budget", &budget, kLeastBudget, kMostBudget, "%.0f ms"))
+        session.set_budget(double(budget));
+    text(light.at_rest     ? "at rest"
+         : light.under_way ? "following what moved"
+         : light.weighing  ? "at rest, but for the filter"
+                           : fmt::format("{:.3g} % of light to come, {} sweeps",
+                                         100.0 * light.residual, light.sweeps));
+    text(fmt::format("{} lumels, {} links anew", session.light().lumels().lumels.size(),
+                     light.found.links.all()));
+    wrapped(fmt::format("last frame: light {:.1f}, picture {:.1f}, window {:.1f} ms", desk.light_ms,
+                        desk.picture_ms, desk.window_ms));
+    wrapped(desk.draws);
+}
+
+void show_files(Desk& desk)
+{
+    ImGui::InputText("folder", &desk.save_to);
+    desk.save |= ImGui::Button("save as a bake");
+    ImGui::SameLine();
+    desk.shoot |= ImGui::Button("picture");
+    ImGui::SameLine();
+    if (ImGui::Button("keys"))
+        desk.help = !desk.help;
+}
+
+bool open(const char* title)
+{
+    return ImGui::CollapsingHeader(title, ImGuiTreeNodeFlags_DefaultOpen);
+}
+
+void show_all(ViewSession& session, Desk& desk)
+{
+    if (open("Picture"))
+        desk.changed |= show_mode(session, desk);
+    if (open("Picked"))
+        desk.changed |= show_picked(session);
+    if (open("Light"))
+        show_light(session, desk);
+    if (!session.lamps().empty() && open("Lamps"))
+        desk.changed |= show_lamps(session);
+    if (session.has_sun() && open("Sun"))
+        desk.changed |= show_sun(session);
+    if (!session.scene().sky.empty() && open("Sky"))
+        desk.changed |= show_sky(session);
+    if (session.animation().duration > 0.0 && open("Animation"))
+        desk.changed |= show_time(session, desk);
+    if (open("Files"))
+        show_files(desk);
+}
+
+}  // namespace
+
+void show_panel(ViewSession& session, Desk& desk)
+{
+    ImGui::SetNextWindowPos({float(desk.area.x), 0.0f});
+    ImGui::SetNextWindowSize({float(kPanelWidth), ImGui::GetIO().DisplaySize.y});
+    ImGui::Begin("panel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
+    ImGui::PushItemWidth(kNames);
+    try {
+        show_all(session, desk);
+    } catch (const Error& error) {
+        desk.message = error.what();
+    }
+    ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+void show_help(Desk& desk)
+{
+    if (!desk.help)
+        return;
+    constexpr float kMargin = 10.0f;
+    ImGui::SetNextWindowPos({kMargin, kMargin}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowBgAlpha(0.9f);
+    ImGui::Begin("keys", &desk.help,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+    if (ImGui::BeginTable("list", 2)) {
+        for (const KeyHelp& help : key_help()) {
+            ImGui::TableNextColumn();
+            text(help.keys);
+            ImGui::TableNextColumn();
+            text(help.meaning);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void show_line(const std::string& line, const Desk& desk)
+{
+    if (line.empty())
+        return;
+    ImGui::SetNextWindowPos({0.0f, ImGui::GetIO().DisplaySize.y}, ImGuiCond_Always, {0.0f, 1.0f});
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {float(desk.area.x), float(desk.area.y)});
+    ImGui::Begin("line", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(float(desk.area.x) - 2.0f * ImGui::GetStyle().WindowPadding.x);
+    text(line);
+    ImGui::PopTextWrapPos();
+    ImGui::End();
+}
+
+}  // namespace lumel

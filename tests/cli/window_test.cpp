@@ -1,0 +1,319 @@
+// The window of lumel view, on a display of its own, by a hand that xdotool moves.
+
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <future>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "png_picture.h"
+#include "program.h"
+
+namespace lumel::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr auto kPatience = std::chrono::seconds(120);  ///< on a machine that has other work
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+bool has_program(const std::string& name)
+{
+    return std::system(("command -v " + name + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+/// Until it is so.
+template <class Truth>
+bool wait_until(const Truth& truth)
+{
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!truth()) {
+        if (std::chrono::steady_clock::now() > end)
+            return false;
+        std::this_thread::sleep_for(kLook);
+    }
+    return true;
+}
+
+/// A display in memory, whose pixels lie in a file.
+class Display {
+public:
+    Display()
+    {
+        int ends[2];
+        if (pipe(ends) != 0)
+            throw std::runtime_error("pipe failed");
+        process_ = fork();
+        if (process_ == 0) {
+            close(ends[0]);
+            const std::string number = std::to_string(ends[1]), folder = place_.path("");
+            execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "800x600x24",
+                   "-fbdir", folder.c_str(), "-nolisten", "tcp", static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        close(ends[1]);
+        char letter = 0;
+        while (read(ends[0], &letter, 1) == 1 && letter != '\n')
+            name_ += letter;
+        close(ends[0]);
+        name_ = ":" + name_;
+    }
+    ~Display()
+    {
+        kill(process_, SIGTERM);
+        waitpid(process_, nullptr, 0);
+    }
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+
+    const std::string& name() const { return name_; }
+    int hand(const std::string& does) const
+    {
+        return std::system(
+            fmt::format("DISPLAY={} xdotool {} >/dev/null 2>&1", name_, does).c_str());
+    }
+    /// What is on it, from its top left. The file is in the form of xwd: a header of big-endian
+    /// words, colours of 12 bytes, and rows of pixels of 4 bytes, blue first.
+    Picture seen(int width, int height) const
+    {
+        const std::string bytes = bytes_of(place_.path("Xvfb_screen0"));
+        const auto word = [&](std::size_t i) {
+            std::uint32_t value = 0;
+            for (std::size_t k = 0; k < 4; ++k)
+                value = value << 8 | std::uint8_t(bytes[4 * i + k]);
+            return std::size_t(value);
+        };
+        const std::size_t pixels = word(0) + 12 * word(19), row = word(12);
+        Picture picture{width, height, {}};
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
+                for (const std::size_t channel : {2u, 1u, 0u})
+                    picture.rgb.push_back(std::uint8_t(
+                        bytes[pixels + std::size_t(y) * row + 4 * std::size_t(x) + channel]));
+        return picture;
+    }
+
+private:
+    const Workplace place_;
+    pid_t process_ = -1;
+    std::string name_;
+};
+
+/// A window that plays a script and then stays, until it is closed.
+class Window {
+public:
+    Window(const Display& display, const std::string& script,
+           const std::vector<std::string>& more = {})
+        : display_(&display)
+    {
+        std::vector<std::string> arguments = {"view",     own_scene("cornell-box.gltf"),
+                                              "--script", place.file("s.txt", script),
+                                              "--folder", place.path("out"),
+                                              "--size",   "64",
+                                              "--width",  "240",
+                                              "--json"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        outcome_ = std::async(std::launch::async, [arguments, name = display.name()] {
+            return run_lumel(arguments,
+                             {.environment = {"DISPLAY=" + name, "LIBGL_ALWAYS_SOFTWARE=1"}});
+        });
+    }
+    ~Window()
+    {
+        if (outcome_.valid())
+            close();
+    }
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    bool has_written(const std::string& name) const
+    {
+        return wait_until([&] { return !bytes_of(place.path("out/" + name)).empty(); });
+    }
+    /// Once keys go to it.
+    bool is_there() const
+    {
+        return wait_until(
+            [&] { return display_->hand("search --name lumel windowfocus --sync") == 0; });
+    }
+    /// The state that it reports at its end.
+    Json close()
+    {
+        display_->hand("key ctrl+q");
+        const Outcome outcome = end();
+        const Json json = Json::parse(outcome.out, nullptr, false);
+        EXPECT_FALSE(json.is_discarded()) << outcome.out;
+        return json.is_discarded() ? json : json["state"];
+    }
+    Outcome end()
+    {
+        const Outcome outcome = outcome_.get();
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome;
+    }
+
+    const Workplace place;
+
+private:
+    const Display* display_;
+    std::future<Outcome> outcome_;
+};
+
+class ViewWindow : public ::testing::Test {
+protected:
+    static void SetUpTestSuite()
+    {
+        if (has_program("Xvfb") && has_program("xdotool"))
+            display_.emplace();
+    }
+    static void TearDownTestSuite() { display_.reset(); }
+    void SetUp() override
+    {
+        if (!display_)
+            GTEST_SKIP() << "Xvfb or xdotool is not installed";
+    }
+    static const Display& display() { return *display_; }
+
+private:
+    static inline std::optional<Display> display_;
+};
+
+TEST_F(ViewWindow, ShowsThePictureOfItsScriptAndOfOneWithoutAWindow)
+{
+    // Within the box, so that something is in every pixel.
+    const std::string script = "walk 0.9\nwait\npicture a.png\n";
+    Window window(display(), script);
+    ASSERT_TRUE(window.is_there());
+    display().hand("mousemove 799 599");
+    ASSERT_TRUE(window.has_written("a.png"));
+    const Picture written = read_picture(window.place.path("out/a.png"));
+    EXPECT_TRUE(wait_until([&] {
+        return difference(display().seen(written.width, written.height), written).most == 0;
+    })) << difference(display().seen(written.width, written.height), written).most;
+    window.close();
+
+    const Workplace place;
+    const Outcome headless =
+        run_lumel({"view", own_scene("cornell-box.gltf"), "--script", place.file("s.txt", script),
+                   "--folder", place.path("out"), "--size", "64", "--width", "240", "--headless"});
+    ASSERT_EQ(headless.code, 0) << headless.err;
+    EXPECT_LE(difference(read_picture(place.path("out/a.png")), written).most, 1);
+}
+
+TEST_F(ViewWindow, AClickPicksWhatIsUnderTheMouse)
+{
+    Window window(display(), "wait\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    EXPECT_EQ(Json::parse(bytes_of(window.place.path("out/ready.json")))["picked"], nullptr);
+    display().hand("mousemove 150 170 sleep 0.5 click 1 sleep 0.5");
+    const Json state = window.close();
+    EXPECT_EQ(state["picked"]["name"], "short block");
+    EXPECT_EQ(state["pixel"]["at"], Json::array({150, 170}));
+}
+
+TEST_F(ViewWindow, AKeyWalksToWhereTheCameraLooks)
+{
+    Window window(display(), "wait\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const Json before = Json::parse(bytes_of(window.place.path("out/ready.json")))["camera"];
+    display().hand("key w sleep 0.5");
+    const Json after = window.close()["camera"];
+    // It looks along +z.
+    EXPECT_GT(after["eye"][2].get<double>(), before["eye"][2].get<double>() + 0.005);
+    EXPECT_NEAR(after["eye"][0].get<double>(), before["eye"][0].get<double>(), 1e-5);
+    EXPECT_NEAR(after["eye"][1].get<double>(), before["eye"][1].get<double>(), 1e-5);
+    EXPECT_EQ(after["forward"], before["forward"]);
+}
+
+TEST_F(ViewWindow, WhatIsPickedIsDraggedAlongTheFloor)
+{
+    Window window(display(), "wait\npick \"short block\"\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const Json before =
+        Json::parse(bytes_of(window.place.path("out/ready.json")))["picked"]["place"];
+    display().hand("mousemove 150 170 sleep 0.3 mousedown 1 sleep 0.3 mousemove 160 172 sleep 0.3 "
+                   "mousemove 180 175 sleep 0.5 mouseup 1 sleep 0.3");
+    const Json state = window.close();
+    ASSERT_EQ(state["picked"]["name"], "short block");
+    const Json after = state["picked"]["place"];
+    // The camera looks along +z with +x to its left.
+    EXPECT_LT(after[0].get<double>(), before[0].get<double>() - 0.02);
+    EXPECT_NEAR(after[1].get<double>(), before[1].get<double>(), 1e-5);
+    EXPECT_GT(state["light"]["links_traced_again"], 0);
+}
+
+TEST_F(ViewWindow, KeysPickNothingDeleteAndChangeTheMode)
+{
+    Window window(display(), "wait\npick \"short block\"\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    display().hand("key Delete sleep 0.3 mousemove 150 170 sleep 0.3 click 1 sleep 0.3 key m "
+                   "sleep 0.3");
+    const Json state = window.close();
+    EXPECT_NE(state["picked"]["name"], "short block");
+    EXPECT_EQ(state["mode"], "irradiance");
+}
+
+TEST_F(ViewWindow, ASmallWindowIsAllPicture)
+{
+    Window window(display(), "wait\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    display().hand("search --name lumel windowsize --sync 230 170 sleep 0.5 key p sleep 0.3");
+    ASSERT_TRUE(window.has_written("picture-1.png"));
+    const Picture picture = read_picture(window.place.path("out/picture-1.png"));
+    EXPECT_EQ(picture.width, 230);
+    EXPECT_EQ(picture.height, 170);
+    const Json state = window.close();
+    EXPECT_EQ(state["picture"]["width"], 230);
+}
+
+TEST_F(ViewWindow, AScriptMayCloseItAndWriteWhatItShows)
+{
+    Window window(display(), "walk 0.9\nwait\npicture a.png\nwindow w.png\nquit\npicture b.png\n");
+    const Outcome outcome = window.end();
+    const Json report = Json::parse(outcome.out, nullptr, false);
+    EXPECT_EQ(report["files"], Json::array({"a.png", "w.png"}));
+    const Picture picture = read_picture(window.place.path("out/a.png")),
+                  all = read_picture(window.place.path("out/w.png"));
+    ASSERT_GT(all.width, picture.width);
+    ASSERT_EQ(all.height, picture.height);
+    int wrong = 0;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            wrong += all.at(x, y) != picture.at(x, y);
+    EXPECT_EQ(wrong, 0);
+    // The panel has letters.
+    Picture panel{all.width - picture.width, all.height, {}};
+    for (int y = 0; y < all.height; ++y)
+        for (int x = picture.width; x < all.width; ++x)
+            for (const int channel : all.at(x, y))
+                panel.rgb.push_back(static_cast<unsigned char>(channel));
+    EXPECT_GT(panel.most(), 200);
+}
+
+TEST_F(ViewWindow, ALineThatIsWrongEndsItInOneSentence)
+{
+    const Workplace place;
+    const Outcome outcome =
+        run_lumel({"view", own_scene("cornell-box.gltf"), "--script",
+                   place.file("s.txt", "picture a.png\npick nothing\n"), "--folder",
+                   place.path("out"), "--size", "32", "--width", "200"},
+                  {.environment = {"DISPLAY=" + display().name()}});
+    expect_one_sentence(outcome, 2, {":2", "nothing"});
+    EXPECT_EQ(place.listing(), std::vector<std::string>{"s.txt"});
+}
+
+}  // namespace
+}  // namespace lumel::test
