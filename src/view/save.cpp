@@ -190,7 +190,7 @@ LightOptions lights_as_they_are(const ViewSession& session)
         refuse("the sun of the file was moved, which cannot be saved; --sun gives one that can");
     if (ours)
         lights.sun = session.sun();
-    const glm::vec3 factor = session.sky();
+    const glm::vec3& factor = session.sky();
     if (factor.x == factor.y && factor.y == factor.z)
         lights.sky_scale *= factor.x;
     else if (lights.sky_color)
