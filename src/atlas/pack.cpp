@@ -26,7 +26,7 @@ constexpr double kDefaultFill = 0.25;  // below this gutters and tiny charts eat
 constexpr int kBisections = 9;         // density to 0.1 per cent
 constexpr double kSideGrowth = 1.02;
 // Shares of pages that are tried: the fuller they are, the fewer are needed, if all then fits.
-constexpr std::array kPageFills = {0.97, 0.92, 0.85, 0.75, 0.6, 0.4};
+constexpr std::array kPageFills = {0.97, 0.94, 0.91, 0.88, 0.85, 0.8, 0.7, 0.5};
 
 /// The rectangles to place and the rules for doing so.
 struct Task {
