@@ -22,8 +22,7 @@ glm::ivec2 Pages::corner(int page) const
 
 int Pages::at(const glm::vec2& place) const
 {
-    const glm::ivec2 cell =
-        glm::clamp(glm::ivec2(place) / std::max(side, 1), 0, across() - 1);
+    const glm::ivec2 cell = glm::clamp(glm::ivec2(place) / std::max(side, 1), 0, across() - 1);
     return cell.y * across() + cell.x;
 }
 

@@ -167,11 +167,12 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
     as_it_is.reset();
 
     stages.begin("charts");
-    const EditedScene edit = kept
-                                 ? EditedScene(std::move(before), std::move(now), solution, baked,
-                                               [&](const Scene& scene, const RayScene&,
-                                                   const Watch&) { return atlas_of(*kept, scene, baked.pages); })
-                                 : EditedScene(std::move(before), std::move(now), solution, baked);
+    const EditedScene edit =
+        kept ? EditedScene(std::move(before), std::move(now), solution, baked,
+                           [&](const Scene& scene, const RayScene&, const Watch&) {
+                               return atlas_of(*kept, scene, baked.pages);
+                           })
+             : EditedScene(std::move(before), std::move(now), solution, baked);
     tell_user(edit.now);
     UpdateRow row = changes_of(edit);
     row.error_before = baked.error;

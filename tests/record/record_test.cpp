@@ -39,7 +39,8 @@ BakeRecord unusual()
     record.lights.sun_angle = float(glm::radians(0.3));
     record.lights.light_radius = 0.025f;
     record.lights.profiles = {{"bulb", "/lamps/a.ies"}, {"spot", "/lamps/b.ies"}};
-    record.atlas = {.texels_per_metre = 12.3f, .size = 96, .max_size = 1024, .pages = 9, .gutter = 3};
+    record.atlas = {
+        .texels_per_metre = 12.3f, .size = 96, .max_size = 1024, .pages = 9, .gutter = 3};
     record.solver.method = DirectionsOptions{.seed = 4294967295u,
                                              .batch = 5,
                                              .rule = SampleRule::centre,
