@@ -88,9 +88,12 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
 
     // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
     std::vector<glm::vec2> places;
-    const glm::vec2 corner = glm::vec2(atlas.pages.corner(baked.page));
+    const Pages& pages = atlas.pages;
+    const glm::vec2 corner(pages.corner(baked.page));
+    const glm::vec2 size =
+        pages.count > 1 ? glm::vec2(float(pages.side)) : glm::vec2(atlas.width, atlas.height);
     for (const glm::vec2& texcoord : surface.texcoord)
-        places.push_back((texcoord - corner) / float(atlas.pages.side));
+        places.push_back((texcoord - corner) / size);
     const std::size_t place = gather.add_texcoords(places);
     if (!attributes.contains("TEXCOORD_0"))
         attributes["TEXCOORD_0"] = place;

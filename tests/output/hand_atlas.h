@@ -12,7 +12,6 @@ namespace lumel::test {
 inline Atlas corner_atlas(const Scene& scene, int side = 64)
 {
     Atlas atlas;
-    atlas.pages.side = side;
     atlas.width = side;
     atlas.height = side / 2;
     std::uint32_t serial = 0;
