@@ -152,18 +152,18 @@ TEST(PlayLinks, WithABudgetLightLagsAndIsRightOnceAtRest)
     const Workplace place;
     const std::string scene = door_opens(place);
     const Json hurried = rows_of(run_lumel(play(scene, place.path("hurried"),
-                                                {"--frames", "150", "--fps", "50", "--size", "128",
+                                                {"--frames", "250", "--fps", "50", "--size", "128",
                                                  "--exposure", kExposure, "--budget", "3"})));
-    ASSERT_EQ(hurried.size(), 150u);
+    ASSERT_EQ(hurried.size(), 250u);
     const auto lags = std::count_if(hurried.begin(), hurried.end(),
                                     [](const Json& row) { return row["at_rest"] == false; });
     EXPECT_GT(lags, 10);
     // After two seconds the door stands still.
-    EXPECT_EQ(hurried[149]["at_rest"], true);
+    EXPECT_EQ(hurried[249]["at_rest"], true);
     const Json whole = rows_of(
         play_seconds(scene, place.path("whole"), {"--size", "128", "--exposure", kExposure}));
     ASSERT_EQ(whole.size(), 3u);
-    EXPECT_NEAR(brightness(place.path("hurried/frame-0150.png")).mean,
+    EXPECT_NEAR(brightness(place.path("hurried/frame-0250.png")).mean,
                 brightness(place.path("whole/frame-0003.png")).mean, 0.1);
 }
 
