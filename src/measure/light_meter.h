@@ -42,8 +42,6 @@ private:
                            std::uint32_t stream) const;
     glm::vec3 from_source(const RayStart& start, const SourceShares::Own& own,
                           std::uint32_t stream) const;
-    glm::vec3 from_rest(const RayStart& start, const SourceShares& shares,
-                        std::uint32_t stream) const;
 
     ArrivingLight light_;
     std::uint32_t rays_of_set_, seed_;

@@ -8,8 +8,7 @@
 // towards it; what surfaces emit counts there alone. A lamp or a sun without size is one direction,
 // so that its part has no noise.
 //
-// The rays are sets of low-discrepancy points, as of LightMeter; the spread of the sets' means
-// states the noise.
+// The spread of the means of sets of rays states the noise (measure/ray_sets.h).
 
 #include "measure/light_probe.h"
 
@@ -18,25 +17,16 @@
 #include <numbers>
 
 #include "core/luminance.h"
-#include "paths/samples.h"
+#include "measure/ray_sets.h"
 
 namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Independent sets of rays. Of 16 values the spread is known to a fifth.
-constexpr std::uint32_t kSets = 16;
-/// Rays of a set, at least.
-constexpr std::uint32_t kFewRays = 4;
 /// Rays are doubled until the noise is at most this share of band 0, or there are so many times as
 /// many.
 constexpr double kEnough = 0.005;
 constexpr std::uint32_t kMostTimes = 64;
-/// A probe is inside of something if more than this share of its rays tell so.
-constexpr double kMostBacks = 0.5;
-/// Dimension pairs of a ray's random numbers, and the stream of sources that share rays.
-constexpr std::uint32_t kDirectionPair = 0, kSeedPair = 1, kSourcePair = 0, kChoicePair = 2;
-constexpr std::uint32_t kRestStream = 1, kFirstSourceStream = 2;
 
 /// Maps the unit square evenly to the sphere.
 glm::vec3 on_sphere(const glm::vec2& at)
@@ -82,14 +72,14 @@ ProbeLight mean_of(const Sets& sets, float factor)
     ProbeLight probe;
     for (std::size_t i = 0; i < probe.coefficients.size(); ++i) {
         for (const auto& sums : sets)
-            probe.coefficients[i] += factor / float(kSets) * sums[i];
+            probe.coefficients[i] += factor / float(kRaySets) * sums[i];
         const double mean = luminance(probe.coefficients[i]);
         double squares = 0.0;
         for (const auto& sums : sets) {
             const double off = luminance(factor * sums[i]) - mean;
             squares += off * off;
         }
-        probe.noise = std::max(probe.noise, std::sqrt(squares / (kSets * (kSets - 1.0))));
+        probe.noise = std::max(probe.noise, standard_error(squares));
     }
     return probe;
 }
@@ -100,7 +90,7 @@ LightProbe::LightProbe(const Scene& scene, const RayScene& rays, const Atlas& at
                        const Lumels& lumels, std::span<const glm::vec3> irradiance,
                        const LightProbeOptions& options)
     : light_(scene, rays, atlas, lumels, irradiance),
-      rays_of_set_(std::max((options.samples + kSets - 1) / kSets, kFewRays)),
+      rays_of_set_(rays_of_set(options.samples)),
       seed_(options.seed)
 {
 }
@@ -108,18 +98,17 @@ LightProbe::LightProbe(const Scene& scene, const RayScene& rays, const Atlas& at
 ProbeLight LightProbe::read(const glm::vec3& position, std::uint32_t number) const
 {
     const SourceShares shares = light_.share_out(position, rays_of_set_);
-    std::array<Coefficients, kSets> sums{};
+    std::array<Coefficients, kRaySets> sums{};
     ProbeLight probe;
     std::uint32_t backs = 0;
     for (std::uint32_t from = 0, to = 1; from < kMostTimes; from = to, to *= 2) {
-        for (std::uint32_t set = 0; set < kSets; ++set) {
-            const std::uint32_t stream = PathSamples::hash(PathSamples::hash(seed_, number), set);
+        for (std::uint32_t set = 0; set < kRaySets; ++set) {
+            const std::uint32_t stream = stream_of_set(seed_, number, set);
             add_rays(position, stream, from, to, backs, sums[set]);
             add_sources(position, shares, stream, from, to, sums[set]);
         }
         probe = mean_of(sums, 1.0f / float(to));
-        probe.inside =
-            double(backs) > kMostBacks * double(kSets) * double(rays_of_set_) * double(to);
+        probe.inside = tell_of_inside(backs, double(kRaySets) * double(rays_of_set_) * double(to));
         if (probe.inside || probe.noise <= kEnough * luminance(probe.coefficients[0]))
             break;
     }
@@ -143,24 +132,17 @@ void LightProbe::add_sources(const glm::vec3& position, const SourceShares& shar
                              std::uint32_t stream, std::uint32_t from, std::uint32_t to,
                              Coefficients& sums) const
 {
-    for (const auto& [source, rays] : shares.own) {
-        const std::uint32_t own =
-            PathSamples::hash(stream, kFirstSourceStream + std::uint32_t(source));
-        for (std::uint32_t k = from * rays; k < to * rays; ++k) {
-            const PathSamples samples(own, k);
-            add_sample(source, position, samples.stratified(kSourcePair), samples.bits(kSeedPair),
-                       1.0f / float(rays), sums);
-        }
-    }
-    // Each ray chooses one of the others by what it may send, and stands for all.
-    const std::uint32_t rest = PathSamples::hash(stream, kRestStream);
-    for (std::uint32_t k = from * shares.rest_rays; k < to * shares.rest_rays; ++k) {
-        const PathSamples samples(rest, k);
-        const auto [source, chance] = shares.choose(samples.stratified(kChoicePair).x);
-        if (chance > 0.0f)
-            add_sample(source, position, samples.stratified(kSourcePair), samples.bits(kSeedPair),
-                       1.0f / (chance * float(shares.rest_rays)), sums);
-    }
+    for (const SourceShares::Own& own : shares.own)
+        for_rays_towards(own.source, stream, from * own.rays, to * own.rays,
+                         [&](const glm::vec2& at, std::uint32_t seed) {
+                             add_sample(own.source, position, at, seed, 1.0f / float(own.rays),
+                                        sums);
+                         });
+    for_shared_rays(shares, stream, from * shares.rest_rays, to * shares.rest_rays,
+                    [&](std::size_t source, float chance, const glm::vec2& at, std::uint32_t seed) {
+                        add_sample(source, position, at, seed,
+                                   1.0f / (chance * float(shares.rest_rays)), sums);
+                    });
 }
 
 /// Sources are sampled for surfaces; the cosine of such a surface is taken out again.

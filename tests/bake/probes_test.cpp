@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../support/box_lumels.h"
-#include "../support/lamps.h"
 #include "measure/light_probe.h"
+#include "paper_house.h"
 #include "reference/averages.h"
 #include "reference/bounce_samples.h"
 #include "reference/path_tracer.h"
@@ -165,31 +164,13 @@ TEST(Probes, InARoomUnderSunAndSkyAreWhatPathsFind)
                              {{2.0f, 1.3f, 1.5f}, {3.5f, 2.0f, 0.5f}, {3.0f, 1.2f, 3.6f}}, 256);
 }
 
-/// A lit room of single sheets with a closed block in it, both double-sided as Blender writes them.
-Prepared room_with_a_block(bool double_sided)
-{
-    Scene scene;
-    const support::Quad look{.albedo = glm::vec3(0.7f)};
-    for (const support::Quad& wall : support::box_walls({0, 0, 0}, {4, 3, 4}, true, look))
-        support::add_quad(scene, wall);
-    for (const support::Quad& face :
-         support::box_walls({1.0f, 0.0f, 1.0f}, {1.8f, 0.9f, 1.8f}, false, look))
-        support::add_quad(scene, face);
-    for (Material& material : scene.materials)
-        material.double_sided = double_sided;
-    for (Mesh& mesh : scene.meshes)
-        for (Primitive& primitive : mesh.primitives)
-            primitive.texcoords[1].clear();
-    scene.lights.push_back(
-        support::make_lamp(PunctualLight::Kind::point, 50.0f, {3.0f, 2.0f, 3.0f}, {0, -1, 0}));
-    return Prepared(std::move(scene), AtlasOptions{.size = 128});
-}
-
 TEST(Probes, InsideOfABlockAreRefusedWhetherItsMaterialIsDoubleSidedOrNot)
 {
     for (const bool double_sided : {false, true}) {
         SCOPED_TRACE(double_sided);
-        const Prepared world = room_with_a_block(double_sided);
+        Scene scene = test::paper_house(double_sided);
+        test::add_bulb(scene);
+        const Prepared world(std::move(scene), AtlasOptions{.size = 128});
         const support::Solved solved =
             support::solve_scene(world, {.method = LinksOptions{}, .target_error = 0.02});
         const LightProbe probe(world.scene, world.rays, world.atlas, world.lumels,

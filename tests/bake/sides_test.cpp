@@ -1,38 +1,25 @@
 // Light on both sides of surfaces without thickness, and where the map has it.
 
-#include "../support/box_lumels.h"
-#include "../support/lamps.h"
 #include "../support/temporary_folder.h"
 #include "atlas/sides.h"
 #include "finish/finish.h"
+#include "paper_house.h"
 #include "solved.h"
 #include "update/solution_file.h"
 
 namespace lumel {
 namespace {
 
+using namespace test;
+
 constexpr float kSun = 1000.0f;     // [lx]
-constexpr float kBulb = 50.0f;      // [cd]
 constexpr double kSunHeight = 0.8;  // sine of its elevation
 
-/// A closed room whose walls are a single sheet each, with a closed block on its floor.
-Scene paper_house(bool double_sided, bool bulb, bool sun)
+Scene house_with(bool double_sided, bool bulb, bool sun)
 {
-    Scene scene;
-    const support::Quad look{.albedo = glm::vec3(0.7f)};
-    for (const support::Quad& wall : support::box_walls({0, 0, 0}, {4, 3, 4}, true, look))
-        support::add_quad(scene, wall);
-    for (const support::Quad& face :
-         support::box_walls({1.0f, 0.0f, 1.0f}, {1.8f, 0.9f, 1.8f}, false, look))
-        support::add_quad(scene, face);
-    for (Material& material : scene.materials)
-        material.double_sided = double_sided;
-    for (Mesh& mesh : scene.meshes)
-        for (Primitive& primitive : mesh.primitives)
-            primitive.texcoords[1].clear();
+    Scene scene = paper_house(double_sided);
     if (bulb)
-        scene.lights.push_back(
-            support::make_lamp(PunctualLight::Kind::point, kBulb, {3.0f, 2.0f, 3.0f}, {0, -1, 0}));
+        add_bulb(scene);
     if (sun)
         scene.lights.push_back(support::make_lamp(PunctualLight::Kind::directional, kSun, {0, 0, 0},
                                                   {0.6f, -float(kSunHeight), 0.0f}));
@@ -59,8 +46,8 @@ double mean(const Prepared& world, const std::vector<glm::vec3>& light, std::uin
 
 TEST(Sides, ShowIndoorLightIndoorsAndDaylightOutdoors)
 {
-    const Prepared house(paper_house(true, true, true), AtlasOptions{.size = 96});
-    const Prepared room(paper_house(false, true, false), AtlasOptions{.size = 96});
+    const Prepared house(house_with(true, true, true), AtlasOptions{.size = 96});
+    const Prepared room(house_with(false, true, false), AtlasOptions{.size = 96});
     const std::vector<glm::vec3> light = support::solve_scene(house, kLinks).irradiance,
                                  indoors = support::solve_scene(room, kLinks).irradiance;
     const Image map = finish_map(house.scene, house.atlas, house.lumels, light);
@@ -98,7 +85,7 @@ std::vector<char> charts_with_own_back(const Prepared& world, std::uint32_t firs
 /// The same under a sky, which all walls see from outside.
 Scene house_under_sky()
 {
-    Scene scene = paper_house(true, true, true);
+    Scene scene = house_with(true, true, true);
     scene.sky = support::even_sky(glm::vec3(100.0f));
     return scene;
 }
@@ -109,17 +96,17 @@ TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
     const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), all);
     EXPECT_EQ(charts_with_own_back(house, kFirstOfBlock, 12), none) << "a closed solid";
-    const Prepared sunny(paper_house(true, true, true), AtlasOptions{.size = 96});
+    const Prepared sunny(house_with(true, true, true), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(sunny, 0, kFirstOfBlock), roof_and_sunny_wall);
-    const Prepared dark(paper_house(true, false, true), AtlasOptions{.size = 96});
+    const Prepared dark(house_with(true, false, true), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(dark, 0, kFirstOfBlock), none) << "no light inside";
-    const Prepared void_outside(paper_house(true, true, false), AtlasOptions{.size = 96});
+    const Prepared void_outside(house_with(true, true, false), AtlasOptions{.size = 96});
     EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
 }
 
 TEST(Sides, AreLitByOneLampAmongMany)
 {
-    Scene street = paper_house(true, true, false);
+    Scene street = house_with(true, true, false);
     for (int i = 0; i < 5000; ++i)
         street.lights.push_back(
             support::make_lamp(PunctualLight::Kind::point, kBulb,
@@ -132,7 +119,7 @@ TEST(Sides, AreLitByOneLampAmongMany)
 // One mesh with a layout of its own, whose primitives differ.
 TEST(Sides, OfASingleSidedPartHaveNoBack)
 {
-    Scene scene = paper_house(true, true, true);
+    Scene scene = house_with(true, true, true);
     Mesh& mesh = scene.meshes[kCeiling];
     Primitive other = mesh.primitives.front();
     for (glm::vec3& position : other.positions)
@@ -156,7 +143,7 @@ TEST(Sides, OfASingleSidedPartHaveNoBack)
 TEST(Sides, AreAsAskedFor)
 {
     const auto own = [](Sides sides) {
-        const Prepared house(paper_house(true, true, true),
+        const Prepared house(house_with(true, true, true),
                              AtlasOptions{.size = 96, .sides = sides});
         return charts_with_own_back(house, 0, 12);
     };
@@ -167,7 +154,7 @@ TEST(Sides, AreAsAskedFor)
 
 TEST(Sides, OfTheFrontAloneShowTheFront)
 {
-    const Prepared house(paper_house(true, true, true),
+    const Prepared house(house_with(true, true, true),
                          AtlasOptions{.size = 64, .sides = Sides::front});
     std::vector<glm::vec3> light;
     for (const Lumel& lumel : house.lumels.lumels)

@@ -14,6 +14,7 @@
 #include "core/fingerprint.h"
 #include "live/kept_light.h"
 #include "live/links_file.h"
+#include "open_box.h"
 #include "prepare/prepare.h"
 
 namespace lumel {
@@ -22,19 +23,6 @@ namespace {
 using Lights = std::vector<glm::vec3>;
 
 constexpr int kSide = 64;  // of the atlas [texels]
-
-/// The Cornell box under a sky, with a lamp in it.
-Scene box()
-{
-    Scene scene = read_gltf(support::source_path("scenes/cornell-box.gltf"));
-    scene.sky = {
-        .width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
-    scene.sky.radiance[3 * 16 + 4] = glm::vec3(3000.0f, 2000.0f, 1000.0f);
-    PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.02f};
-    lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.15f, 0.4f, 0.3f));
-    scene.lights.push_back(lamp);
-    return scene;
-}
 
 Scene with_block_moved(Scene scene)
 {
@@ -80,9 +68,9 @@ KeptLinks through_a_file(const KeptLinks& kept)
 
 TEST(KeptLight, OfOtherLampsAndSkyOverLinksFromAFileIsThatOfANewTracing)
 {
-    const Lit before(box());
+    const Lit before(test::open_box());
     const KeptLinks kept = through_a_file(before.light.kept("hash"));
-    Scene scene = box();
+    Scene scene = test::open_box();
     scene.lights[0].transform[3] = glm::vec4(0.4f, 0.45f, 0.1f, 1.0f);
     for (glm::vec3& radiance : scene.sky.radiance)
         radiance *= glm::vec3(0.3f, 0.3f, 0.6f);
@@ -98,9 +86,9 @@ TEST(KeptLight, OfOtherLampsAndSkyOverLinksFromAFileIsThatOfANewTracing)
 
 TEST(KeptLight, OfAThingThatMovedTracesFewLinksAndIsThatOfANewTracing)
 {
-    const Lit before(box());
+    const Lit before(test::open_box());
     const KeptLinks kept = before.light.kept("hash");
-    const Scene scene = with_block_moved(box());
+    const Scene scene = with_block_moved(test::open_box());
     Lit over(scene, before, &kept), anew(scene, before, nullptr);
     ASSERT_EQ(over.prepared.lumels.lumels.size(), kept.lumels.size());
     const Retraced& traced = over.light.links().traced();
@@ -115,16 +103,16 @@ TEST(KeptLight, OfAThingThatMovedTracesFewLinksAndIsThatOfANewTracing)
 
 TEST(KeptLight, OverLinksOfAnotherSeedTracesAllOfThem)
 {
-    const Lit before(box());
+    const Lit before(test::open_box());
     KeptLinks kept = before.light.kept("hash");
     kept.seed = 2;
-    const Lit over(box(), &kept);
+    const Lit over(test::open_box(), &kept);
     EXPECT_EQ(over.light.links().traced().all(), kept.links.size());
 }
 
 TEST(KeptLinks, ComeBackFromAFileAsTheyWere)
 {
-    const KeptLinks kept = Lit(box()).light.kept("hash"), read = through_a_file(kept);
+    const KeptLinks kept = Lit(test::open_box()).light.kept("hash"), read = through_a_file(kept);
     EXPECT_EQ(read.scene_hash, "hash");
     EXPECT_EQ(read.rays, kept.rays);
     EXPECT_EQ(read.lumels, kept.lumels);
@@ -140,7 +128,7 @@ TEST(KeptLinks, FromADamagedFileAreRefused)
     const test::TemporaryFolder folder;
     const std::string path = folder / "scene.lumellinks";
     EXPECT_THROW(read_links(path), Error);
-    KeptLinks kept = Lit(box()).light.kept("hash");
+    KeptLinks kept = Lit(test::open_box()).light.kept("hash");
     kept.links[5] = std::uint32_t(kept.ends());  // beyond the last
     write_links(path, kept);
     EXPECT_THROW(read_links(path), Error);

@@ -8,14 +8,16 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "../support/source_folder.h"
+#include "alike.h"
 #include "core/error.h"
 #include "live/direction_cells.h"
 #include "live/live_links.h"
+#include "open_box.h"
 
 namespace lumel {
 namespace {
 
-using Lights = std::vector<glm::vec3>;
+using namespace test;
 
 constexpr int kSide = 64;  // of the atlas [texels]
 constexpr float kPi = 3.14159265358979f;
@@ -24,23 +26,6 @@ const std::string kBlock = "short block", kLight = "light";
 Scene read(const std::string& name)
 {
     return read_gltf(support::source_path("scenes/" + name));
-}
-
-/// The Cornell box, open to a sky with a bright part and to a sun, with a lamp in it.
-Scene open_box()
-{
-    Scene scene = read("cornell-box.gltf");
-    scene.sky = {
-        .width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
-    scene.sky.radiance[3 * 16 + 4] = glm::vec3(3000.0f, 2000.0f, 1000.0f);  // low in the open side
-    PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.02f};
-    lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.15f, 0.4f, 0.3f));
-    scene.lights.push_back(lamp);
-    PunctualLight sun{.kind = PunctualLight::Kind::directional, .name = "sun", .intensity = 300.0f};
-    sun.angle = 0.02f;
-    sun.transform = glm::rotate(glm::mat4(1.0f), kPi - 0.5f, glm::vec3(0.8f, -0.6f, 0.0f));
-    scene.lights.push_back(sun);
-    return scene;
 }
 
 LiveLinksOptions options_for(const std::vector<std::string>& things)
@@ -63,36 +48,6 @@ double farthest(const Lights& values, const Lights& truth)
     }
     EXPECT_GT(mean, 0.0);
     return most / mean;
-}
-
-/// RMSE of the lumels between 0.5 and 30 % of the mean, as a part of their own.
-double dark_error(const Lights& values, const Lights& truth)
-{
-    const auto of = [](const glm::vec3& light) { return double(light.r + light.g + light.b); };
-    double mean = 0.0, squares = 0.0, light = 0.0, count = 0.0;
-    for (const glm::vec3& one : truth)
-        mean += of(one) / double(truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i)
-        if (of(truth[i]) > 0.005 * mean && of(truth[i]) < 0.3 * mean) {
-            squares += std::pow(of(values[i]) - of(truth[i]), 2.0);
-            light += of(truth[i]);
-            count += 1.0;
-        }
-    EXPECT_GT(count, 0.0);
-    return std::sqrt(squares * count) / light;
-}
-
-/// How many links differ, and how many lumels' direct light.
-std::size_t different(LiveLinks& one, LiveLinks& other)
-{
-    std::size_t count = 0;
-    const Lights a = one.direct(), b = other.direct();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        count += a[i] != b[i];
-        for (std::uint32_t k = 0; k < one.links().rays(); ++k)
-            count += one.links().of(i)[k] != other.links().of(i)[k];
-    }
-    return count;
 }
 
 /// Turned about a point, then shifted.
@@ -150,7 +105,7 @@ TEST(LiveLinks, RoomWhoseOnlyLampIsOffIsDark)
 
 TEST(LiveLinks, LightIsTheSumOfWhatEachSenderSends)
 {
-    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    LiveLinks live(laid_out(open_box_in_the_sun(), {}), options_for({}));
     live.settle();
     const Lights all = live.irradiance();
     const auto only = [&](const std::string& name) {
@@ -176,7 +131,7 @@ TEST(LiveLinks, LightIsTheSumOfWhatEachSenderSends)
 TEST(LiveLinks, EditsEndWhereASolutionFromNothingDoes)
 {
     const LiveLinksOptions options = options_for({});
-    Scene scene = open_box();
+    Scene scene = open_box_in_the_sun();
     LiveLinks live(laid_out(scene, {}), options);
     live.settle();
     const glm::mat4 there = glm::translate(glm::mat4(1.0f), glm::vec3(0.4f, 0.45f, 0.1f));
@@ -206,7 +161,7 @@ TEST(LiveLinks, EditsEndWhereASolutionFromNothingDoes)
 TEST(LiveLinks, MovedAtRandomLinksAndDirectLightAreThoseOfTheLastPlace)
 {
     const LiveLinksOptions options = options_for({kBlock, kLight});
-    LiveLinks live(laid_out(open_box(), options.things), options);
+    LiveLinks live(laid_out(open_box_in_the_sun(), options.things), options);
     std::mt19937 random(7);
     std::uniform_real_distribution<float> any(-1.0f, 1.0f);
     const auto vector = [&](float size) {
@@ -253,7 +208,8 @@ TEST(LiveLinks, ShadowsOfABoxAlongTheAxesMoveToTheirEdges)
 TEST(LiveLinks, MovedBackNothingIsDifferent)
 {
     const LiveLinksOptions options = options_for({kBlock});
-    LiveLinks live(laid_out(open_box(), options.things), options), still = anew(live, options);
+    LiveLinks live(laid_out(open_box_in_the_sun(), options.things), options),
+        still = anew(live, options);
     live.move(kBlock,
               motion(glm::vec3(0.2f), 0.7f, glm::vec3(0, 1, 0), glm::vec3(0.1f, 0.0f, 0.1f)));
     EXPECT_GT(different(live, still), 0u);
@@ -265,7 +221,8 @@ TEST(LiveLinks, SendersThatShareAGroupAreDimmedTheSame)
 {
     LiveLinksOptions options = options_for({}), narrow = options;
     narrow.light.most_bytes = 1;
-    LiveLinks apart(laid_out(open_box(), {}), options), shared(laid_out(open_box(), {}), narrow);
+    LiveLinks apart(laid_out(open_box_in_the_sun(), {}), options),
+        shared(laid_out(open_box_in_the_sun(), {}), narrow);
     for (LiveLinks* live : {&apart, &shared}) {
         live->set_lamp("lamp", glm::vec3(0.3f));
         live->set_lamp("sun", glm::vec3(0.1f, 0.2f, 0.3f));
@@ -292,8 +249,8 @@ TEST(LiveLinks, BudgetEndsACallAndLaterCallsFinish)
 TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
 {
     const LiveLinksOptions options = options_for({kBlock, kLight});
-    LiveLinks at_once(laid_out(open_box(), options.things), options);
-    LiveLinks spread(laid_out(open_box(), options.things), options);
+    LiveLinks at_once(laid_out(open_box_in_the_sun(), options.things), options);
+    LiveLinks spread(laid_out(open_box_in_the_sun(), options.things), options);
     at_once.settle();
     spread.settle();
     const Lights before = spread.irradiance(), shown = spread.shown();
@@ -319,7 +276,7 @@ TEST(LiveLinks, RequestedMovesEndWhereMovesAtOnceDo)
 
 TEST(LiveLinks, WhatIsShownOfTheSkyWaitsForTheNextSweepToo)
 {
-    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    LiveLinks live(laid_out(open_box_in_the_sun(), {}), options_for({}));
     live.settle();
     const Lights shown = live.shown();
     live.set_sky(glm::vec3(10.0f));
@@ -330,7 +287,7 @@ TEST(LiveLinks, WhatIsShownOfTheSkyWaitsForTheNextSweepToo)
 
 TEST(LiveLinks, ALampSetToWhatItIsChangesNothing)
 {
-    LiveLinks live(laid_out(open_box(), {}), options_for({}));
+    LiveLinks live(laid_out(open_box_in_the_sun(), {}), options_for({}));
     live.set_lamp("light", glm::vec3(0.5f));
     ASSERT_TRUE(live.settle().at_rest);
     const std::uint64_t sweeps = live.state().all_sweeps;
@@ -342,7 +299,7 @@ TEST(LiveLinks, ALampSetToWhatItIsChangesNothing)
 TEST(LiveLinks, RequestsThatComeFasterThanTheyAreFollowedEndInTheLast)
 {
     const LiveLinksOptions options = options_for({kBlock});
-    LiveLinks live(laid_out(open_box(), options.things), options);
+    LiveLinks live(laid_out(open_box_in_the_sun(), options.things), options);
     live.settle();
     const Lights before = live.irradiance();
     int shown = 0;
@@ -363,7 +320,7 @@ TEST(LiveLinks, RequestsThatComeFasterThanTheyAreFollowedEndInTheLast)
     EXPECT_LT(farthest(live.irradiance(), fresh.irradiance()), 1e-3);
     const std::uint32_t block = find_instance(live.scene(), kBlock);
     EXPECT_EQ(live.scene().instances[block].transform,
-              last * open_box().instances[block].transform);
+              last * open_box_in_the_sun().instances[block].transform);
 }
 
 TEST(LiveLinks, CellsHoldAllDirectionsThatMeetABall)

@@ -10,13 +10,13 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <unistd.h>
 
-#include "../support/source_folder.h"
-#include "live/live_links.h"
+#include "alike.h"
+#include "open_box.h"
 
 namespace lumel {
 namespace {
 
-using Lights = std::vector<glm::vec3>;
+using namespace test;
 
 constexpr int kSide = 48;  // of the atlas [texels]
 constexpr float kPi = 3.14159265358979f;
@@ -24,23 +24,6 @@ constexpr float kPi = 3.14159265358979f;
 constexpr std::uint64_t kSlack = 4u << 20;
 
 const std::string kBlock = "short block", kLight = "light";
-
-/// The Cornell box, open to a sky with a bright part and to a sun, with a lamp in it.
-Scene box()
-{
-    Scene scene = read_gltf(support::source_path("scenes/cornell-box.gltf"));
-    scene.sky = {
-        .width = 16, .height = 8, .radiance = std::vector<glm::vec3>(128, glm::vec3(2.0f))};
-    scene.sky.radiance[3 * 16 + 4] = glm::vec3(3000.0f, 2000.0f, 1000.0f);
-    PunctualLight lamp{.name = "lamp", .intensity = 20.0f, .radius = 0.02f};
-    lamp.transform = glm::translate(glm::mat4(1.0f), glm::vec3(0.15f, 0.4f, 0.3f));
-    scene.lights.push_back(lamp);
-    PunctualLight sun{.kind = PunctualLight::Kind::directional, .name = "sun", .intensity = 300.0f};
-    sun.angle = 0.02f;
-    sun.transform = glm::rotate(glm::mat4(1.0f), kPi - 0.5f, glm::vec3(0.8f, -0.6f, 0.0f));
-    scene.lights.push_back(sun);
-    return scene;
-}
 
 std::uint64_t resident_bytes()
 {
@@ -54,7 +37,7 @@ class Edited {
 public:
     explicit Edited(std::uint32_t seed)
         : random_(seed),
-          live_(lay_out(box(), {.size = kSide}, options_.things), options_)
+          live_(lay_out(open_box_in_the_sun(), {.size = kSide}, options_.things), options_)
     {
     }
 
@@ -135,34 +118,6 @@ private:
     std::map<std::string, glm::vec3> lamps_, paints_;
     glm::vec3 sky_{1.0f};
 };
-
-std::size_t different(LiveLinks& one, LiveLinks& other)
-{
-    std::size_t count = 0;
-    const Lights a = one.direct(), b = other.direct();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        count += a[i] != b[i];
-        for (std::uint32_t k = 0; k < one.links().rays(); ++k)
-            count += one.links().of(i)[k] != other.links().of(i)[k];
-    }
-    return count;
-}
-
-/// RMSE of the lumels between 0.5 and 30 % of the mean, as a part of their own mean.
-double dark_error(const Lights& values, const Lights& truth)
-{
-    const auto of = [](const glm::vec3& light) { return double(light.r + light.g + light.b); };
-    double mean = 0.0, squares = 0.0, light = 0.0, count = 0.0;
-    for (const glm::vec3& one : truth)
-        mean += of(one) / double(truth.size());
-    for (std::size_t i = 0; i < truth.size(); ++i)
-        if (of(truth[i]) > 0.005 * mean && of(truth[i]) < 0.3 * mean) {
-            squares += std::pow(of(values[i]) - of(truth[i]), 2.0);
-            light += of(truth[i]);
-            count += 1.0;
-        }
-    return light > 0.0 ? std::sqrt(squares * count) / light : 0.0;
-}
 
 /// Edits, some of them while others are still followed; at every rest, what is there is judged.
 void expect_all_as_from_nothing(int edits)

@@ -2,7 +2,6 @@
 // the formula of the sky, by code of its own.
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,6 @@ using support::Quad;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLux = 10000.0;
 
 /// A vertical plane under the overcast sky, as a part of a horizontal one:

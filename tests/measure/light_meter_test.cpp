@@ -1,7 +1,6 @@
 // What a light meter shows, against closed forms. Form factors are those of [How], written here.
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -13,9 +12,6 @@ using namespace lumel::test;
 using support::Quad;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr auto kNothingElse = [](Scene&) {};
 
 void expect_within(const Reading& reading, double lux)
 {

@@ -1,7 +1,6 @@
 // Light probes against closed forms. Spherical harmonics are written here once more, in angles.
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -16,8 +15,6 @@ using support::Quad;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr auto kNothingElse = [](Scene&) {};
 using Nine = std::array<double, 9>;
 
 /// Real harmonics of (l, m) at polar angle θ from +z and azimuth φ from +x, by their definition

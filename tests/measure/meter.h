@@ -1,6 +1,7 @@
 #pragma once
 // A light meter in a scene of quads whose lumels have one irradiance all over.
 
+#include <numbers>
 #include <vector>
 
 #include "../support/box_lumels.h"
@@ -12,6 +13,9 @@ namespace lumel::test {
 /// 0.5 %, the accuracy that is asked of a reading.
 inline constexpr double kAccuracy = 0.005;
 inline constexpr std::uint32_t kManyRays = 1 << 16;
+inline constexpr double kPi = std::numbers::pi;
+/// A scene has nothing beside its quads.
+inline constexpr auto kNothingElse = [](Scene&) {};
 
 class MeteredRoom {
 public:
