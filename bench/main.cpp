@@ -56,6 +56,13 @@ void add_other_modes(CLI::App& app, Settings& settings)
     app.add_option("--moves", settings.moves,
                    "times what rays and close pairs take to follow this thing instead")
         ->type_name("THING");
+    app.add_option("--seams", settings.seams,
+                   "writes a picture of the map's seams before and after they are matched instead")
+        ->type_name("FILE.png");
+    app.add_option("--from", settings.from, "eye of that picture, and what it looks at [m]")
+        ->delimiter(',')
+        ->expected(6)
+        ->type_name("X,Y,Z,X,Y,Z");
     app.add_option("--edit-rays", settings.edit_rays, "rays of a lumel in such a scene")
         ->capture_default_str();
     app.add_option("--edit-truth", settings.edit_truth,
@@ -144,6 +151,8 @@ int main(int argc, char** argv)
             time_following(settings);
         else if (!settings.moves.empty())
             time_moves(settings);
+        else if (!settings.seams.empty())
+            show_seams(settings);
         else if (!settings.growth.empty())
             grow(settings);
         else

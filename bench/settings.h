@@ -46,6 +46,8 @@ struct Settings {
     std::vector<std::string> edits;   ///< to time instead, of a scene that is kept lit: dim:lamp
     std::vector<std::string> follow;  ///< changes whose light is followed instead
     std::string moves;                ///< instead: a thing of which moves are timed
+    std::string seams;                ///< instead: PNG of seams before and after
+    std::vector<float> from;          ///< eye and what it looks at [m]; empty: the preview's view
     std::uint32_t edit_rays = 64;     ///< of a lumel of such a scene
     /// Solutions of 256 rays whose mean its light is compared with; 0: not.
     std::uint32_t edit_truth = 0;
