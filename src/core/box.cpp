@@ -16,9 +16,10 @@ bool Box::may_meet(const glm::vec3& origin, const glm::vec3& direction, float fa
 {
     float enter = 0.0f, leave = far;
     for (int c = 0; c < 3; ++c) {
-        const float part = std::abs(direction[c]) > kLeastPart ? direction[c] : kLeastPart;
-        const float a = (low[c] - margin - origin[c]) / part;
-        const float b = (high[c] + margin - origin[c]) / part;
+        const float inverse =
+            1.0f / (std::abs(direction[c]) > kLeastPart ? direction[c] : kLeastPart);
+        const float a = (low[c] - margin - origin[c]) * inverse;
+        const float b = (high[c] + margin - origin[c]) * inverse;
         enter = std::max(enter, std::min(a, b));
         leave = std::min(leave, std::max(a, b));
     }

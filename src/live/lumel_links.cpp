@@ -69,9 +69,9 @@ public:
             lumel_,
             (cell + glm::vec2(to_unit(key, kStart), to_unit(key, kStartAcross))) / float(side));
     }
-    RaySpan ray(const RayStart& start, std::uint32_t k) const
+    RaySpan ray(const RayStart& start, const glm::vec3& direction, std::uint32_t k) const
     {
-        return ray_out(start.position, direction(k), PathSamples::hash(own_, k));
+        return ray_out(start.position, direction, PathSamples::hash(own_, k));
     }
 
 private:
@@ -161,28 +161,28 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
             ++count.ended;
         }
     for (const LinkChanges::Moved& moved : changes.moved)
-        for_crossing(
-            rays_of, i, moved.box,
-            [&](const RaySpan& ray) { return moved.tree.passing(ray) == glm::vec3(0.0f); },
-            [&](std::uint32_t k) {
-                links[k] = end_of(rays_of, k);
-                ++count.crossed;
-            });
+        for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
+            const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
+            if (moved.tree.passing(ray) != glm::vec3(0.0f))
+                return;
+            links[k] = end_of(rays_of, k);
+            ++count.crossed;
+        });
     return count;
 }
 
-/// Visits the rays of a lumel that meet something in a box.
-template <class Meets, class Visit>
-void LumelLinks::for_crossing(const Rays& rays_of, std::size_t i, const Box& box,
-                              const Meets& meets, const Visit& visit) const
+/// Visits the rays of a lumel that may meet something in a box.
+template <class Visit>
+void LumelLinks::for_rays_towards(const Rays& rays_of, std::size_t i, const Box& box,
+                                  const Visit& visit) const
 {
     const float reach = place_.reach(i);
     const glm::vec3& centre = place_.world[i].centre;
     const glm::vec3 towards = (box.centre() - centre) * rays_of.frame();  // into the frame
     cells_towards(towards, box.radius() + reach, side_).for_each(side_, [&](std::uint32_t k) {
-        if (box.may_meet(centre, rays_of.direction(k), std::numeric_limits<float>::max(), reach) &&
-            meets(rays_of.ray(rays_of.start(k), k)))
-            visit(k);
+        const glm::vec3 direction = rays_of.direction(k);
+        if (box.may_meet(centre, direction, std::numeric_limits<float>::max(), reach))
+            visit(k, direction);
     });
 }
 
@@ -214,11 +214,26 @@ glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
 std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
 {
     const RayStart start = rays.start(k);
-    const RaySpan ray = rays.ray(start, k);
+    const RaySpan ray = rays.ray(start, rays.direction(k), k);
     if (!(start.cosine(ray.direction) > 0.0f))
         return lost();
     RayHit hit;
     return place_.rays.closest(ray, hit) ? end_at(hit) : sky();
+}
+
+/// Where it ends if it meets this thing. What it meets there is the first, unless something lies
+/// before; to learn that is less than to find what it is.
+std::optional<std::uint32_t> LumelLinks::end_by(const Rays& rays, std::uint32_t k,
+                                                const glm::vec3& direction,
+                                                std::uint32_t thing) const
+{
+    const RayStart start = rays.start(k);
+    RaySpan ray = rays.ray(start, direction, k);
+    RayHit hit;
+    if (!(start.cosine(ray.direction) > 0.0f) || !place_.rays.closest_on(thing, ray, hit))
+        return std::nullopt;
+    ray.far = hit.distance;
+    return place_.rays.is_clear_but_for(thing, ray) ? end_at(hit) : end_of(rays, k);
 }
 
 std::uint32_t LumelLinks::end_at(const RayHit& hit) const
@@ -289,24 +304,25 @@ Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
     std::uint32_t* links = &links_[i * rays()];
     const Rays rays_of(*this, i);
     bool sky_changed = false;
-    const auto again = [&](std::uint32_t k) {
-        const std::uint32_t before = links[k];
-        links[k] = end_of(rays_of, k);
-        sky_changed |= links[k] != before && (links[k] == sky() || before == sky());
+    const auto set = [&](std::uint32_t k, std::uint32_t end) {
+        sky_changed |= links[k] != end && (links[k] == sky() || end == sky());
+        links[k] = end;
     };
     for (std::uint32_t k = 0; k < rays(); ++k)
         if (on_thing_[links[k]] == thing) {
-            again(k);
+            const std::optional<std::uint32_t> end =
+                end_by(rays_of, k, rays_of.direction(k), thing);
+            set(k, end ? *end : end_of(rays_of, k));
             ++count.ended;
         }
-    for_crossing(
-        rays_of, i, box, [&](const RaySpan& ray) { return place_.rays.meets(thing, ray); },
-        [&](std::uint32_t k) {
-            if (on_thing_[links[k]] == thing)
-                return;
-            again(k);
+    for_rays_towards(rays_of, i, box, [&](std::uint32_t k, const glm::vec3& direction) {
+        if (on_thing_[links[k]] == thing)
+            return;
+        if (const std::optional<std::uint32_t> end = end_by(rays_of, k, direction, thing)) {
+            set(k, *end);
             ++count.crossed;
-        });
+        }
+    });
     if (sky_changed)
         find_sky(rays_of, i);
     return count;

@@ -2,6 +2,7 @@
 // The lumel that each ray from a lumel meets, kept while things move.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -86,10 +87,12 @@ private:
     void trace_all(const Watch& watch);
     void take_over(const KeptLinks& kept, const LinkChanges& changes, const Watch& watch);
     Retraced take_over(std::size_t lumel, const LinkChanges& changes);
-    template <class Meets, class Visit>
-    void for_crossing(const Rays& rays, std::size_t lumel, const Box& box, const Meets& meets,
-                      const Visit& visit) const;
+    template <class Visit>
+    void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,
+                          const Visit& visit) const;
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
+    std::optional<std::uint32_t> end_by(const Rays& rays, std::uint32_t k,
+                                        const glm::vec3& direction, std::uint32_t thing) const;
     std::uint32_t end_at(const RayHit& hit) const;
     void trace(std::size_t lumel);
     Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);

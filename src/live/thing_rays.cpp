@@ -58,10 +58,15 @@ bool ThingRays::closest(const RaySpan& ray, RayHit& hit) const
 
 bool ThingRays::is_clear(const RaySpan& ray) const
 {
+    return is_clear_but_for(kStays, ray);
+}
+
+bool ThingRays::is_clear_but_for(std::size_t thing, const RaySpan& ray) const
+{
     if (still_.passing(ray) == glm::vec3(0.0f))
         return false;
     for (std::size_t t = 0; t < trees_.size(); ++t)
-        if (meets(t, ray))
+        if (t != thing && may_meet(t, ray) && trees_[t].passing(ray) == glm::vec3(0.0f))
             return false;
     return true;
 }
@@ -70,11 +75,6 @@ bool ThingRays::is_clear(const RaySpan& ray) const
 bool ThingRays::may_meet(std::size_t thing, const RaySpan& ray) const
 {
     return boxes_[thing].may_meet(ray.origin, ray.direction, ray.far, lift_);
-}
-
-bool ThingRays::meets(std::size_t thing, const RaySpan& ray) const
-{
-    return may_meet(thing, ray) && trees_[thing].passing(ray) == glm::vec3(0.0f);
 }
 
 }  // namespace lumel

@@ -25,8 +25,13 @@ public:
     bool closest(const RaySpan& ray, RayHit& hit) const;
     /// Does nothing lie along a ray?
     bool is_clear(const RaySpan& ray) const;
-    /// Does a thing lie along a ray, whatever else does?
-    bool meets(std::size_t thing, const RaySpan& ray) const;
+    /// The first hit of a thing alone, or false.
+    bool closest_on(std::size_t thing, const RaySpan& ray, RayHit& hit) const
+    {
+        return may_meet(thing, ray) && trees_[thing].closest(ray, hit);
+    }
+    /// Does nothing but perhaps this thing lie along a ray?
+    bool is_clear_but_for(std::size_t thing, const RaySpan& ray) const;
 
     std::size_t things() const { return trees_.size(); }
     const std::vector<std::uint32_t>& instances(std::size_t thing) const { return things_[thing]; }

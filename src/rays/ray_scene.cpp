@@ -224,8 +224,8 @@ bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::
 bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                        std::uint32_t seed, RayHit& hit) const
 {
-    RTCRayHit query{};
-    query.ray = make_ray(origin, direction, near, far);
+    // Made in place: a copy would wait for what was just written.
+    RTCRayHit query{.ray = make_ray(origin, direction, near, far), .hit = {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(seed);
