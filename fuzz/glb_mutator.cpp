@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "gltf/container.h"
 #include "mutate.h"
-#include "scene/gltf_container.h"
 
 namespace lumel::fuzz {
 namespace {

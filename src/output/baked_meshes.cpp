@@ -8,9 +8,9 @@
 
 #include "atlas/sides.h"
 #include "core/error.h"
+#include "gltf/split_sides.h"
 #include "output/baked_materials.h"
 #include "output/vertex_gather.h"
-#include "scene/split_sides.h"
 
 namespace lumel {
 namespace {

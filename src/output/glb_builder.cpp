@@ -9,9 +9,9 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "gltf/accessor.h"
 #include "images/image_files.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_webp.h"
+#include "scene/webp_image.h"
 
 namespace lumel {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

@@ -7,11 +7,11 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "gltf/baked_lights.h"
 #include "images/image_files.h"
 #include "output/baked_materials.h"
 #include "output/baked_meshes.h"
 #include "output/glb_builder.h"
-#include "scene/baked_lights.h"
 
 namespace lumel {
 namespace {

@@ -34,7 +34,7 @@ struct SceneLights {
 /// extras.lumel of each baked material names the map that stands beside the file too: tools that
 /// drop the extension keep extras. `map`: irradiance [lx], RGBA. Throws Error.
 ///
-/// Lamps and skies of the input are baked: they go to extras (see scene/baked_lights.h), unless
+/// Lamps and skies of the input are baked: they go to extras (see gltf/baked_lights.h), unless
 /// `lights` keeps them. asset.extras.lumel says how many, and has the exposure.
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& map, const SceneLights& lights = {});

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "gltf/accessor.h"
+#include "gltf/document.h"
 #include "scene/animation.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_document.h"
 #include "scene/gltf_nodes.h"
 
 namespace lumel {

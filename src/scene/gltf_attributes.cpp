@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "gltf/accessor.h"
+#include "gltf/extensions.h"
 #include "scene/geometry_checks.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_extensions.h"
 
 namespace lumel {
 

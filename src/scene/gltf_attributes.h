@@ -1,7 +1,7 @@
 #pragma once
 // Vertex attributes of one primitive, checked and as floats.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/gltf_mesh.h"
 #include "scene/scene.h"
 

@@ -9,7 +9,7 @@
 #include <stb/stb_image.h>
 
 #include "core/error.h"
-#include "scene/gltf_webp.h"
+#include "scene/webp_image.h"
 
 namespace lumel {
 

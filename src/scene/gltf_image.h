@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "scene/gltf_files.h"
+#include "gltf/files.h"
 #include "scene/scene.h"
 
 namespace lumel {

@@ -1,7 +1,7 @@
 #pragma once
 // Punctual lights and cameras of a glTF file.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/gltf_nodes.h"
 #include "scene/scene.h"
 

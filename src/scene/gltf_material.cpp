@@ -5,8 +5,8 @@
 #include <exception>
 
 #include "core/parallel.h"
-#include "scene/gltf_extensions.h"
-#include "scene/gltf_extras.h"
+#include "gltf/extensions.h"
+#include "gltf/extras.h"
 #include "scene/gltf_image.h"
 #include "json/json_file.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/scene.h"
 
 namespace lumel {

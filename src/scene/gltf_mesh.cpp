@@ -2,8 +2,8 @@
 
 #include <numeric>
 
+#include "gltf/accessor.h"
 #include "scene/geometry_checks.h"
-#include "scene/gltf_accessor.h"
 #include "scene/gltf_attributes.h"
 
 namespace lumel {

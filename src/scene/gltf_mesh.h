@@ -1,7 +1,7 @@
 #pragma once
 // Meshes of a glTF file as clean triangle lists.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/scene.h"
 
 namespace lumel {

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/node_place.h"
 
 namespace lumel {

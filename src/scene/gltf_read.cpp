@@ -4,9 +4,9 @@
 #include <new>
 
 #include "core/error.h"
+#include "gltf/document.h"
+#include "gltf/extras.h"
 #include "scene/geometry_checks.h"
-#include "scene/gltf_document.h"
-#include "scene/gltf_extras.h"
 #include "scene/gltf_lights.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"

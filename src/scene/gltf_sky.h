@@ -1,7 +1,7 @@
 #pragma once
 // The image-based light of a glTF scene.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/sky.h"
 
 namespace lumel {

@@ -1,6 +1,6 @@
 #include "scene/probe_places.h"
 
-#include "scene/gltf_extras.h"
+#include "gltf/extras.h"
 #include "scene/gltf_nodes.h"
 
 namespace lumel {

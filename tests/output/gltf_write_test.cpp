@@ -11,11 +11,11 @@
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
 #include "core/error.h"
+#include "gltf/accessor.h"
+#include "gltf/document.h"
 #include "hand_atlas.h"
 #include "images/image_files.h"
 #include "output/gltf_write.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_document.h"
 
 namespace lumel {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "../scene/compressed_file.h"
 #include "../scene/twins.h"
+#include "gltf/accessor.h"
 #include "hand_atlas.h"
 #include "output/gltf_write.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_webp.h"
+#include "scene/webp_image.h"
 
 namespace lumel::test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "gltf/split_sides.h"
 #include "gltf_builder.h"
-#include "scene/split_sides.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "core/error.h"
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 #include "scene/scene.h"
 
 namespace lumel::test {

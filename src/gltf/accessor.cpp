@@ -1,4 +1,4 @@
-#include "scene/gltf_accessor.h"
+#include "gltf/accessor.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "scene/gltf_extensions.h"
+#include "gltf/extensions.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "scene/gltf_container.h"
+#include "gltf/container.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "scene/split_sides.h"
+#include "gltf/split_sides.h"
 
 #include <algorithm>
 #include <optional>

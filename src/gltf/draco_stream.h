@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

@@ -1,4 +1,4 @@
-#include "scene/gltf_files.h"
+#include "gltf/files.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "scene/draco_stream.h"
+#include "gltf/draco_stream.h"
 
 #include <array>
 #include <cstring>

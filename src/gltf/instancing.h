@@ -1,7 +1,7 @@
 #pragma once
 // EXT_mesh_gpu_instancing: a node that shows its mesh many times.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

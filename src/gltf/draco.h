@@ -1,7 +1,7 @@
 #pragma once
 // KHR_draco_mesh_compression: primitives whose vertices and triangles are coded.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

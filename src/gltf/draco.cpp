@@ -1,13 +1,13 @@
-#include "scene/gltf_draco.h"
+#include "gltf/draco.h"
 
 #include <array>
 #include <cstring>
 #include <map>
 #include <utility>
 
-#include "scene/draco_stream.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_extensions.h"
+#include "gltf/accessor.h"
+#include "gltf/draco_stream.h"
+#include "gltf/extensions.h"
 
 namespace lumel {
 

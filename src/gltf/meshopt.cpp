@@ -1,4 +1,4 @@
-#include "scene/gltf_meshopt.h"
+#include "gltf/meshopt.h"
 
 #include <array>
 #include <optional>
@@ -7,7 +7,7 @@
 
 #include <meshoptimizer.h>
 
-#include "scene/gltf_extensions.h"
+#include "gltf/extensions.h"
 
 namespace lumel {
 

@@ -1,19 +1,19 @@
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 #include <cstdint>
 #include <cstdlib>
 #include <utility>
 
 #include "core/error.h"
-#include "scene/baked_lights.h"
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_container.h"
-#include "scene/gltf_draco.h"
-#include "scene/gltf_extensions.h"
-#include "scene/gltf_instancing.h"
-#include "scene/gltf_meshopt.h"
-#include "scene/gltf_webp.h"
-#include "scene/split_sides.h"
+#include "gltf/accessor.h"
+#include "gltf/baked_lights.h"
+#include "gltf/container.h"
+#include "gltf/draco.h"
+#include "gltf/extensions.h"
+#include "gltf/instancing.h"
+#include "gltf/meshopt.h"
+#include "gltf/split_sides.h"
+#include "gltf/webp.h"
 
 namespace lumel {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf_files.h"
+#include "gltf/files.h"
 #include "json/json_view.h"
 
 namespace lumel {

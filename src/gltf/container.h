@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/gltf_files.h"
+#include "gltf/files.h"
 
 namespace lumel {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Accessors: where their elements lie, proven to be inside their buffers.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

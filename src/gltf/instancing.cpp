@@ -1,4 +1,4 @@
-#include "scene/gltf_instancing.h"
+#include "gltf/instancing.h"
 
 #include <array>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/gltf_accessor.h"
-#include "scene/gltf_extensions.h"
+#include "gltf/accessor.h"
+#include "gltf/extensions.h"
 
 namespace lumel {
 

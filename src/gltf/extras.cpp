@@ -1,4 +1,4 @@
-#include "scene/gltf_extras.h"
+#include "gltf/extras.h"
 
 namespace lumel {
 namespace {

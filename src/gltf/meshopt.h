@@ -1,7 +1,7 @@
 #pragma once
 // EXT_meshopt_compression and KHR_meshopt_compression: bufferViews whose bytes are coded.
 
-#include "scene/gltf_document.h"
+#include "gltf/document.h"
 
 namespace lumel {
 

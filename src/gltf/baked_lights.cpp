@@ -1,4 +1,4 @@
-#include "scene/baked_lights.h"
+#include "gltf/baked_lights.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,17 +1,14 @@
-#include "scene/gltf_webp.h"
+#include "scene/webp_image.h"
 
 #include <cstring>
 
 #include <webp/decode.h>
 
 #include "core/error.h"
-#include "scene/gltf_extensions.h"
 
 namespace lumel {
-
 namespace {
 
-constexpr const char* kWebp = "EXT_texture_webp";
 /// Equal pixels take no bytes at all, so that the bytes alone are no bound: a picture of 4096 x
 /// 4096 may be of any size, and a larger one has these pixels for each byte. Lossy pictures spend
 /// three bits on a block of 16 x 16 pixels.
@@ -51,26 +48,6 @@ Texture decode_webp(const Bytes& bytes, const std::string& place)
                             int(std::size_t(texture.width) * kChannels)))
         fail(place, "cannot be decoded as WebP: it is broken or cut short");
     return texture;
-}
-
-void name_webp_images(GltfDocument& document)
-{
-    const JsonView root = document.root();
-    root.each("textures", [&](const JsonView& texture, std::size_t) {
-        if (const auto extension = texture.extension(kWebp))
-            if (const auto source = extension->find("source"))
-                source->index(root.count("images"), "images");
-    });
-    if (document.json.contains("textures"))
-        for (Json& texture : document.json["textures"]) {
-            const Json::json_pointer source(std::string("/extensions/") + kWebp + "/source");
-            if (!texture.contains("source") && texture.contains(source)) {
-                Json image = texture[source];
-                texture["source"] = std::move(image);
-            }
-            erase_extension(texture, kWebp);
-        }
-    forget_extension(document.json, kWebp);
 }
 
 }  // namespace lumel
