@@ -1,5 +1,7 @@
 #include "live/kept_links.h"
 
+#include <bit>
+
 #include "core/error.h"
 
 namespace lumel {
@@ -15,11 +17,10 @@ namespace {
 
 std::uint32_t side_of_rays(std::uint32_t rays)
 {
-    for (const std::uint32_t side : {2u, 4u, 8u, 16u})
-        if (side * side == rays)
-            return side;
-    throw Error(ErrorKind::input, std::to_string(rays) + " rays",
-                "are no grid: a lumel has 4, 16, 64 or 256");
+    if (!is_grid(rays))
+        throw Error(ErrorKind::input, std::to_string(rays) + " rays",
+                    "are no grid: a lumel has 4, 16, 64 or 256");
+    return 1u << (std::countr_zero(rays) / 2);
 }
 
 void keep_places(const Atlas& atlas, KeptLinks& kept)

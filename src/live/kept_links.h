@@ -45,6 +45,12 @@ struct KeptLinks {
     std::uint64_t ends() const { return lumels.size() + 2 + instances.size(); }
 };
 
+/// Are so many rays of a lumel a grid that Lumel keeps?
+constexpr bool is_grid(std::uint32_t rays)
+{
+    return rays == 4 || rays == 16 || rays == 64 || rays == 256;
+}
+
 /// Side of the grid of a lumel's rays. Throws Error{input} unless there are 4, 16, 64 or 256.
 std::uint32_t side_of_rays(std::uint32_t rays);
 

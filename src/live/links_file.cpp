@@ -104,11 +104,6 @@ bool is_sound(const KeptLinks::Sheet& sheet, const KeptLinks& kept)
            std::all_of(sheet.chart.begin(), sheet.chart.end(), has_number);
 }
 
-bool has_grid(std::uint32_t rays)
-{
-    return rays == 4 || rays == 16 || rays == 64 || rays == 256;
-}
-
 /// Numbers are within their bounds, and links are as many as they should be.
 bool is_sound(const KeptLinks& kept, const Words& links)
 {
@@ -119,7 +114,7 @@ bool is_sound(const KeptLinks& kept, const Words& links)
         return std::max(std::abs(std::int64_t(shift.x)), std::abs(std::int64_t(shift.y))) <=
                std::int64_t(kept.side);
     };
-    return has_grid(kept.rays) && kept.lift > 0.0f && std::isfinite(kept.lift) && kept.side > 0 &&
+    return is_grid(kept.rays) && kept.lift > 0.0f && std::isfinite(kept.lift) && kept.side > 0 &&
            kept.side <= kMostSide && std::isfinite(kept.texels_per_metre) &&
            kept.charts <= triangles && kept.ends() <= ~std::uint32_t(0) &&
            (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&
