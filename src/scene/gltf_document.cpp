@@ -13,6 +13,7 @@
 #include "scene/gltf_instancing.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_webp.h"
+#include "scene/page_parts.h"
 #include "scene/split_sides.h"
 
 namespace lumel {
@@ -129,6 +130,7 @@ GltfDocument load_gltf_document(const std::string& path)
     if (document.json.is_object()) {
         bring_back_lights(document.json);
         join_sides(document.json);
+        join_pages(document.json);
     }
     const JsonView root = document.root();
     root.as_object();
