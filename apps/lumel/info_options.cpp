@@ -24,6 +24,7 @@ Command info_command(CLI::App& program)
     command.option_defaults()->group(kMethodGroup);
     add_methods(command, *method);
     add_directional_option(command, info.options.directional);
+    add_preview_option(command, info.options.preview_width);
     add_memory_option(command, info.options.max_memory);
     add_json_flag(command, info.json);
     return {&command, [given, method]() -> Arguments {

@@ -170,7 +170,8 @@ void plan_authored(const Scene& scene, std::uint32_t instance_index, const Autho
     }
     const double metres = std::sqrt(world_area(mesh, instance.transform) / report.area);
     plans.extent.push_back(high - low);
-    plans.items.push_back({metres * (high - low), densest(densities), std::uint32_t(first)});
+    plans.items.push_back({metres * (high - low), densest(densities), std::uint32_t(first),
+                           std::uint32_t(plans.items.size())});
 }
 
 /// Charts for every planned surface that has no layout yet, on all cores.
@@ -229,7 +230,8 @@ Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports,
             continue;
         surface.first_item = std::uint32_t(plans.items.size());
         for (const glm::dvec2& size : surface.layout->chart_size) {
-            plans.items.push_back({size, densities[surface.instance][surface.primitive], group});
+            plans.items.push_back({size, densities[surface.instance][surface.primitive], group,
+                                   std::uint32_t(plans.items.size())});
             plans.extent.push_back(size);
         }
     }

@@ -122,16 +122,17 @@ bool pack_page(const Task& task, double density, int side, std::span<const std::
 std::vector<std::vector<std::uint32_t>> deal(const Task& task, double density, int side,
                                              double fill)
 {
-    std::vector<double> footprints;  // of groups
+    std::vector<Lot> lots;
     for (const Rectangle& r : task.rectangles) {
-        footprints.resize(std::max(footprints.size(), std::size_t(r.group) + 1), 0.0);
+        lots.resize(std::max(lots.size(), std::size_t(r.lot) + 1));
         const glm::dvec2 padded(Task::texels(r, density) + task.gutter);
-        footprints[r.group] += padded.x * padded.y;
+        lots[r.lot].group = r.group;
+        lots[r.lot].weight += padded.x * padded.y;
     }
-    const std::vector<int> page_of_group = deal_to_pages(footprints, fill * side * side);
+    const std::vector<int> page_of_lot = deal_to_pages(lots, fill * side * side, task.pages);
     std::vector<std::vector<std::uint32_t>> pages;
     for (std::uint32_t i = 0; i < task.rectangles.size(); ++i) {
-        const std::size_t page = std::size_t(page_of_group[task.rectangles[i].group]);
+        const std::size_t page = std::size_t(page_of_lot[task.rectangles[i].lot]);
         pages.resize(std::max(pages.size(), page + 1));
         pages[page].push_back(i);
     }

@@ -19,7 +19,8 @@ constexpr int kDefaultSide = 512;
 struct Rectangle {
     glm::dvec2 size{0.0};  ///< [m]
     Density density;
-    std::uint32_t group = 0;  ///< rectangles of one group are on one page
+    std::uint32_t group = 0;  ///< rectangles of one group are on one page where they fit
+    std::uint32_t lot = 0;    ///< those of one lot always are
 };
 
 struct PackedRectangle {

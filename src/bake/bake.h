@@ -29,6 +29,7 @@ struct BakeOptions {
     int baked_size = kBakedSize;  ///< largest side of the texture of scene-baked.glb [texels]
     Directional directional = Directional::none;  ///< layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
+    double probe_spacing = 0.0;  ///< of a grid of light probes beside the map [m]; 0: none
     /// Of each lumel that are traced, and kept for later runs: 4, 16, 64 or 256; 0: as many as the
     /// method wants, and none is kept.
     std::uint32_t keep_links = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -30,11 +31,9 @@ Json json_of(const GraphicsMemory& bytes)
 
 Json json_of(const HostMemory& bytes)
 {
-    return {{"program", bytes.program},
-            {"scene", bytes.scene},
-            {"lumels", bytes.lumels},
-            {"solver", bytes.solver},
-            {"links", bytes.links}};
+    return {{"program", bytes.program}, {"scene", bytes.scene},    {"trees", bytes.trees},
+            {"atlas", bytes.atlas},     {"lumels", bytes.lumels},  {"solver", bytes.solver},
+            {"links", bytes.links},     {"working", bytes.working}};
 }
 
 /// Buried lumels and open area, from looks at some of the lumels.
@@ -92,18 +91,17 @@ private:
     Prepared prepared_;
 };
 
-/// A sentence if a bake does not fit on the device that is taken where none is named.
-std::string shortage_on_usual_device(const GraphicsMemory& device, const HostMemory& host, int side,
-                                     const BakeOptions& options)
+/// Of the device that is taken where none is named; empty if there is none.
+std::optional<MemoryLimits> usual_limits(const BakeOptions& options)
 {
     try {
         const std::vector<gpu::DeviceInfo> infos = gpu::list_devices();
         if (const gpu::DeviceInfo* best = gpu::best_of(infos))
-            return shortage(device, host, side, memory_limits(options, *best));
+            return memory_limits(options, *best);
     } catch (const Error&) {
         // What is wrong with devices, a bake says, and lumel devices.
     }
-    return {};
+    return std::nullopt;
 }
 
 std::size_t triangle_count(const Scene& scene)
@@ -181,11 +179,14 @@ Json facts(const SampledScene& sampled, const BakeOptions& options)
     const GraphicsMemory memory = graphics_memory(prepared, occluders, options);
     json["graphics_memory_bytes"] = memory.most();
     json["graphics_memory_parts"] = json_of(memory);
-    const HostMemory host = host_memory(prepared, options);
-    json["host_memory_bytes"] = host.most();
+    const std::optional<MemoryLimits> limits = usual_limits(options);
+    const bool shared = limits && limits->shared;
+    const HostMemory host = host_memory(prepared, options, shared);
+    json["host_memory_bytes"] = host.most() + (shared ? memory.most() : 0);
     json["host_memory_parts"] = json_of(host);
     std::vector<std::string> warnings = scene.warnings;
-    if (std::string text = shortage_on_usual_device(memory, host, prepared.atlas.width, options);
+    if (std::string text =
+            limits ? shortage(memory, host, prepared.atlas.pages.side, *limits) : std::string();
         !text.empty())
         warnings.push_back(std::move(text));
     json["warnings"] = warnings;

@@ -13,25 +13,12 @@
 #include "core/usage.h"
 #include "gpu/staging.h"
 #include "relight/relight_solver.h"
-#include "solve/links.h"
 #include "solve/methods.h"
 #include "world/world.h"
 
 namespace lumel {
 namespace {
 
-// What the host takes, measured as the peak of bakes of 0.01 to 0.7 million lumels [bytes].
-/// The program and its libraries, 20 MiB for validation layers among them; what a software device
-/// adds for shaders of the preview.
-constexpr std::uint64_t kProgramBytes = 94u << 20, kSoftwareDeviceBytes = 280u << 20;
-/// A vertex and a triangle, rays among them.
-constexpr std::uint64_t kVertexBytes = 120, kTriangleBytes = 160;
-/// A lumel with its pieces and its texels, while the atlas is made and results are written.
-constexpr std::uint64_t kLumelBytes = 450;
-/// A lumel in what links know of it, without links.
-constexpr std::uint64_t kLinkedLumelBytes = 380;
-/// A link that is kept, and again while it is written.
-constexpr std::uint64_t kKeptLinkBytes = 2 * sizeof(std::uint32_t);
 /// Texels of an atlas of a given size that are lumels: most that was seen.
 constexpr double kCovered = 0.85;
 
@@ -39,37 +26,9 @@ constexpr double kCovered = 0.85;
 constexpr double kSpare = 0.9;
 constexpr int kSizeStep = 16;  ///< of proposed sizes [texels]
 
-std::uint64_t scene_bytes(const Scene& scene)
-{
-    std::uint64_t bytes = 0;
-    for (const Texture& texture : scene.textures)
-        bytes += texture.rgba.size();
-    for (const Instance& instance : scene.instances)
-        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
-            bytes += kVertexBytes * primitive.positions.size() +
-                     kTriangleBytes * (primitive.indices.size() / 3);
-    return bytes;
-}
-
 bool is_links(const BakeOptions& options)
 {
     return std::holds_alternative<LinksOptions>(options.solver.method);
-}
-
-HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions& options)
-{
-    HostMemory memory{
-        .program = kProgramBytes, .scene = scene_bytes(scene), .lumels = kLumelBytes * lumels};
-    if (is_links(options)) {
-        memory.solver = kLinkedLumelBytes * lumels;
-        memory.links = options.keep_links > 0
-                           ? std::uint64_t(lumels) * options.keep_links * kKeptLinkBytes
-                           : LinkRadiosity::first_bytes(lumels);
-    }
-    if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
-        memory.solver = kLinkedLumelBytes * lumels +
-                        LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
-    return memory;
 }
 
 /// The larger of the sides that fit of a bake that takes `needed` at a side, `fixed` of it whatever
@@ -126,11 +85,6 @@ GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occlud
             .directional = directional_bytes(size, directional_options(options, 0))};
 }
 
-HostMemory host_memory(const Prepared& prepared, const BakeOptions& options)
-{
-    return host_memory(prepared.scene, prepared.lumels.lumels.size(), options);
-}
-
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
                            std::uint64_t available)
 {
@@ -158,11 +112,10 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
                         limits.given    ? allowed
                         : limits.shared ? "this machine has"
                                         : limits.name + " has");
-    const std::uint64_t software = limits.shared ? kSoftwareDeviceBytes + device.most() : 0;
-    const std::uint64_t fixed =
-        host.program + host.scene + (limits.shared ? kSoftwareDeviceBytes + device.staging : 0);
-    if (limits.host > 0 && host.most() + software > limits.host)
-        return sentence("host", host.most() + software, fixed, side, limits.host,
+    const std::uint64_t software = limits.shared ? device.most() : 0;
+    const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging : 0);
+    if (limits.host > 0 && host.least() + software > limits.host)
+        return sentence("host", host.least() + software, fixed, side, limits.host,
                         limits.given ? allowed : "this machine has");
     return {};
 }
@@ -172,16 +125,18 @@ void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLi
     const int side = options.atlas.size;
     if (side == 0)
         return;
-    const auto lumels = std::size_t(kCovered * double(side) * double(side));
-    const HostMemory host = host_memory(scene, lumels, options);
+    const double texels = double(options.atlas.pages) * double(side) * double(side);
+    const HostMemory host =
+        host_memory(scene, std::size_t(kCovered * texels), options, limits.shared);
     refuse(shortage({}, host, side, limits));
 }
 
 void check_memory(const Prepared& prepared, const BakeOptions& options, const MemoryLimits& limits)
 {
     const Occluders occluders = find_occluders(prepared.scene, {}, &prepared.atlas);
-    refuse(shortage(graphics_memory(prepared, occluders, options), host_memory(prepared, options),
-                    prepared.atlas.width, limits));
+    refuse(shortage(graphics_memory(prepared, occluders, options),
+                    host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
+                    limits));
 }
 
 std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
@@ -189,10 +144,9 @@ std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& optio
 {
     if (!is_links(options) || limits.host == 0)
         return 0;
-    const HostMemory host = host_memory(prepared, options);
-    const std::uint64_t others =
-        host.most() - host.links + (limits.shared ? kSoftwareDeviceBytes : 0);
-    return std::max(host.links, limits.host - std::min(others, limits.host));
+    const HostMemory host = host_memory(prepared, options, limits.shared);
+    const std::uint64_t others = host.without_links();
+    return std::max(host.first_links, limits.host - std::min(others, limits.host));
 }
 
 }  // namespace lumel

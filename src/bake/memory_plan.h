@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bake/bake.h"
+#include "bake/host_memory.h"
 #include "gpu/device.h"
 #include "prepare/prepare.h"
 #include "world/occluders.h"
@@ -19,14 +20,6 @@ struct GraphicsMemory {
 };
 GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
                                const BakeOptions& options);
-
-/// Bytes of the host, by what takes them. Links are those of the first round: more rays take more.
-struct HostMemory {
-    std::uint64_t program = 0, scene = 0, lumels = 0, solver = 0, links = 0;
-
-    std::uint64_t most() const { return program + scene + lumels + solver + links; }
-};
-HostMemory host_memory(const Prepared& prepared, const BakeOptions& options);
 
 /// What a bake may take at most [bytes], 0: nobody knows.
 struct MemoryLimits {

@@ -172,9 +172,9 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,
                      .format = options.lightmap_format});
-    write_baked_glb(
-        folder.path("scene-baked.glb"), prepared.scene, prepared.atlas,
-        tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance));
+    const Image shown =
+        tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance);
+    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, shown);
     return written;
 }
 

@@ -77,4 +77,7 @@ SeamGaps seam_gaps(const Image& map, const Image& judge, const Scene& scene, con
 void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                  std::span<Image> layers = {});
 
+/// Bytes that finish_map takes for a while, beside the map.
+std::uint64_t finish_bytes(const Atlas& atlas);
+
 }  // namespace lumel

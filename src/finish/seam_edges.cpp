@@ -202,4 +202,26 @@ std::vector<Seam> find_seams(const Scene& scene, const Atlas& atlas)
     return seams;
 }
 
+SeamSizes seam_sizes(const Atlas& atlas)
+{
+    SeamSizes sizes;
+    for (const Surface& surface : atlas.surfaces) {
+        const double sides = has_own_back(atlas, surface) ? 2.0 : 1.0;
+        for (const std::uint32_t corner : border_corners(surface)) {
+            const std::uint32_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+            sizes.edges += std::size_t(sides);
+            sizes.length += sides * double(glm::distance(surface.texcoord[surface.indices[corner]],
+                                                         surface.texcoord[surface.indices[next]]));
+        }
+    }
+    return sizes;
+}
+
+std::uint64_t seam_edge_bytes(std::size_t edges)
+{
+    // As they are, cut, and put in order beside that; and a point for each in a table of cells.
+    constexpr std::uint64_t kCopies = 3, kOfPoint = sizeof(glm::dvec3) + 3 * sizeof(void*);
+    return edges * (kCopies * sizeof(Edge) + kOfPoint);
+}
+
 }  // namespace lumel

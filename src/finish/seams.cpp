@@ -258,4 +258,19 @@ void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumel
         apply(system, layer, std::numeric_limits<double>::lowest());
 }
 
+std::uint64_t finish_bytes(const Atlas& atlas)
+{
+    // Two samples for each texel of a seam, whose two sides are borders; both may touch as many
+    // texels as they are long, on either side of the border.
+    constexpr double kRows = kSamplesPerTexel / 2.0, kUnknowns = 2.0;
+    constexpr std::size_t kColors = 6;  // of conjugate gradients
+    constexpr double kOfUnknown =
+        kColors * sizeof(glm::dvec3) + 2 * sizeof(double) + sizeof(std::uint32_t);
+    const SeamSizes sizes = seam_sizes(atlas);
+    const std::uint64_t of_texels =
+        std::uint64_t(atlas.width) * std::uint64_t(atlas.height) * sizeof(std::uint32_t);
+    const double solving = sizes.length * (kRows * double(sizeof(Row)) + kUnknowns * kOfUnknown);
+    return of_texels + std::max(seam_edge_bytes(sizes.edges), std::uint64_t(solving));
+}
+
 }  // namespace lumel

@@ -12,6 +12,7 @@
 #include "gltf/extensions.h"
 #include "gltf/instancing.h"
 #include "gltf/meshopt.h"
+#include "gltf/page_parts.h"
 #include "gltf/split_sides.h"
 #include "gltf/webp.h"
 
@@ -129,6 +130,7 @@ GltfDocument load_gltf_document(const std::string& path)
     if (document.json.is_object()) {
         bring_back_lights(document.json);
         join_sides(document.json);
+        join_pages(document.json);
     }
     const JsonView root = document.root();
     root.as_object();

@@ -28,6 +28,8 @@ class Cells {
 public:
     explicit Cells(const WorldLumels& world);
 
+    static std::uint64_t bytes(std::size_t lumels) { return lumels * sizeof(Grid); }
+
     /// The cell of lumel i that holds a point [m], or the nearest to it: 0…kCells - 1.
     std::uint32_t cell(std::size_t i, const glm::vec3& position) const
     {
@@ -64,6 +66,12 @@ public:
     /// cut.
     LumelParts(const WorldLumels& world, const Cells& cells, const RayScene& rays,
                const std::vector<char>& buried, std::uint32_t seed);
+
+    /// Of lumels with as many parts.
+    static std::uint64_t bytes(std::size_t lumels, std::size_t parts)
+    {
+        return 2 * lumels * sizeof(std::uint32_t) + parts * sizeof(std::uint32_t);
+    }
 
     std::size_t count() const { return lumel_.size(); }  ///< P, of all lumels together
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }

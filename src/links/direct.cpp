@@ -333,6 +333,13 @@ bool DirectFinder::fits() const
            varying_.size() == count && done_ <= blocks_.size();
 }
 
+std::uint64_t DirectFinder::bytes(std::size_t lumels, std::size_t varying)
+{
+    constexpr std::size_t kOfLumel =
+        2 * sizeof(glm::vec3) + 5 * sizeof(std::uint32_t) + sizeof(char);
+    return lumels * kOfLumel + varying * sizeof(OfCells);
+}
+
 bool DirectFinder::step()
 {
     const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;

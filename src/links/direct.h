@@ -31,6 +31,9 @@ public:
     DirectFinder(const LinkScene& place, const LightSources& sources, const RayStarts& starts,
                  const std::vector<std::uint32_t>& order, std::uint32_t seed);
 
+    /// Of lumels, `varying` of whose light differs from cell to cell.
+    static std::uint64_t bytes(std::size_t lumels, std::size_t varying);
+
     /// Some of the work: true if more is left. First a few rays for each lumel; then many for those
     /// whose light is uncertain.
     bool step();

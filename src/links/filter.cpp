@@ -58,6 +58,13 @@ ChartFilter::ChartFilter(const LinkScene& place, const WorldLumels& world, const
     });
 }
 
+std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
+{
+    constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
+    return 2 * texels * sizeof(std::uint32_t) +
+           lumels * (sizeof(std::uint8_t) + (kSolutions + 1) * sizeof(float) + kBells * kOfMean);
+}
+
 /// kNoLumel where there is none that light reaches.
 std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
 {

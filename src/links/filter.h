@@ -27,6 +27,9 @@ public:
     ChartFilter(const LinkScene& place, const WorldLumels& world, const LumelParts& parts,
                 const std::vector<float>& nearest);
 
+    /// Bytes of it, and of what filter() returns.
+    static std::uint64_t bytes(std::size_t lumels, std::size_t texels);
+
     /// For each width of the filter, narrowest first. Solution k filters its followers, k + 1 and
     /// k + 2, by the same weights, which come from solution k alone, but for its variance, that is
     /// taken from the difference of the two. Lumels without light stay dark.

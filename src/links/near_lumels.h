@@ -16,6 +16,11 @@ public:
     /// The atlas must outlive it.
     NearLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels);
 
+    static std::uint64_t bytes(std::size_t texels)
+    {
+        return texels * (2 * sizeof(Entry) + 2 * sizeof(std::uint32_t));
+    }
+
     /// The lumel at a hit, or where none is the nearest of its instance and side in the texels
     /// around: rays that end in no lumel would darken a closed room without bound. kNoLumel where
     /// there is none; buried ones do not count.

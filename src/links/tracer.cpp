@@ -461,8 +461,11 @@ void LinkTracer::trace(std::size_t first, std::size_t last, const Sending& sendi
         });
     }
     for (std::size_t b = first; b < last; ++b) {
-        into.rounds.back()[b].target.shrink_to_fit();
-        into.rounds.back()[b].weak.shrink_to_fit();
+        LinkBlock& block = into.rounds.back()[b];
+        block.first.shrink_to_fit();
+        block.target.shrink_to_fit();
+        block.first_weak.shrink_to_fit();
+        block.weak.shrink_to_fit();
     }
 }
 

@@ -243,7 +243,7 @@ std::vector<std::vector<std::size_t>> separate_materials(Json& json,
     // The first user of a material keeps it, if nothing unbaked needs it as it is.
     const auto copy_of = [&](std::optional<std::size_t> material, const BakedPrimitive& b) {
         const auto [copy, is_new] =
-            copies.try_emplace({material, b.moved_texcoord, b.back.has_value(), b.page});
+            copies.try_emplace({material, b.moved_texcoord, b.back != nullptr, b.page});
         if (!is_new)
             return copy->second;
         Json own = material ? originals.at(*material) : Json::object();

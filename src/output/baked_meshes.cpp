@@ -8,6 +8,7 @@
 
 #include "atlas/sides.h"
 #include "core/error.h"
+#include "gltf/page_parts.h"
 #include "gltf/split_sides.h"
 #include "output/baked_materials.h"
 #include "output/vertex_gather.h"
@@ -61,15 +62,72 @@ NodesOfMesh nodes_of_meshes(const Json& json)
     return nodes;
 }
 
+/// Places in the lightmap, once for each surface whatever the number of its parts.
+class Places {
+public:
+    Places(const Atlas& atlas, VertexGather& gather) : atlas_(atlas), gather_(gather) {}
+
+    std::size_t accessor_of(const Surface& surface)
+    {
+        const auto [place, is_new] = accessors_.try_emplace(&surface);
+        if (is_new)
+            place->second = gather_.add_texcoords(places_of(surface));
+        return place->second;
+    }
+
+private:
+    std::vector<glm::vec2> places_of(const Surface& surface) const
+    {
+        const Pages& pages = atlas_.pages;
+        const glm::vec2 size =
+            pages.count > 1 ? glm::vec2(float(pages.side)) : glm::vec2(atlas_.width, atlas_.height);
+        const std::vector<std::uint16_t> page = pages_of_vertices(pages, surface);
+        std::vector<glm::vec2> places;
+        for (std::size_t v = 0; v < surface.texcoord.size(); ++v)
+            places.push_back((surface.texcoord[v] - glm::vec2(pages.corner(page[v]))) / size);
+        return places;
+    }
+
+    const Atlas& atlas_;
+    VertexGather& gather_;
+    std::map<const Surface*, std::size_t> accessors_;
+};
+
+/// Indices of the triangles that a primitive has of its surface.
+std::vector<std::uint32_t> indices_of(const BakedPrimitive& baked, const Surface& surface)
+{
+    if (baked.triangles.empty())
+        return surface.indices;
+    std::vector<std::uint32_t> indices;
+    for (const std::size_t triangle : baked.triangles)
+        for (std::size_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+            indices.push_back(surface.indices[corner]);
+    return indices;
+}
+
+/// The part of each triangle, counted page by page.
+std::vector<std::uint32_t> parts_of_triangles(const Pages& pages, const Surface& surface)
+{
+    std::vector<std::uint32_t> parts(surface.indices.size() / 3);
+    std::uint32_t part = 0;
+    for (const auto& [page, triangles] : triangles_of_pages(pages, surface)) {
+        for (const std::uint32_t triangle : triangles)
+            parts[triangle] = part;
+        ++part;
+    }
+    return parts;
+}
+
 // The file's primitive as a triangle list with its vertices split as in the surface.
 Json split_primitive(const Json& original, const BakedPrimitive& baked, const Surface& surface,
-                     bool turned, const Atlas& atlas, VertexGather& gather)
+                     bool turned, Places& lightmap, VertexGather& gather)
 {
     const auto gathered = [&](const Json& accessor, const std::string& semantic) {
         return turned ? gather.gather_turned(accessor, surface.source_vertex, semantic)
                       : gather.gather(accessor, surface.source_vertex, semantic);
     };
     Json primitive = original;
+    erase_part_marks(primitive);
     Json attributes = Json::object();
     for (const auto& [name, accessor] : original.at("attributes").items()) {
         std::string kept_as = name;
@@ -87,20 +145,14 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
                 accessor = gathered(accessor, name);
 
     // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
-    std::vector<glm::vec2> places;
-    const Pages& pages = atlas.pages;
-    const glm::vec2 corner(pages.corner(baked.page));
-    const glm::vec2 size =
-        pages.count > 1 ? glm::vec2(float(pages.side)) : glm::vec2(atlas.width, atlas.height);
-    for (const glm::vec2& texcoord : surface.texcoord)
-        places.push_back((texcoord - corner) / size);
-    const std::size_t place = gather.add_texcoords(places);
+    const std::size_t place = lightmap.accessor_of(surface);
     if (!attributes.contains("TEXCOORD_0"))
         attributes["TEXCOORD_0"] = place;
     attributes["TEXCOORD_1"] = place;
 
     primitive["attributes"] = attributes;
-    primitive["indices"] = gather.add_indices(surface.indices, surface.source_vertex.size());
+    primitive["indices"] =
+        gather.add_indices(indices_of(baked, surface), surface.source_vertex.size());
     primitive["material"] = baked.material.value();
     primitive.erase("mode");
     for_variants(primitive, [&](Json& mapping) {
@@ -108,6 +160,8 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
     });
     if (baked.back)
         mark_side(primitive, turned ? MarkedSide::back : MarkedSide::front);
+    if (!baked.triangles.empty() && !turned)
+        mark_part(primitive, {baked.primitive, baked.page});
     return primitive;
 }
 
@@ -124,9 +178,8 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
         const Json& nodes = document.json.at("nodes");
         BakedPrimitive baked;
         baked.surface = &surface;
-        baked.page = page_of(atlas.pages, surface);
         if (has_own_back(atlas, surface))
-            baked.back = back_of(atlas, surface);
+            baked.back = std::make_shared<const Surface>(back_of(atlas, surface));
         baked.node = std::size_t(instance.node);
         if (baked.node >= nodes.size() || !nodes[baked.node].contains("mesh"))
             fail_changed(document.path);
@@ -141,7 +194,14 @@ std::vector<BakedPrimitive> list_baked_primitives(const GltfDocument& document, 
         baked.file_materials = materials_of(*source);
         baked.moved_texcoord =
             new_texcoord(source->at("attributes"), document.json, baked.file_materials);
-        list.push_back(baked);
+        auto pages = triangles_of_pages(atlas.pages, surface);
+        for (auto& [page, triangles] : pages) {
+            baked.page = page;
+            if (pages.size() > 1)
+                baked.triangles = std::move(triangles);
+            list.push_back(baked);
+            ++baked.part;
+        }
     }
     return list;
 }
@@ -150,7 +210,7 @@ void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked)
 {
     std::map<PrimitiveKey, std::size_t> uses;
     for (const BakedPrimitive& b : baked)
-        ++uses[{b.mesh, b.primitive}];
+        uses[{b.mesh, b.primitive}] += b.part == 0 ? 1 : 0;
     const NodesOfMesh nodes = nodes_of_meshes(json);
     for (const auto& [key, count] : uses)
         if (count == nodes.at(key.first).size())
@@ -163,14 +223,21 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
     // Fill a copy of the mesh for each node.
     std::map<std::size_t, Json> mesh_of_node;
     VertexGather gather(builder);
+    Places places(atlas, gather);
     for (const BakedPrimitive& b : baked) {
         const Json& original = builder.document().json.at("meshes")[b.mesh];
         const auto mesh = mesh_of_node.try_emplace(b.node, original).first;
         const Json& source = original["primitives"][b.primitive];
         Json& primitives = mesh->second["primitives"];
-        primitives[b.primitive] = split_primitive(source, b, *b.surface, false, atlas, gather);
+        Json front = split_primitive(source, b, *b.surface, false, places, gather);
+        if (b.part > 0)
+            primitives.push_back(std::move(front));
+        else
+            primitives[b.primitive] = std::move(front);
+        if (b.part == 0 && !b.triangles.empty())
+            mark_order(primitives[b.primitive], parts_of_triangles(atlas.pages, *b.surface));
         if (b.back)
-            primitives.push_back(split_primitive(source, b, *b.back, true, atlas, gather));
+            primitives.push_back(split_primitive(source, b, *b.back, true, places, gather));
     }
 
     // The first copy takes the place of its mesh where nothing else needs that.

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "gltf/accessor.h"
+#include "gltf/page_parts.h"
 #include "images/image_files.h"
 #include "scene/webp_image.h"
 
@@ -132,6 +133,8 @@ std::set<std::size_t> used_accessors(const Json& json)
         for (const Json& primitive : list(mesh, "primitives")) {
             insert_members(primitive, "attributes", used);
             insert_index(primitive, "indices", used);
+            for (const std::size_t part : accessors_of_parts(primitive))
+                used.insert(part);
             for (const Json& target : list(primitive, "targets"))
                 for (const auto& [name, index] : target.items())
                     insert_index(target, name.c_str(), used);

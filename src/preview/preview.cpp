@@ -5,6 +5,7 @@
 #include <map>
 
 #include "atlas/sides.h"
+#include "core/bytes.h"
 #include "gpu/commands.h"
 #include "preview/preview.raster.h"
 #include "preview/preview.shared.h"
@@ -184,6 +185,25 @@ glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width)
     const float fitting = std::clamp(float(most) * view.aspect, 1.0f, float(most));
     width = std::min(width, int(fitting));
     return {width, picture_height(width, view.aspect, most)};
+}
+
+PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::ivec2& size)
+{
+    constexpr std::uint64_t kOfVertex =
+        sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2) + sizeof(glm::vec4);
+    constexpr std::uint64_t kOfPixel = sizeof(glm::vec4), kOfDepth = sizeof(float);
+    constexpr double kMips = 4.0 / 3.0;
+    std::uint64_t shapes = 0, textures = 0;
+    for (const Surface& surface : atlas.surfaces)
+        shapes += (has_own_back(atlas, surface) ? 2 : 1) *
+                  (surface.texcoord.size() * kOfVertex + bytes_of(surface.indices));
+    for (const Texture& texture : scene.textures)
+        textures += std::uint64_t(kMips * double(texture.rgba.size()));
+    const std::uint64_t pixels = std::uint64_t(size.x) * std::uint64_t(size.y),
+                        drawn = pixels * kSupersample * kSupersample,
+                        texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
+    return {.device = shapes + textures + texels * kOfPixel + drawn * (kOfPixel + kOfDepth),
+            .host = shapes + (drawn + pixels) * kOfPixel};
 }
 
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,

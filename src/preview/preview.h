@@ -15,6 +15,12 @@ enum class PreviewShows {
     texels,  ///< the same, each texel of one colour
 };
 
+/// Bytes that it takes to draw a picture.
+struct PreviewMemory {
+    std::uint64_t device = 0, host = 0;
+};
+PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::ivec2& size);
+
 /// Pixels of a picture of that width, narrower where the device cannot draw that.
 glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
 

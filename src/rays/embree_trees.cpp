@@ -23,6 +23,13 @@ void place_vertices(TracedPart& part, float* vertices)
     }
 }
 
+/// Embree's monitor of what it takes and gives back.
+bool count_bytes(void* sum, ssize_t bytes, bool)
+{
+    *static_cast<std::atomic<std::int64_t>*>(sum) += bytes;
+    return true;
+}
+
 }  // namespace
 
 EmbreeTrees::EmbreeTrees(const Scene& scene, std::span<const std::uint32_t> instances,
@@ -32,6 +39,7 @@ EmbreeTrees::EmbreeTrees(const Scene& scene, std::span<const std::uint32_t> inst
 {
     if (!device_)
         check("starting Embree");
+    rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
     std::size_t part_count = 0;
     for (const std::uint32_t i : instances)
         part_count += scene.meshes[scene.instances[i].mesh].primitives.size();

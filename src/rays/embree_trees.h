@@ -2,6 +2,8 @@
 // Embree's trees over the triangles of a scene: one over what stays, one over each instance that
 // may move, and one over all of these.
 
+#include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -45,6 +47,9 @@ public:
     const std::vector<TracedPart>& parts() const { return parts_; }
     const TracedPart& part(const RTCHit& hit) const;
 
+    /// Bytes that Embree holds.
+    std::uint64_t bytes() const { return std::uint64_t(bytes_.load()); }
+
     glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m], 0 if there is none
     glm::vec3 high() const { return high_; }
 
@@ -64,6 +69,7 @@ private:
     void join();
     void bound();
 
+    std::atomic<std::int64_t> bytes_ = 0;
     RTCDevice device_ = nullptr;
     std::vector<Tree> trees_;  ///< the first of what stays, the others of an instance each
     RTCScene top_ = nullptr;   ///< of all trees, or the first of them where nothing may move

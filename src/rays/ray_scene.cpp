@@ -297,6 +297,11 @@ RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2
             .front = glm::dot(normal, direction) < 0.0f};
 }
 
+std::uint64_t RayScene::bytes() const
+{
+    return trees_->bytes();
+}
+
 glm::vec3 RayScene::low() const
 {
     return trees_->low();

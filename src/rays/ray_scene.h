@@ -107,6 +107,9 @@ public:
     glm::vec3 low() const;
     glm::vec3 high() const;
 
+    /// That its trees take.
+    std::uint64_t bytes() const;
+
     /// How far off a surface that was hit rays should start, so as to miss it [m].
     float lift() const;
 

@@ -71,6 +71,9 @@ struct Primitive {
     std::vector<std::uint32_t> indices;  ///< [3T] strips and fans unrolled, zero-area dropped
     int material = 0;                    ///< index into Scene::materials, always valid
     int source_primitive = 0;            ///< index in the file's mesh.primitives
+    /// [V] Page of the lightmap that TEXCOORD_1 is a place on, where a bake has put parts of it on
+    /// several; or empty: that of its material.
+    std::vector<std::uint16_t> lightmap_pages;
 };
 
 struct Mesh {

@@ -35,6 +35,16 @@ public:
     /// Bytes on the host that the links of the first round take.
     static std::uint64_t first_bytes(std::size_t lumels);
 
+    /// The same of as many rays as most scenes take, `shots` of a lumel at most (0: no limit). How
+    /// many are traced is known only by the error that they leave.
+    static std::uint64_t likely_bytes(std::size_t lumels, std::uint64_t shots);
+
+    /// Bytes on the host beside links, for as long as the solver lives.
+    static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels);
+
+    /// The same of what only a sweep or the filter takes.
+    static std::uint64_t sweep_bytes(std::size_t lumels, std::size_t texels);
+
     /// Rays of a lumel count as shots.
     void step() override;
     SolverState state() const override { return state_; }

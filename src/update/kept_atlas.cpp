@@ -19,6 +19,13 @@ float snapped(float texel)
     return std::abs(texel - border) < kSnap ? border : texel;
 }
 
+int page_of(const Scene& scene, const Primitive& primitive, std::uint32_t vertex)
+{
+    return primitive.lightmap_pages.empty()
+               ? scene.materials[std::size_t(primitive.material)].lightmap_page
+               : int(primitive.lightmap_pages[vertex]);
+}
+
 std::uint32_t chart_at(const Atlas& atlas, const StoredCharts& charts, const glm::vec2& texel)
 {
     const auto cell = [](float at, int side) { return std::clamp(int(at), 0, side - 1); };
@@ -195,15 +202,15 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
             if (primitive.texcoords[1].empty())
                 throw Error(ErrorKind::input, scene.path,
                             "has no TEXCOORD_1: it is not as lumel bake wrote it");
-            const int page = scene.materials[std::size_t(primitive.material)].lightmap_page;
-            if (page >= pages.count)
-                throw Error(ErrorKind::input, scene.path,
-                            "names a page of the lightmap that it does not have");
-            const glm::vec2 corner(pages.corner(page));
             Surface surface{.instance = i, .primitive = p, .indices = primitive.indices};
             for (std::uint32_t v = 0; v < primitive.positions.size(); ++v) {
+                const int page = page_of(scene, primitive, v);
+                if (page >= pages.count)
+                    throw Error(ErrorKind::input, scene.path,
+                                "names a page of the lightmap that it does not have");
                 surface.source_vertex.push_back(v);
-                const glm::vec2 texel = corner + primitive.texcoords[1][v] * float(pages.side);
+                const glm::vec2 texel =
+                    glm::vec2(pages.corner(page)) + primitive.texcoords[1][v] * float(pages.side);
                 surface.texcoord.emplace_back(snapped(texel.x), snapped(texel.y));
             }
             surface.chart = charts_of(surface, atlas, charts);

@@ -89,9 +89,10 @@ void write_solution(const std::string& path, const Lumels& lumels,
         shares.values[std::size_t(lumel.texel) * 4 + (lumel.flags & kLumelBack ? 1 : 0)] = open[i];
         set_shift(lumels, lumel, shift);
     }
-    const std::vector<Layer> layers = {{kBackLayer, std::move(back)},
-                                       {kOpenLayer, std::move(shares)},
-                                       {kShiftLayer, std::move(shift)}};
+    std::vector<Layer> layers;  // moved in: a list in braces would copy them
+    layers.push_back({kBackLayer, std::move(back)});
+    layers.push_back({kOpenLayer, std::move(shares)});
+    layers.push_back({kShiftLayer, std::move(shift)});
     write_exr(path, front, Precision::float32,
               {{"quantity", "irradiance of lumels, before gutters and seams"},
                {"unit", "lx"},

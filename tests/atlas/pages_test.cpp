@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <random>
+#include <set>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -27,6 +29,24 @@ Scene street(int houses)
         add_instance(scene, house, glm::translate(glm::mat4(1.0f), glm::vec3(along, 0.0f, 0.0f)));
         along += 5.0f;
     }
+    return scene;
+}
+
+/// The same as one mesh of one primitive.
+Scene terrace(int houses)
+{
+    const Scene apart = street(houses);
+    Primitive all;
+    for (const Instance& instance : apart.instances) {
+        const Primitive& house = apart.meshes[std::size_t(instance.mesh)].primitives.front();
+        const auto first = std::uint32_t(all.positions.size());
+        for (const glm::vec3& p : house.positions)
+            all.positions.emplace_back(instance.transform * glm::vec4(p, 1.0f));
+        for (const std::uint32_t index : house.indices)
+            all.indices.push_back(first + index);
+    }
+    Scene scene = empty_scene();
+    add_instance(scene, add_mesh(scene, {all}), glm::mat4(1.0f));
     return scene;
 }
 
@@ -67,7 +87,8 @@ TEST(Pages, EverySurfaceLiesOnOnePageAndNoTwoShareATexel)
     for (const Surface& surface : atlas.surfaces) {
         const glm::ivec2 cell = cell_of(surface);
         ASSERT_GE(cell.x, 0) << "on the rim of two pages";
-        EXPECT_EQ(cell.y * (atlas.width / kSide) + cell.x, page_of(atlas.pages, surface));
+        for (const std::uint16_t page : pages_of_vertices(atlas.pages, surface))
+            EXPECT_EQ(cell.y * (atlas.width / kSide) + cell.x, page);
     }
     int shared = 0;
     texel_owners(atlas, shared);
@@ -82,7 +103,7 @@ TEST(Pages, AllHaveTheDensityThatWasAskedFor)
     EXPECT_TRUE(atlas.notes.empty());
     std::array<double, 16> texels{}, metres{};
     for (const Surface& surface : atlas.surfaces) {
-        const auto page = std::size_t(page_of(atlas.pages, surface));
+        const std::size_t page = pages_of_vertices(atlas.pages, surface).front();
         texels[page] += area_in_map(surface);
         Scene alone = scene;
         alone.instances = {scene.instances[surface.instance]};
@@ -123,6 +144,48 @@ TEST(Pages, OfAGivenSizeAreFilled)
     EXPECT_EQ(four.pages.count, 4);
     // Four times the texels are twice the density, but for what gutters and corners of pages take.
     EXPECT_NEAR(four.texels_per_metre / one.texels_per_metre, 2.0, 0.15);
+}
+
+TEST(Pages, OfOnePrimitiveAreTwiceAsDenseOnFour)
+{
+    const Scene scene = terrace(60);
+    const Atlas one = make_atlas(scene, {.size = kSide});
+    const Atlas four = make_atlas(scene, {.size = kSide, .pages = 4});
+    EXPECT_EQ(four.pages.count, 4);
+    EXPECT_NEAR(four.texels_per_metre / one.texels_per_metre, 2.0, 0.15);
+    int shared = 0;
+    texel_owners(four, shared);
+    EXPECT_EQ(shared, 0);
+}
+
+TEST(Pages, CutNoChart)
+{
+    const Atlas atlas = make_atlas(terrace(60), {.size = kSide, .pages = 4});
+    const Surface& surface = atlas.surfaces.at(0);
+    std::map<std::uint32_t, std::set<int>> cells;  // of each chart's corners
+    for (std::size_t k = 0; k < surface.indices.size(); ++k) {
+        // Half a gutter lies between charts and the rims of pages.
+        const glm::ivec2 cell(glm::floor(surface.texcoord[surface.indices[k]] / float(kSide)));
+        cells[surface.chart[k / 3]].insert(cell.y * 2 + cell.x);
+    }
+    std::set<int> all;
+    for (const auto& [chart, of_chart] : cells) {
+        EXPECT_EQ(of_chart.size(), 1u) << "chart " << chart;
+        all.insert(of_chart.begin(), of_chart.end());
+    }
+    EXPECT_EQ(all.size(), 4u);
+}
+
+TEST(Pages, DivideAPrimitiveOnlyWhereOneCannotHoldIt)
+{
+    Scene scene = street(12);
+    const double area = world_area(scene);
+    const auto density = float(std::sqrt(2.0 * kSide * kSide / area));  // two pages full, or three
+    const Atlas atlas =
+        make_atlas(scene, {.texels_per_metre = density, .max_size = kSide, .pages = 16});
+    ASSERT_GT(atlas.pages.count, 1);
+    for (const Surface& surface : atlas.surfaces)
+        EXPECT_EQ(triangles_of_pages(atlas.pages, surface).size(), 1u);
 }
 
 TEST(Pages, AreLoweredInDensityTogetherWhereTheyAreTooFew)

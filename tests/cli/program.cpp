@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -141,7 +142,10 @@ Outcome run_lumel(const std::vector<std::string>& arguments, const RunOptions& o
     // Not after the child is waited for, when its number may be another's.
     killer.reset();
     int status = 0;
-    waitpid(child, &status, 0);
+    rusage usage = {};
+    wait4(child, &status, 0, &usage);
+    constexpr std::uint64_t kKibibyte = 1024;  // the unit of ru_maxrss on Linux
+    outcome.peak_bytes = std::uint64_t(usage.ru_maxrss) * kKibibyte;
     close(out.ours);
     close(err.ours);
     outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -1,6 +1,7 @@
 #pragma once
 // The built program as a user meets it: arguments in, exit code, stdout, stderr and files out.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Outcome {
     int code = -1;  ///< exit code, or 128 + the signal that ended it
     std::string out;
     std::string err;
+    std::uint64_t peak_bytes = 0;  ///< largest resident size that the system has seen
 };
 
 /// Runs lumel to its end.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gltf/page_parts.h"
 #include "gltf/split_sides.h"
 #include "gltf_builder.h"
 
@@ -161,6 +162,84 @@ TEST(Document, TexturesThatMaterialsNameMustBeThereThoughNobodyReadsThem)
             builder.push("materials", material);
             EXPECT_TRUE(contains(error_of(builder), std::string(name) + "/index"));
         }
+}
+
+/// Two quads of one primitive, as a bake puts them on two pages: first, third | second, fourth
+/// triangle.
+GltfBuilder two_parts()
+{
+    GltfBuilder builder;
+    const int positions = builder.add_positions({{0.0f, 0.0f, 0.0f},
+                                                 {1.0f, 0.0f, 0.0f},
+                                                 {1.0f, 1.0f, 0.0f},
+                                                 {0.0f, 1.0f, 0.0f},
+                                                 {2.0f, 0.0f, 0.0f},
+                                                 {3.0f, 0.0f, 0.0f},
+                                                 {3.0f, 1.0f, 0.0f},
+                                                 {2.0f, 1.0f, 0.0f}});
+    const auto indices = [&](const std::vector<std::uint32_t>& of) {
+        return builder.add_accessor(of, "SCALAR", 5125, of.size());
+    };
+    const Json attributes = {{"POSITION", positions}};
+    Json first = {{"attributes", attributes}, {"indices", indices({0, 1, 2, 0, 2, 3})}};
+    Json second = {{"attributes", attributes}, {"indices", indices({4, 5, 6, 4, 6, 7})}};
+    mark_part(first, {0, 1});
+    mark_order(first, {0, 1, 0, 1});
+    mark_part(second, {0, 3});
+    builder.show(first);
+    builder.json["meshes"][0]["primitives"].push_back(second);
+    return builder;
+}
+
+Json& order_of(GltfBuilder& builder)
+{
+    return builder.json["meshes"][0]["primitives"][0]["extras"]["lumel_part"]["runs"];
+}
+
+TEST(PageParts, AreOnePrimitiveInItsOrderWithAPageForEachVertex)
+{
+    const Scene scene = two_parts().read();
+    ASSERT_EQ(scene.meshes.at(0).primitives.size(), 1u);
+    const Primitive& whole = scene.meshes[0].primitives[0];
+    EXPECT_EQ(whole.indices, (std::vector<std::uint32_t>{0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7}));
+    EXPECT_EQ(whole.lightmap_pages, (std::vector<std::uint16_t>{1, 1, 1, 1, 3, 3, 3, 3}));
+}
+
+TEST(PageParts, StaySeveralWhereTheyDoNotFit)
+{
+    for (const Json& runs :
+         {Json({0, 1, 1, 2}), Json({0, 2, 1, 3}), Json({0, 2, 2, 2}), Json({0, -2, 1, 2}),
+          Json({0}), Json("all"), Json(), Json({0, 4294967296, 1, 2})}) {
+        GltfBuilder builder = two_parts();
+        order_of(builder) = runs;
+        EXPECT_EQ(builder.read().meshes.at(0).primitives.size(), 2u) << runs;
+    }
+    GltfBuilder apart = two_parts();  // of vertices of their own
+    std::vector<glm::vec3> others;
+    for (int i = 0; i < 8; ++i)
+        others.emplace_back(float(i % 4 == 1 || i % 4 == 2), float(i % 4 / 2), float(i / 4));
+    apart.json["meshes"][0]["primitives"][1]["attributes"]["POSITION"] =
+        apart.add_positions(others);
+    EXPECT_EQ(apart.read().meshes.at(0).primitives.size(), 2u);
+}
+
+TEST(PageParts, ThatAFileHasJoinedItselfMustFit)
+{
+    const auto error_with = [](const Json& part) {
+        GltfBuilder builder = two_parts();
+        builder.json["meshes"][0]["primitives"].erase(1);
+        builder.json["meshes"][0]["primitives"][0]["extras"]["lumel_part"] = part;
+        return error_of(builder);
+    };
+    const Json indices = {1, 2}, pages = {0, 1};
+    EXPECT_TRUE(contains(error_with({{"indices", indices}, {"pages", pages}}), "lumel_part"));
+    EXPECT_TRUE(contains(error_with({{"indices", indices}, {"pages", {0}}, {"runs", {0, 2}}}),
+                         "lumel_part"));
+    EXPECT_TRUE(contains(error_with({{"indices", {1, 99}}, {"pages", pages}, {"runs", {0, 2}}}),
+                         "accessors"));
+    EXPECT_TRUE(contains(
+        error_with({{"indices", indices}, {"pages", pages}, {"runs", {0, 2000000000, 0, 1, 1, 1}}}),
+        "do not fit each other"));
 }
 
 TEST(SplitSides, MaterialsOfVariantsBecomeDoubleSidedAgainToo)

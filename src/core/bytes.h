@@ -1,0 +1,15 @@
+#pragma once
+// Bytes that arrays take.
+
+#include <cstdint>
+#include <vector>
+
+namespace lumel {
+
+template <class T>
+std::uint64_t bytes_of(const std::vector<T>& values)
+{
+    return std::uint64_t(values.size()) * sizeof(T);
+}
+
+}  // namespace lumel
