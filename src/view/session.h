@@ -66,10 +66,12 @@ struct ViewLink {
     glm::vec3 light{0.0f};  ///< that it brings, emission included [lx]
 };
 
-/// What frames took.
+/// What frames, or pictures, took by the clock.
 struct FrameCosts {
     int frames = 0;
     double last_ms = 0.0, most_ms = 0.0, all_ms = 0.0;
+
+    void add(double ms);
 };
 
 /// The scene is laid out once; whatever is changed afterwards is followed by LiveLinks, a frame's
@@ -154,7 +156,8 @@ public:
     const Scene& scene() const { return shown_; }
     const std::vector<ViewThing>& things() const { return things_; }
     const std::vector<ViewLamp>& lamps() const { return lamps_; }
-    const FrameCosts& costs() const { return costs_; }
+    const FrameCosts& costs() const { return costs_; }  ///< of light
+    const FrameCosts& picture_costs() const { return picture_costs_; }
     ViewMode mode() const { return mode_; }
     bool has_automatic_exposure() const { return !exposure_; }
     float stops() const { return stops_; }
@@ -172,6 +175,7 @@ private:
     const RayScene& rays();
     std::optional<Picked> seen_at(const glm::vec2& place);
     glm::vec3 emission_of(const Lumel& lumel) const;
+    Image make_picture();
     Image lit_picture();
     Image links_picture();
     void draw_link(Image& picture, const glm::vec3& from, const ViewLink& link, float heat);
@@ -180,7 +184,7 @@ private:
     void place_sky();
     void apply(const ViewLamp& lamp);
     const Image& map();
-    Image render(const Image& map, PreviewShows shows) const;
+    const Image& render(const Image& map, PreviewShows shows);
     void check_inside(const glm::ivec2& pixel) const;
 
     const gpu::Device* device_;
@@ -207,9 +211,10 @@ private:
     std::optional<SunPosition> sun_;
     glm::vec3 sky_{1.0f};  ///< factor by hand
     double sky_angle_ = 0.0, time_ = 0.0;
-    FrameCosts costs_;
+    FrameCosts costs_, picture_costs_;
     // Made when they are asked for.
     std::optional<RayScene> rays_;
+    std::optional<Preview> preview_;  ///< of drawn_
     std::vector<glm::vec3> irradiance_;
     std::optional<Image> map_;
 };

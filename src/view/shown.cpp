@@ -7,6 +7,7 @@
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "view/clock.h"
 #include "view/session.h"
 
 namespace lumel {
@@ -81,9 +82,11 @@ glm::ivec2 ViewSession::size() const
     return preview_size(*device_, camera_.view(), options_.width);
 }
 
-Image ViewSession::render(const Image& map, PreviewShows shows) const
+const Image& ViewSession::render(const Image& map, PreviewShows shows)
 {
-    return render_preview(*device_, shown_, drawn_, map, camera_.view(), options_.width, shows);
+    if (!preview_)
+        preview_.emplace(*device_, shown_, drawn_);
+    return preview_->draw(shown_, map, camera_.view(), options_.width, shows);
 }
 
 float ViewSession::exposure()
@@ -113,12 +116,20 @@ void ViewSession::set_automatic_exposure(bool automatic)
 
 Image ViewSession::lit_picture()
 {
-    const Image light = render(map(), PreviewShows::light);
+    const Image& light = render(map(), PreviewShows::light);
     const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
     return tone_map(light, of_light * std::exp2(stops_));
 }
 
 Image ViewSession::picture()
+{
+    const Clock::time_point start = Clock::now();
+    Image picture = make_picture();
+    picture_costs_.add(ms_since(start));
+    return picture;
+}
+
+Image ViewSession::make_picture()
 {
     if (mode_ == ViewMode::links)
         return links_picture();
@@ -132,7 +143,7 @@ Image ViewSession::picture()
 double ViewSession::luminance_at(const glm::ivec2& pixel)
 {
     check_inside(pixel);
-    const Image light = render(map(), PreviewShows::light);
+    const Image& light = render(map(), PreviewShows::light);
     const float* const at = light.at(pixel.x, pixel.y);
     return luminance({at[0], at[1], at[2]});
 }

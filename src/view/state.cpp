@@ -35,9 +35,8 @@ Json light_of(const ViewSession& session)
             {"lumels", session.light().lumels().lumels.size()}};
 }
 
-Json costs_of(const ViewSession& session)
+Json costs_of(const FrameCosts& costs)
 {
-    const FrameCosts& costs = session.costs();
     return {{"count", costs.frames},
             {"last_ms", costs.last_ms},
             {"most_ms", costs.most_ms},
@@ -124,7 +123,8 @@ Json state_of(ViewSession& session)
     const glm::ivec2 size = session.size();
     Json json;
     json["light"] = light_of(session);
-    json["frames"] = costs_of(session);
+    json["frames"] = costs_of(session.costs());
+    json["pictures"] = costs_of(session.picture_costs());
     json["picture"] = {{"width", size.x}, {"height", size.y}};
     json["camera"] = {{"eye", numbers(camera.eye())},
                       {"forward", numbers(camera.forward())},

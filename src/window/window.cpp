@@ -23,6 +23,7 @@
 #include "preview/view.h"
 #include "scene/animation.h"
 #include "scene/gltf_document.h"
+#include "view/clock.h"
 #include "view/player.h"
 #include "view/save.h"
 #include "window/controls.h"
@@ -32,19 +33,12 @@
 namespace lumel {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kIdle = 0.05;  ///< between looks at mouse and keys while nothing changes [s]
 constexpr double kBetweenNews = 200.0;  ///< of a bake that is saved [ms]
 constexpr double kLongest = 0.1;        ///< frame that keys and films are moved on for [s]
 constexpr float kStrides = 5.0f;        ///< in which the scene is walked through
 constexpr int kFirstCoarse = 4;         ///< side of a pixel of what is shown before there is light
 constexpr ImU32 kFrame = IM_COL32(0, 230, 255, 255);
-
-double ms_since(Clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::string title_of(const ScriptRun& run)
 {
@@ -98,14 +92,6 @@ private:
     int shots_ = 0;
     Clock::time_point last_ = Clock::now();
 };
-
-View first_view(const Scene& scene, int camera)
-{
-    if (camera >= 0)
-        return view_of(scene.cameras[std::size_t(camera)]);
-    return scene.cameras.empty() ? choose_view(scene, RayScene(scene))
-                                 : view_of(scene.cameras.front());
-}
 
 glm::ivec2 first_size(const View& view, int width)
 {

@@ -322,6 +322,27 @@ TEST(View, TheAnimationIsWhereTimeHasIt)
     EXPECT_GT(difference(picture, frame(1)).mean, 2.0);
 }
 
+TEST(View, APictureAfterOthersIsTheOneThatAFreshSessionMakes)
+{
+    // What is kept between pictures, and what is not: places, colours, map, camera and mode.
+    const std::string edits = "pick \"short block\"\nmove 0.1,0.05,0\nturn 25\npaint 0,0.5,1\n"
+                              "pick \"tall block\"\ndelete\neye 0.3,0.3,-0.7\n",
+                      last = "picture lit.png\nmode irradiance\npicture lux.png\n"
+                             "mode lumels\npicture lumels.png\n";
+    const Played fresh(own_scene("cornell-box.gltf"), "exposure 2\nwait\n" + edits + last);
+    std::string long_way = "exposure 2\nwait\npicture a.png\npicture b.png\nmode lumels\n"
+                           "picture c.png\nmode lit\n";
+    int number = 0;
+    std::istringstream lines(edits);
+    for (std::string line; std::getline(lines, line);)
+        long_way += fmt::format("{}\npicture {}.png\n", line, number++);
+    const Played kept(own_scene("cornell-box.gltf"), long_way + last);
+    EXPECT_EQ(kept.picture("a.png").rgb, kept.picture("b.png").rgb);
+    EXPECT_GT(difference(kept.picture("a.png"), kept.picture("lit.png")).mean, 3.0);
+    for (const char* name : {"lit.png", "lux.png", "lumels.png"})
+        EXPECT_EQ(kept.picture(name).rgb, fresh.picture(name).rgb) << name;
+}
+
 TEST(View, PaintAndLumelsAreShown)
 {
     const Played played(own_scene("cornell-box.gltf"),
