@@ -421,6 +421,7 @@ const LiveLinksState& ViewSession::frame()
     if (before.at_rest && state.at_rest && before.all_sweeps == state.all_sweeps)
         return state;
     irradiance_.clear();
+    unsettled_.clear();
     map_.reset();
     return state;
 }

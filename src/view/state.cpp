@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <glm/trigonometric.hpp>
 
@@ -11,7 +12,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links"};
+constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links", "error"};
 
 Json numbers(const glm::vec3& v)
 {
@@ -43,6 +44,16 @@ Json costs_of(const FrameCosts& costs)
             {"mean_ms", costs.all_ms / double(std::max(costs.frames, 1))}};
 }
 
+/// What is not settled, as a mean over lumels.
+Json error_of(ViewSession& session)
+{
+    const std::vector<float>& percent = session.unsettled();
+    const double sum = std::accumulate(percent.begin(), percent.end(), 0.0);
+    const LuxScale scale = session.error_scale();
+    return {{"mean_percent", sum / double(percent.size())},
+            {"scale_percent", Json::array({scale.low, scale.high})}};
+}
+
 Json lumel_of(ViewSession& session, std::uint32_t number)
 {
     const Lumels& lumels = session.light().lumels();
@@ -54,7 +65,8 @@ Json lumel_of(ViewSession& session, std::uint32_t number)
             {"chart", lumel.chart},
             {"back", (lumel.flags & kLumelBack) != 0},
             {"irradiance", numbers(light)},
-            {"illuminance_lx", luminance(light)}};
+            {"illuminance_lx", luminance(light)},
+            {"error_percent", session.unsettled()[number]}};
 }
 
 Json picked_of(ViewSession& session)
@@ -134,6 +146,7 @@ Json state_of(ViewSession& session)
                         {"stops", session.stops()},
                         {"factor", session.exposure()}};
     json["scale_lx"] = Json::array({scale.low, scale.high});
+    json["error"] = error_of(session);
     json["pixel"] = pixel_of(session);
     json["picked"] = picked_of(session);
     json["links"] = links_of(session);

@@ -215,12 +215,11 @@ void ViewWindow::make_picture()
         return;
     const Clock::time_point start = Clock::now();
     session_->set_size(desk_.pixels());
-    screen_.take(session_->picture());
+    screen_.take(session_->picture(ViewSession::Legend::none));
     desk_.picture_ms = ms_since(start);
     desk_.changed = false;
 }
 
-/// The legend of false colours, which a picture has at its right, lies over what is there.
 void ViewWindow::show_picture() const
 {
     const glm::vec2 texture(screen_.texture_size());
@@ -234,10 +233,6 @@ void ViewWindow::show_picture() const
     const glm::vec2 all = coarse * texture;
     list.PushClipRect({0.0f, 0.0f}, {area.x, area.y});
     list.AddImage(screen_.texture(), {0.0f, 0.0f}, {all.x, all.y});
-    const float legend = texture.x - float(desk_.pixels().x);
-    if (legend > 0.0f)
-        list.AddImage(screen_.texture(), {area.x - coarse * legend, 0.0f}, {area.x, all.y},
-                      {1.0f - legend / texture.x, 0.0f}, {1.0f, 1.0f});
     list.PopClipRect();
 }
 
@@ -281,6 +276,8 @@ Image ViewWindow::draw(double wait, bool read)
         controls_.act(*session_, desk_, screen_);
         if (desk_.area.x < screen_.size().x)
             show_panel(*session_, desk_);
+        else
+            show_legend(*session_);
         show_help(desk_);
     }
     show_line(desk_.message, desk_);

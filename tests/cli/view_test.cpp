@@ -235,6 +235,29 @@ TEST(View, FalseColoursAreThoseOfTheLegendAtTheirIlluminance)
     }
 }
 
+TEST(View, WhatIsNotSettledIsShownInPerCent)
+{
+    const auto play = [](const std::string& rays) {
+        return Played(own_scene("cornell-box.gltf"),
+                      "mode error\nstate first.json\nwait\nstate rest.json\n"
+                      "pick 60,110\nscale 0.5,50\npicture error.png\nstate floor.json\n",
+                      {"--links", rays});
+    };
+    const Played few = play("16"), many = play("256");
+    const auto mean = [](const Played& played, const std::string& name) {
+        return played.state(name)["error"]["mean_percent"].get<double>();
+    };
+    EXPECT_EQ(few.state("floor.json")["mode"], "error");
+    EXPECT_GT(mean(few, "first.json"), 80.0);
+    // Noise falls by the root of the rays at least: by four.
+    EXPECT_GT(mean(few, "rest.json"), 3.0 * mean(many, "rest.json"));
+    EXPECT_GT(mean(many, "rest.json"), 0.05);
+    // Lighter colours stand for more.
+    EXPECT_GT(few.picture("error.png").at(60, 110)[1], many.picture("error.png").at(60, 110)[1]);
+    EXPECT_EQ(few.state("floor.json")["error"]["scale_percent"], Json::array({0.5, 50.0}));
+    EXPECT_GT(few.picture("error.png").width, few.state("floor.json")["picture"]["width"]);
+}
+
 TEST(View, AStopMoreIsTwiceAsBright)
 {
     const Played played(own_scene("cornell-box.gltf"),
