@@ -86,14 +86,14 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
     return *this;
 }
 
-void Buffer::upload(const void* data, std::uint64_t bytes)
+void Buffer::upload(const void* data, std::uint64_t bytes, std::uint64_t to_byte)
 {
     if (bytes == 0)
         return;
     if (mapped())
-        std::memcpy(mapped(), data, bytes);
+        std::memcpy(mapped() + to_byte, data, bytes);
     else
-        device_->staging().upload(data, *this, bytes);
+        device_->staging().upload(data, *this, bytes, to_byte);
 }
 
 void Buffer::download(void* data, std::uint64_t bytes) const

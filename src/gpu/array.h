@@ -30,7 +30,7 @@ public:
     std::byte* mapped() const { return memory_.mapped; }  ///< host place only
 
     /// Blocking copies between host and device.
-    void upload(const void* data, std::uint64_t bytes);
+    void upload(const void* data, std::uint64_t bytes, std::uint64_t to_byte = 0);
     void download(void* data, std::uint64_t bytes) const;
 
 private:
@@ -65,6 +65,11 @@ public:
     const Buffer& buffer() const { return buffer_; }
 
     void upload(std::span<const T> values) { buffer_.upload(values.data(), values.size_bytes()); }
+    /// Elements from `first` on.
+    void upload_part(std::size_t first, std::span<const T> values)
+    {
+        buffer_.upload(values.data(), values.size_bytes(), first * sizeof(T));
+    }
     std::vector<T> download() const
     {
         std::vector<T> values(count_);

@@ -20,10 +20,10 @@ struct Parts {
 
 /// Rows of an image that lie together in memory.
 struct Rows {
-    explicit Rows(const Target& target)
+    Rows(const Target& target, std::uint32_t count)
         : height(target.pixel() == Pixel::bc1 ? kBlockSide : 1),
           bytes(image_bytes(target.pixel(), target.width(), height)),
-          parts{target.height() / height, kSlotBytes / bytes}
+          parts{count / height, kSlotBytes / bytes}
     {
     }
 
@@ -80,14 +80,14 @@ void Staging::in_turn(std::uint64_t parts, const Begin& begin, const End& end)
     }
 }
 
-void Staging::upload(const void* data, const Buffer& to, std::uint64_t bytes)
+void Staging::upload(const void* data, const Buffer& to, std::uint64_t bytes, std::uint64_t to_byte)
 {
     const Parts parts{bytes, kSlotBytes};
     const auto fill = [&](Slot& slot, std::uint64_t part) {
         std::memcpy(slot.memory.mapped(), static_cast<const std::byte*>(data) + parts.first(part),
                     parts.size(part));
         slot.commands.stage("upload");
-        slot.commands.copy_part(slot.memory, 0, to, parts.first(part), parts.size(part));
+        slot.commands.copy_part(slot.memory, 0, to, to_byte + parts.first(part), parts.size(part));
     };
     in_turn(parts.count(), fill, [](Slot&, std::uint64_t) {});
 }
@@ -106,26 +106,30 @@ void Staging::download(const Buffer& from, void* data, std::uint64_t bytes)
     in_turn(parts.count(), fetch, take);
 }
 
-void Staging::upload(const void* pixels, const Target& to)
+void Staging::upload(const void* pixels, const Target& to, std::uint32_t first_row,
+                     std::uint32_t row_count)
 {
-    const Rows rows(to);
+    const Rows rows(to, row_count);
     const auto fill = [&](Slot& slot, std::uint64_t part) {
         const std::uint64_t first = rows.parts.first(part), count = rows.parts.size(part);
         std::memcpy(slot.memory.mapped(),
                     static_cast<const std::byte*>(pixels) + first * rows.bytes, count * rows.bytes);
         slot.commands.stage("upload");
-        slot.commands.copy_rows(slot.memory, to, rows.pixels(first), rows.pixels(count));
+        slot.commands.copy_rows(slot.memory, to, first_row + rows.pixels(first),
+                                rows.pixels(count));
     };
     in_turn(rows.parts.count(), fill, [](Slot&, std::uint64_t) {});
-    if (to.mip_levels() == 1)
-        return;
-    slots_[0]->commands.make_levels(to);
+}
+
+void Staging::make_levels(const Target& target)
+{
+    slots_[0]->commands.make_levels(target);
     slots_[0]->commands.run();
 }
 
 void Staging::download(const Target& from, void* pixels)
 {
-    const Rows rows(from);
+    const Rows rows(from, from.height());
     const auto fetch = [&](Slot& slot, std::uint64_t part) {
         slot.commands.stage("download");
         slot.commands.copy_rows(from, slot.memory, rows.pixels(rows.parts.first(part)),

@@ -20,10 +20,12 @@ public:
     /// Of all slots.
     static std::uint64_t device_bytes();
 
-    void upload(const void* data, const Buffer& to, std::uint64_t bytes);
+    void upload(const void* data, const Buffer& to, std::uint64_t bytes, std::uint64_t to_byte);
     void download(const Buffer& from, void* data, std::uint64_t bytes);
-    /// Level 0, tightly packed rows (of blocks); the smaller levels are made of it.
-    void upload(const void* pixels, const Target& to);
+    /// Rows [first, first + count) of level 0, whole blocks, tightly packed.
+    void upload(const void* pixels, const Target& to, std::uint32_t first, std::uint32_t count);
+    /// The smaller levels, of level 0.
+    void make_levels(const Target& target);
     /// Level 0.
     void download(const Target& from, void* pixels);
     /// A new image's first use.

@@ -127,7 +127,14 @@ Target::Target(Target&& other) noexcept
 
 void Target::upload(const void* pixels)
 {
-    device_->staging().upload(pixels, *this);
+    device_->staging().upload(pixels, *this, 0, height_);
+    if (mip_levels_ > 1)
+        device_->staging().make_levels(*this);
+}
+
+void Target::upload_rows(const void* pixels, std::uint32_t first, std::uint32_t count)
+{
+    device_->staging().upload(pixels, *this, first, count);
 }
 
 void Target::download(void* pixels) const

@@ -44,6 +44,8 @@ public:
     /// Blocking: fills level 0 from tightly packed rows (of blocks), then the smaller levels by
     /// averaging.
     void upload(const void* pixels);
+    /// Blocking: rows [first, first + count) of an image of one level, tightly packed.
+    void upload_rows(const void* pixels, std::uint32_t first, std::uint32_t count);
     /// Blocking: level 0, tightly packed rows.
     void download(void* pixels) const;
 

@@ -28,12 +28,24 @@ constexpr std::array<Glyph, 10> kDigits = {{
 constexpr Glyph kPoint = {0, 0, 0, 0, 0, 0b01100, 0b01100};
 constexpr Glyph kL = {0b01100, 0b00100, 0b00100, 0b00100, 0b00100, 0b00100, 0b01110};
 constexpr Glyph kX = {0, 0, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001};
+constexpr Glyph kPercent = {0b11000, 0b11001, 0b00010, 0b00100, 0b01000, 0b10011, 0b00011};
 
 Glyph glyph_of(char letter)
 {
     if (letter >= '0' && letter <= '9')
         return kDigits[std::size_t(letter - '0')];
-    return letter == '.' ? kPoint : letter == 'l' ? kL : letter == 'x' ? kX : Glyph{};
+    switch (letter) {
+    case '.':
+        return kPoint;
+    case 'l':
+        return kL;
+    case 'x':
+        return kX;
+    case '%':
+        return kPercent;
+    default:
+        return {};
+    }
 }
 
 void fill(Image& image, const glm::ivec2& low, const glm::ivec2& size, const glm::vec3& color)

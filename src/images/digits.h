@@ -9,7 +9,8 @@
 
 namespace lumel {
 
-/// Size of a text of digits, '.', 'l', 'x' and spaces, each pixel of which is scale × scale pixels.
+/// Size of a text of digits, '.', 'l', 'x', '%' and spaces, each pixel of which is scale × scale
+/// pixels.
 glm::ivec2 text_size(std::string_view text, int scale);
 
 /// Writes it with its top left corner at `at`; what lies outside of the image is left out.

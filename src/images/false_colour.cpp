@@ -49,12 +49,12 @@ void paint(Image& image, int x, int y, const glm::vec3& color)
 }
 
 /// The bar, from high down to low, with a tick and a number for each of the scale's.
-void draw_legend(Image& image, int left, const LuxScale& scale)
+void draw_legend(Image& image, int left, const LuxScale& scale, std::string_view name)
 {
-    const glm::ivec2 unit = text_size("lx", kTextScale);
+    const glm::ivec2 unit = text_size(name, kTextScale);
     const int top = kMargin + 2 * unit.y, bottom = image.height - kMargin - unit.y / 2;
     const int bar = left + kMargin, ticks = bar + kBarWidth;
-    draw_text(image, {bar, kMargin}, "lx", kTextScale, kInk);
+    draw_text(image, {bar, kMargin}, name, kTextScale, kInk);
     const auto place_of_row = [&](int y) { return double(bottom - y) / double(bottom - top); };
     for (int y = top; y <= bottom; ++y)
         for (int x = bar; x < ticks; ++x)
@@ -135,18 +135,27 @@ std::string tick_text(double lux)
     return text.data();
 }
 
-Image false_colour(const Image& lux, const LuxScale& scale)
+Image colours_of(const Image& lux, const LuxScale& scale)
 {
-    Image image(lux.width + kLegendWidth, std::max(lux.height, kLeastHeight), 3);
-    for (int y = 0; y < image.height; ++y)
-        for (int x = 0; x < image.width; ++x)
-            paint(image, x, y, kPaper);
+    Image image(lux.width, lux.height, 3);
     for (int y = 0; y < lux.height; ++y)
         for (int x = 0; x < lux.width; ++x) {
             const float value = lux.at(x, y)[0];
             paint(image, x, y, value < 0.0f ? kNothing : scale_color(scale.place_of(value)));
         }
-    draw_legend(image, lux.width, scale);
+    return image;
+}
+
+Image false_colour(const Image& lux, const LuxScale& scale, std::string_view unit)
+{
+    const Image colours = colours_of(lux, scale);
+    Image image(lux.width + kLegendWidth, std::max(lux.height, kLeastHeight), 3);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            paint(image, x, y, kPaper);
+    for (int y = 0; y < lux.height; ++y)
+        std::copy(colours.at(0, y), colours.at(0, y) + 3 * lux.width, image.at(0, y));
+    draw_legend(image, lux.width, scale, unit);
     return image;
 }
 

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -31,7 +32,10 @@ glm::vec3 scale_color(double place);
 std::string tick_text(double lux);
 
 /// One channel of lux, less than 0 where there is nothing (grey), as a picture of 3 channels,
-/// display-referred, with the scale and its numbers in lux beside it.
-Image false_colour(const Image& lux, const LuxScale& scale);
+/// display-referred.
+Image colours_of(const Image& lux, const LuxScale& scale);
+
+/// The same with the scale and its numbers beside it, in lux or in another unit: "%".
+Image false_colour(const Image& lux, const LuxScale& scale, std::string_view unit = "lx");
 
 }  // namespace lumel

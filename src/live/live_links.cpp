@@ -425,6 +425,17 @@ std::vector<glm::vec3> LiveLinks::shown() const
     return result;
 }
 
+std::vector<float> LiveLinks::unsettled() const
+{
+    const auto to_come = edited_ ? 1.0f : float(std::max(state_.residual, state_.dark_residual));
+    std::vector<float> result(lumels().lumels.size());
+    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = std::min(filter_.noise(sweeps_, sky_light_, i) + to_come, 1.0f);
+    });
+    return result;
+}
+
 std::vector<glm::vec3> LiveLinks::irradiance() const
 {
     std::vector<glm::vec3> result(lumels().lumels.size());

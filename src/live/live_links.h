@@ -114,6 +114,12 @@ public:
     /// last light that was at rest. Takes as long as a part of a sweep.
     std::vector<glm::vec3> shown() const;
 
+    /// [N] What is not settled of shown(), by its size, 0…1: the noise of its rays as the filter
+    /// leaves it, as far as two halves of them tell, and light still to come. Not in it: what few
+    /// rays to a lamp or the filter itself get wrong. 1 before light was at rest for the first
+    /// time.
+    std::vector<float> unsettled() const;
+
     const Scene& scene() const { return laid_out_.scene; }
     const Atlas& atlas() const { return laid_out_.atlas; }
     const Lumels& lumels() const { return laid_out_.lumels; }

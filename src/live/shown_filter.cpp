@@ -1,6 +1,7 @@
 #include "live/shown_filter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -33,13 +34,25 @@ void for_each_lumel(const FilterTile& tile, const Visit& visit)
                 visit(i, std::size_t(y) * kTile + std::size_t(x), wide_at(x, y));
 }
 
+/// What rays bring [lx].
+glm::vec3 by_rays(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel)
+{
+    return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
+}
+
+float sum_of(const glm::vec3& light)
+{
+    return light.r + light.g + light.b;
+}
+
 }  // namespace
 
 ShownFilter::ShownFilter(const LivePlace& place, const LumelLinks& links)
     : place_(place),
       links_(links),
       by_side_(lumels_by_side(place.lumels)),
-      places_(place.lumels.lumels.size())
+      places_(place.lumels.lumels.size()),
+      noise_left_(places_.size(), 1.0f)
 {
     const auto across = std::uint32_t((place.lumels.width + kTile - 1) / kTile),
                down = std::uint32_t((place.lumels.height + kTile - 1) / kTile);
@@ -229,33 +242,69 @@ void ShownFilter::weigh(Tile& of, FilterTile& tile)
             }
         places_[i] = {std::uint32_t(&of - tiles_.data()), std::uint32_t(of.first.size() - 1)};
         of.first.push_back(std::uint32_t(of.weights.size()));
+        noise_left_[i] = noise_left(i, of);
     });
+}
+
+/// Noise of lumels is independent: the variance of Σ w x / Σ w is Σ w² σ² / (Σ w)². What lies
+/// between the light of neighbours is not in it.
+float ShownFilter::noise_left(std::uint32_t i, const Tile& of) const
+{
+    const auto light = [&](std::uint32_t j) { return 0.5f * (halves_[0][j] + halves_[1][j]); };
+    glm::vec3 sum = light(i);
+    float variance = noise_[i];
+    const Place place = places_[i];
+    for (std::uint32_t w = of.first[place.number]; w < of.first[place.number + 1]; ++w) {
+        const Weight& one = of.weights[w];
+        sum += one.weight * light(one.lumel);
+        variance += one.weight * one.weight * noise_[one.lumel];
+    }
+    // Of sums over weights both, so that (Σ w) goes. The variance is that of three channels
+    // together.
+    constexpr float kChannels = 3.0f;
+    const float mean = sum_of(sum) / kChannels;
+    return mean > 0.0f ? std::sqrt(variance / kChannels) / mean : 0.0f;
+}
+
+/// Light by rays as it is shown. There must be weights.
+glm::vec3 ShownFilter::filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                                std::size_t i) const
+{
+    const Place place = places_[i];
+    const Tile& tile = tiles_[place.tile];
+    glm::vec3 sum = by_rays(sweeps, sky, i);
+    float weights = 1.0f;
+    for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
+        sum += tile.weights[w].weight * by_rays(sweeps, sky, tile.weights[w].lumel);
+        weights += tile.weights[w].weight;
+    }
+    return sum / weights;
 }
 
 glm::vec3 ShownFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                                   std::size_t i) const
 {
     const glm::vec3 whole = sweeps.irradiance(i);
-    const Place place = places_[i];
-    if (place.tile == ~0u)
+    if (places_[i].tile == ~0u)
         return whole;
-    const auto by_rays = [&](std::size_t lumel) {
-        return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
-    };
-    const Tile& tile = tiles_[place.tile];
-    const glm::vec3 own = by_rays(i);
-    glm::vec3 sum = own;
-    float weights = 1.0f;
-    for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
-        sum += tile.weights[w].weight * by_rays(tile.weights[w].lumel);
-        weights += tile.weights[w].weight;
-    }
-    return glm::max(whole + (sum / weights - own), glm::vec3(0.0f));
+    return glm::max(whole + (filtered(sweeps, sky, i) - by_rays(sweeps, sky, i)), glm::vec3(0.0f));
+}
+
+float ShownFilter::noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                         std::size_t i) const
+{
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return 0.0f;
+    if (places_[i].tile == ~0u)
+        return 1.0f;
+    const float all = sum_of(irradiance(sweeps, sky, i));
+    return all > 0.0f ? noise_left_[i] * sum_of(filtered(sweeps, sky, i)) / all : 0.0f;
 }
 
 std::uint64_t ShownFilter::bytes() const
 {
-    std::uint64_t bytes = places_.size() * sizeof(Place) + by_side_.size() * sizeof(std::uint32_t);
+    std::uint64_t bytes =
+        places_.size() * (sizeof(Place) + sizeof(float)) + by_side_.size() * sizeof(std::uint32_t);
     for (const Tile& tile : tiles_)
         bytes += tile.first.size() * sizeof(std::uint32_t) + tile.weights.size() * sizeof(Weight);
     return bytes;

@@ -32,6 +32,10 @@ public:
     /// what of its light the sweeps began with [N] [lx]; empty: none.
     glm::vec3 irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                          std::size_t lumel) const;
+    /// Of that light, by its size: the root of the mean square over channels of what is expected to
+    /// be wrong, for the noise of rays alone. 1 of lumels that have no weights yet, 0
+    /// of buried ones, which no one sees.
+    float noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel) const;
     std::uint64_t bytes() const;
 
 private:
@@ -57,6 +61,9 @@ private:
     void fill(const Tile& of, FilterTile& tile) const;
     void find_noise(FilterTile& tile);
     void weigh(Tile& of, FilterTile& tile);
+    glm::vec3 filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                       std::size_t lumel) const;
+    float noise_left(std::uint32_t lumel, const Tile& of) const;
     template <class Work>
     bool do_tiles(const Work& work);
 
@@ -66,7 +73,8 @@ private:
     glm::vec3 sky_{0.0f};
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
     std::vector<Tile> tiles_;
-    std::vector<Place> places_;  ///< [N]
+    std::vector<Place> places_;      ///< [N]
+    std::vector<float> noise_left_;  ///< [N] of light by rays when weights were made, by its size
     enum class Stage { halves, steps, noise, weights, done } stage_ = Stage::done;
     std::size_t next_ = 0;  ///< lumel or tile of the stage
     // Light by rays from every other direction, and by the others: empty when done.

@@ -2,86 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
+#include <optional>
+#include <span>
 
 #include "atlas/sides.h"
 #include "core/bytes.h"
 #include "gpu/commands.h"
+#include "preview/drawn_mesh.h"
+#include "preview/preview.plain.raster.h"
 #include "preview/preview.raster.h"
 #include "preview/preview.shared.h"
+#include "preview/preview.shrink.comp.h"
+#include "preview/preview.whole.raster.h"
 
 namespace lumel {
 namespace {
 
-constexpr int kSupersample = 2;
 constexpr float kNearOfDiagonal = 1e-3f;
-
-/// The scene as the preview's shaders take it, ordered by material.
-struct Vertices {
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec4> looks;
-    std::vector<glm::vec2> lightmap;
-    std::vector<glm::vec4> colors;
-    std::vector<std::uint32_t> indices;
-    struct Range {
-        std::uint32_t first, count;
-    };
-    std::map<std::pair<int, std::uint32_t>, Range> ranges;  ///< by material and kBack…
-};
-
-glm::vec2 texture_place(const Primitive& primitive, const TextureUse& use, std::uint32_t vertex)
-{
-    const auto& uv = primitive.texcoords[use.texcoord];
-    return uv.empty() ? glm::vec2(0.0f) : glm::vec2(use.transform * glm::vec3(uv[vertex], 1.0f));
-}
-
-void append(Vertices& out, const Scene& scene, const Atlas& atlas, const Surface& surface)
-{
-    const Instance& instance = scene.instances[surface.instance];
-    const Primitive& primitive = scene.meshes[instance.mesh].primitives[surface.primitive];
-    const Material& material = scene.materials[primitive.material];
-    const auto base = std::uint32_t(out.positions.size());
-    const glm::vec2 size(float(atlas.width), float(atlas.height));
-    for (std::size_t v = 0; v < surface.source_vertex.size(); ++v) {
-        const std::uint32_t source = surface.source_vertex[v];
-        out.positions.emplace_back(instance.transform *
-                                   glm::vec4(primitive.positions[source], 1.0f));
-        out.looks.emplace_back(texture_place(primitive, material.base_color_texture, source),
-                               texture_place(primitive, material.emissive_texture, source));
-        out.lightmap.push_back(surface.texcoord[v] / size);
-        out.colors.push_back(primitive.colors.empty() ? glm::vec4(1.0f) : primitive.colors[source]);
-    }
-    const bool mirrored = glm::determinant(glm::mat3(instance.transform)) < 0.0f;
-    for (std::size_t k = 0; k + 2 < surface.indices.size(); k += 3)
-        for (const std::size_t corner :
-             {std::size_t(0), std::size_t(mirrored ? 2 : 1), std::size_t(mirrored ? 1 : 2)})
-            out.indices.push_back(base + surface.indices[k + corner]);
-}
-
-Vertices gather(const Scene& scene, const Atlas& atlas)
-{
-    Vertices out;
-    std::map<std::pair<int, std::uint32_t>, std::vector<const Surface*>> surfaces;
-    for (const Surface& surface : atlas.surfaces) {
-        const Mesh& mesh = scene.meshes[scene.instances[surface.instance].mesh];
-        const int material = mesh.primitives[surface.primitive].material;
-        const std::uint32_t back = has_own_back(atlas, surface) ? kBackIsAnother
-                                   : scene.materials[std::size_t(material)].double_sided
-                                       ? kBackIsAlike
-                                       : kBackIsBlack;
-        surfaces[{material, back}].push_back(&surface);
-    }
-    for (const auto& [key, list] : surfaces) {
-        const auto first = std::uint32_t(out.indices.size());
-        for (const Surface* surface : list) {
-            append(out, scene, atlas, *surface);
-            if (has_own_back(atlas, *surface))
-                append(out, scene, atlas, back_of(atlas, *surface));
-        }
-        out.ranges[key] = {first, std::uint32_t(out.indices.size()) - first};
-    }
-    return out;
-}
 
 /// World to clip space with reversed z, y down as Vulkan has it.
 glm::mat4 projection(const View& view, float diagonal)
@@ -158,30 +97,22 @@ private:
     std::map<std::pair<Wrap, Wrap>, gpu::Sampler> samplers_;
 };
 
-Image shrink(const std::vector<float>& pixels, int width, int height)
+bool has_texture(const Material& material)
 {
-    Image image(width, height, 4);
-    const int wide = width * kSupersample;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int c = 0; c < 4; ++c) {
-                float sum = 0.0f;
-                for (int dy = 0; dy < kSupersample; ++dy)
-                    for (int dx = 0; dx < kSupersample; ++dx)
-                        sum += pixels[std::size_t((y * kSupersample + dy) * wide +
-                                                  x * kSupersample + dx) *
-                                          4 +
-                                      std::size_t(c)];
-                image.at(x, y)[c] = sum / float(kSupersample * kSupersample);
-            }
-    return image;
+    return material.base_color_texture.texture >= 0 || material.emissive_texture.texture >= 0;
+}
+
+bool are_alike(const PreviewParams& a, const PreviewParams& b)
+{
+    return a.camera == b.camera && a.base_color == b.base_color && a.emitted == b.emitted &&
+           a.cutoff == b.cutoff && a.back == b.back && a.shows == b.shows;
 }
 
 }  // namespace
 
 glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width)
 {
-    const int most = int(device.max_image_side()) / kSupersample;
+    const int most = int(device.max_image_side()) / int(kSupersample);
     const float fitting = std::clamp(float(most) * view.aspect, 1.0f, float(most));
     width = std::min(width, int(fitting));
     return {width, picture_height(width, view.aspect, most)};
@@ -203,68 +134,252 @@ PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::
                         drawn = pixels * kSupersample * kSupersample,
                         texels = std::uint64_t(atlas.width) * std::uint64_t(atlas.height);
     return {.device = shapes + textures + texels * kOfPixel + drawn * (kOfPixel + kOfDepth),
-            .host = shapes + (drawn + pixels) * kOfPixel};
+            .host = shapes + (texels + 2 * pixels) * kOfPixel};
 }
 
-Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
-                     const Image& irradiance, const View& view, int width, PreviewShows shows)
+/// All that is kept between pictures.
+struct Preview::Parts {
+    /// What a picture was drawn with: where all of it is as it was, so is the picture.
+    struct Drawn {
+        glm::uvec2 size{0u};
+        bool nearest = false;
+        std::vector<PreviewParams> params;  ///< of each range
+
+        bool is(const Drawn& other) const
+        {
+            return size == other.size && nearest == other.nearest &&
+                   std::equal(params.begin(), params.end(), other.params.begin(),
+                              other.params.end(), are_alike);
+        }
+    };
+    /// A mesh on the device.
+    struct Streams {
+        Streams(const gpu::Device& device, const DrawnMesh& mesh)
+            : positions(device, std::span(mesh.positions())),
+              looks(device, std::span(mesh.looks())),
+              places(device, std::span(mesh.lightmap())),
+              colors(device, std::span(mesh.colors())),
+              indices(device, std::span(mesh.indices()))
+        {
+        }
+
+        gpu::Array<glm::vec3> positions;
+        gpu::Array<glm::vec4> looks;
+        gpu::Array<glm::vec2> places;
+        gpu::Array<glm::vec4> colors;
+        gpu::Array<std::uint32_t> indices;
+    };
+    /// What is drawn into.
+    struct Canvas {
+        Canvas(const gpu::Device& device, const glm::ivec2& size)
+            : color(device, gpu::Pixel::rgba32, std::uint32_t(size.x) * kSupersample,
+                    std::uint32_t(size.y) * kSupersample),
+              depth(device, gpu::Pixel::depth, color.width(), color.height()),
+              pixels(device, std::size_t(size.x) * std::size_t(size.y), gpu::Buffer::Place::host)
+        {
+        }
+
+        gpu::Target color, depth;
+        gpu::Array<glm::vec4> pixels;  ///< of the picture
+    };
+
+    Parts(const gpu::Device& device, const Scene& scene, const Atlas& atlas)
+        : textures(device, scene),
+          linear(device, gpu::Filter::linear, gpu::Address::clamp, gpu::Address::clamp),
+          nearest(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp),
+          every(device, {.color_pixel = gpu::Pixel::rgba32}),
+          whole(device, {.color_pixel = gpu::Pixel::rgba32}),
+          plain(device, {.color_pixel = gpu::Pixel::rgba32}),
+          shrink(device),
+          commands(device, gpu::Timing::off),
+          mesh(scene, atlas),
+          streams(device, mesh)
+    {
+    }
+
+    bool take_places(const Scene& scene);
+    bool take_map(const gpu::Device& device, const Image& map);
+    std::vector<PreviewParams> params_of(const Scene& scene, const View& view,
+                                         PreviewShows shows) const;
+    template <class Shaders>
+    typename Shaders::Bindings with_textures(const Material& material, const gpu::Sampler& of_map);
+    template <class Shaders>
+    void draw(const gpu::Raster<Shaders>& raster, const typename Shaders::Bindings& given,
+              const PreviewParams& params, const gpu::Range& range);
+    void record(const Scene& scene, const Drawn& what);
+    void take_picture(const glm::ivec2& size);
+
+    TextureSet textures;
+    gpu::Sampler linear, nearest;
+    gpu::Raster<shaders::Preview> every;
+    gpu::Raster<shaders::PreviewWhole> whole;
+    gpu::Raster<shaders::PreviewPlain> plain;
+    gpu::Kernel<shaders::PreviewShrink> shrink;
+    gpu::Commands commands;
+    DrawnMesh mesh;
+    Streams streams;
+    std::optional<Canvas> canvas;
+    std::optional<gpu::Target> lightmap;
+    Image map;  ///< that the lightmap holds
+    std::optional<Drawn> drawn;
+    Image picture;
+};
+
+/// True if anything has moved.
+bool Preview::Parts::take_places(const Scene& scene)
 {
-    const glm::ivec2 size = preview_size(device, view, width);
-    const auto wide = std::uint32_t(size.x * kSupersample),
-               high = std::uint32_t(size.y * kSupersample);
-    const Vertices vertices = gather(scene, atlas);
-    float diagonal = 1e-6f;
-    for (const glm::vec3& p : vertices.positions)
-        diagonal = std::max(diagonal, glm::length(p - glm::vec3(view.transform[3])));
+    const std::optional<Stretch> moved = mesh.place(scene);
+    if (moved)
+        streams.positions.upload_part(
+            moved->first,
+            std::span(mesh.positions()).subspan(moved->first, moved->last - moved->first));
+    return moved.has_value();
+}
 
-    const gpu::Array<glm::vec3> positions(device, std::span<const glm::vec3>(vertices.positions));
-    const gpu::Array<glm::vec4> looks(device, std::span<const glm::vec4>(vertices.looks));
-    const gpu::Array<glm::vec2> places(device, std::span<const glm::vec2>(vertices.lightmap));
-    const gpu::Array<glm::vec4> colors(device, std::span<const glm::vec4>(vertices.colors));
-    const gpu::Array<std::uint32_t> indices(device,
-                                            std::span<const std::uint32_t>(vertices.indices));
-    gpu::Target lightmap(device, gpu::Pixel::rgba32, std::uint32_t(irradiance.width),
-                         std::uint32_t(irradiance.height));
-    lightmap.upload(irradiance.values.data());
-    const gpu::Sampler of_map(
-        device, shows == PreviewShows::texels ? gpu::Filter::nearest : gpu::Filter::linear,
-        gpu::Address::clamp, gpu::Address::clamp);
-    TextureSet textures(device, scene);
-    const gpu::Target color(device, gpu::Pixel::rgba32, wide, high);
-    const gpu::Target depth(device, gpu::Pixel::depth, wide, high);
+/// True if it is not the one of before: rows from the first to the last that differ are uploaded.
+bool Preview::Parts::take_map(const gpu::Device& device, const Image& given)
+{
+    if (!lightmap || map.width != given.width || map.height != given.height) {
+        lightmap.reset();
+        lightmap.emplace(device, gpu::Pixel::rgba32, std::uint32_t(given.width),
+                         std::uint32_t(given.height));
+        lightmap->upload(given.values.data());
+        map = given;
+        return true;
+    }
+    const std::size_t row = std::size_t(given.width) * 4;
+    const auto differs = [&](int y) {
+        return std::memcmp(given.at(0, y), map.at(0, y), row * sizeof(float)) != 0;
+    };
+    int first = 0, last = given.height;
+    while (first < last && !differs(first))
+        ++first;
+    while (last > first && !differs(last - 1))
+        --last;
+    if (first == last)
+        return false;
+    lightmap->upload_rows(given.at(0, first), std::uint32_t(first), std::uint32_t(last - first));
+    std::copy(given.at(0, first), given.at(0, first) + row * std::size_t(last - first),
+              map.at(0, first));
+    return true;
+}
 
-    const gpu::Raster<shaders::Preview> raster(device, {.color_pixel = gpu::Pixel::rgba32});
-    gpu::Commands commands(device);
-    commands.begin_pass(&color, depth, {0, 0, wide, high});
-    for (const auto& [key, range] : vertices.ranges) {
+std::vector<PreviewParams> Preview::Parts::params_of(const Scene& scene, const View& view,
+                                                     PreviewShows shows) const
+{
+    const glm::mat4 camera = projection(view, mesh.farthest_from(glm::vec3(view.transform[3])));
+    std::vector<PreviewParams> all;
+    for (const auto& [key, range] : mesh.ranges()) {
         const Material& material = scene.materials[std::size_t(key.first)];
         // Blended surfaces are drawn where they are more there than not.
         const float cutoff = material.alpha_mode == AlphaMode::opaque ? -1.0f
                              : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff
                                                                       : 0.5f;
-        const PreviewParams params{projection(view, diagonal),
-                                   material.base_color,
-                                   material.emitted,
-                                   cutoff,
-                                   key.second,
-                                   shows == PreviewShows::light ? kShowsLight : kShowsMap};
-        const TextureUse& base = material.base_color_texture;
-        const TextureUse& emissive = material.emissive_texture;
-        commands
-            .use(raster,
-                 {.base_color = {textures.of(base), textures.sampler(base)},
-                  .emissive = {textures.of(emissive), textures.sampler(emissive)},
-                  .irradiance = {lightmap, of_map}},
-                 {.position = positions, .look = looks, .lightmap = places, .color = colors},
-                 indices)
-            .draw(params, {range.first, range.count});
+        all.push_back({camera, material.base_color, material.emitted, cutoff, key.second,
+                       shows == PreviewShows::light ? kShowsLight : kShowsMap});
+    }
+    return all;
+}
+
+template <class Shaders>
+typename Shaders::Bindings Preview::Parts::with_textures(const Material& material,
+                                                         const gpu::Sampler& of_map)
+{
+    const TextureUse &base = material.base_color_texture, &emissive = material.emissive_texture;
+    return {.irradiance = {*lightmap, of_map},
+            .base_color = {textures.of(base), textures.sampler(base)},
+            .emissive = {textures.of(emissive), textures.sampler(emissive)}};
+}
+
+template <class Shaders>
+void Preview::Parts::draw(const gpu::Raster<Shaders>& raster,
+                          const typename Shaders::Bindings& given, const PreviewParams& params,
+                          const gpu::Range& range)
+{
+    commands
+        .use(raster, given,
+             {.position = streams.positions,
+              .look = streams.looks,
+              .lightmap = streams.places,
+              .color = streams.colors},
+             streams.indices)
+        .draw(params, range);
+}
+
+void Preview::Parts::record(const Scene& scene, const Drawn& what)
+{
+    const glm::uvec2 wide(canvas->color.width(), canvas->color.height());
+    commands.begin_pass(&canvas->color, canvas->depth, {0, 0, wide.x, wide.y});
+    auto params = what.params.begin();
+    for (const auto& [key, range] : mesh.ranges()) {
+        const Material& material = scene.materials[std::size_t(key.first)];
+        const gpu::Range part{range.first, range.count};
+        const gpu::Sampler& of_map = what.nearest ? nearest : linear;
+        const bool is_whole =
+            material.alpha_mode == AlphaMode::opaque && key.second != kBackIsAnother;
+        if (is_whole && !has_texture(material))
+            draw(plain, {.irradiance = {*lightmap, of_map}}, *params, part);
+        else if (is_whole)
+            draw(whole, with_textures<shaders::PreviewWhole>(material, of_map), *params, part);
+        else
+            draw(every, with_textures<shaders::Preview>(material, of_map), *params, part);
+        ++params;
     }
     commands.end_pass();
-    commands.run();
+    commands.dispatch(shrink, {.picture = {canvas->color, nearest}, .pixels = canvas->pixels},
+                      {what.size.x, what.size.y}, canvas->pixels.size());
+}
 
-    std::vector<float> pixels(std::size_t(wide) * high * 4);
-    color.download(pixels.data());
-    return shrink(pixels, size.x, size.y);
+void Preview::Parts::take_picture(const glm::ivec2& size)
+{
+    if (picture.width != size.x || picture.height != size.y)
+        picture = Image(size.x, size.y, 4);
+    const glm::vec4* const pixels = canvas->pixels.mapped();
+    std::memcpy(picture.values.data(), pixels, canvas->pixels.size() * sizeof(glm::vec4));
+}
+
+Preview::Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas)
+    : device_(&device),
+      parts_(std::make_unique<Parts>(device, scene, atlas))
+{
+}
+
+Preview::~Preview() = default;
+
+void Preview::show(const Scene& scene, const Atlas& atlas)
+{
+    parts_->mesh = DrawnMesh(scene, atlas);
+    parts_->streams = Parts::Streams(*device_, parts_->mesh);
+    parts_->drawn.reset();
+}
+
+const Image& Preview::draw(const Scene& scene, const Image& map, const View& view, int width,
+                           PreviewShows shows)
+{
+    Parts& parts = *parts_;
+    const glm::ivec2 size = preview_size(*device_, view, width);
+    const bool moved = parts.take_places(scene), lit = parts.take_map(*device_, map);
+    Parts::Drawn what{.size = glm::uvec2(size),
+                      .nearest = shows == PreviewShows::texels,
+                      .params = parts.params_of(scene, view, shows)};
+    if (!moved && !lit && parts.drawn && parts.drawn->is(what))
+        return parts.picture;
+    if (!parts.drawn || parts.drawn->size != what.size) {
+        parts.canvas.reset();
+        parts.canvas.emplace(*device_, size);
+    }
+    parts.drawn.reset();
+    parts.record(scene, what);
+    parts.commands.run();
+    parts.take_picture(size);
+    parts.drawn = std::move(what);
+    return parts.picture;
+}
+
+Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
+                     const Image& irradiance, const View& view, int width, PreviewShows shows)
+{
+    return Preview(device, scene, atlas).draw(scene, irradiance, view, width, shows);
 }
 
 }  // namespace lumel

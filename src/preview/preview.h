@@ -1,6 +1,8 @@
 #pragma once
 // A picture of the lit scene, drawn on the device that solved it.
 
+#include <memory>
+
 #include "atlas/atlas.h"
 #include "core/image.h"
 #include "gpu/device.h"
@@ -24,10 +26,32 @@ PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::
 /// Pixels of a picture of that width, narrower where the device cannot draw that.
 glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
 
-/// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide
-/// (narrower where the device cannot draw that).
-/// The lightmap is sampled bilinearly, material textures with mipmaps. `irradiance`: the
-/// finished map [lx], RGBA. One pixel is the mean of 2 × 2. What `shows` says may be shown instead.
+/// Pictures of one scene, one after another. What stays is kept on the device: pipelines, textures,
+/// meshes, and of the map what has not changed. The device must outlive it.
+class Preview {
+public:
+    Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas);
+    ~Preview();
+
+    /// Shows other surfaces of the same scene from now on.
+    void show(const Scene& scene, const Atlas& atlas);
+
+    /// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide
+    /// (narrower where the device cannot draw that). The lightmap is sampled bilinearly, material
+    /// textures with mipmaps. `map`: finished [lx], RGBA. One pixel is the mean of 2 × 2. What
+    /// `shows` says may be shown instead. `scene`: as before, but for places of instances, which
+    /// keep their shape, and for colours and emission of materials. Good until the next call.
+    const Image& draw(const Scene& scene, const Image& map, const View& view, int width,
+                      PreviewShows shows = PreviewShows::light);
+
+private:
+    struct Parts;
+
+    const gpu::Device* device_;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// One such picture alone.
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
                      const Image& irradiance, const View& view, int width,
                      PreviewShows shows = PreviewShows::light);

@@ -7,6 +7,10 @@ LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
 LUMEL_CONST uint kBackIsAlike = 1u;    ///< they show the light of the front
 LUMEL_CONST uint kBackIsAnother = 2u;  ///< a face of its own shows it
 
+/// A pixel of a picture is the mean of so many times so many.
+LUMEL_CONST uint kSupersample = 2u;
+LUMEL_CONST uint kShrinkGroup = 64u;
+
 LUMEL_CONST uint kShowsLight = 0u;  ///< what surfaces send, L = ρ H / π + L_e
 LUMEL_CONST uint kShowsMap = 1u;    ///< the map as it is
 
@@ -18,6 +22,11 @@ struct PreviewParams {
     float cutoff;     ///< transparent below; < 0: opaque
     uint back;        ///< kBackIsBlack, kBackIsAlike or kBackIsAnother
     uint shows;       ///< kShowsLight or kShowsMap
+};
+
+/// Push constants of preview.shrink.comp.
+struct ShrinkParams {
+    uint width, height;  ///< of the picture [pixels]
 };
 
 LUMEL_SHARED_END

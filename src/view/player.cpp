@@ -38,6 +38,8 @@ ViewMode mode_of(const std::string& word)
         return ViewMode::lit;
     if (word == "irradiance")
         return ViewMode::irradiance;
+    if (word == "error")
+        return ViewMode::error;
     return word == "lumels" ? ViewMode::lumels : ViewMode::links;
 }
 

@@ -168,16 +168,18 @@ constexpr std::array kForms = {
                 .most = 1,
                 .low = -kStops,
                 .high = kStops},
-    CommandForm{.verb = Verb::mode,
-                .word = "mode",
-                .arguments = "lit | irradiance | lumels | links",
-                .meaning = "show light, irradiance in false colours with a legend, lumels as "
-                           "fields of their charts, or what lights the lumel that is picked",
-                .takes = Word::mode},
+    CommandForm{
+        .verb = Verb::mode,
+        .word = "mode",
+        .arguments = "lit | irradiance | lumels | links | error",
+        .meaning =
+            "show light, irradiance in false colours with a legend, lumels as "
+            "fields of their charts, what lights the lumel that is picked, or what is not settled",
+        .takes = Word::mode},
     CommandForm{.verb = Verb::scale,
                 .word = "scale",
                 .arguments = "LOW,HIGH | auto",
-                .meaning = "ends of the legend [lx]",
+                .meaning = "ends of the legend [lx], or [%] in mode error",
                 .takes = Word::automatic,
                 .least = 2,
                 .most = 2,
@@ -295,7 +297,8 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     case Word::automatic:
         return word == "auto";
     case Word::mode:
-        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links";
+        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
+               word == "error";
     case Word::png:
         return is_file_name(word, ".png");
     case Word::json:

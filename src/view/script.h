@@ -45,7 +45,7 @@ enum class Word {
     name,             ///< of something in the scene
     name_or_numbers,  ///< one of the two
     automatic,        ///< "auto", or the numbers
-    mode,             ///< "lit", "irradiance", "lumels" or "links"
+    mode,             ///< "lit", "irradiance", "lumels", "links" or "error"
     png,              ///< name of a file
     json,
     folder,  ///< its name

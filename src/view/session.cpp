@@ -1,7 +1,6 @@
 #include "view/session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +12,8 @@
 #include "live/still_part.h"
 #include "preview/view.h"
 #include "scene/clear_sky.h"
+#include "view/clock.h"
+#include "view/view.h"
 
 namespace lumel {
 namespace {
@@ -64,20 +65,6 @@ std::optional<std::uint32_t> find_sun(const Scene& scene, const LightOptions& op
     return std::nullopt;
 }
 
-View first_view(const Scene& scene, int camera)
-{
-    if (camera >= 0)
-        return view_of(scene.cameras.at(std::size_t(camera)));
-    return scene.cameras.empty() ? choose_view(scene, RayScene(scene))
-                                 : view_of(scene.cameras.front());
-}
-
-double ms_since(std::chrono::steady_clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
-}
-
 /// Around what a thing is made of, where the scene has it now.
 std::pair<glm::vec3, glm::vec3> bounds_of(const Scene& scene, const ViewThing& thing)
 {
@@ -111,6 +98,14 @@ ViewSession::ViewSession(const gpu::Device& device, Scene scene, Animation anima
     for (const Instance& instance : shown_.instances)
         given_.push_back(instance.transform);
     set_time(0.0);
+}
+
+void FrameCosts::add(double ms)
+{
+    ++frames;
+    last_ms = ms;
+    most_ms = std::max(most_ms, ms);
+    all_ms += ms;
 }
 
 void ViewSession::take_camera(int index)
@@ -281,6 +276,8 @@ void ViewSession::remove()
     };
     drawn_.surfaces.erase(std::remove_if(drawn_.surfaces.begin(), drawn_.surfaces.end(), is_gone),
                           drawn_.surfaces.end());
+    if (preview_)
+        preview_->show(shown_, drawn_);
     picked_.reset();
     probe_.reset();
 }
@@ -416,17 +413,15 @@ void ViewSession::set_time(double seconds)
 
 const LiveLinksState& ViewSession::frame()
 {
-    const auto start = std::chrono::steady_clock::now();
+    const Clock::time_point start = Clock::now();
     const LiveLinksState before = live_.state();
     live_.advance(options_.budget_ms);
     const LiveLinksState& state = live_.state();
-    costs_.last_ms = ms_since(start);
-    costs_.most_ms = std::max(costs_.most_ms, costs_.last_ms);
-    costs_.all_ms += costs_.last_ms;
-    ++costs_.frames;
+    costs_.add(ms_since(start));
     if (before.at_rest && state.at_rest && before.all_sweeps == state.all_sweeps)
         return state;
     irradiance_.clear();
+    unsettled_.clear();
     map_.reset();
     return state;
 }

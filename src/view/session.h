@@ -38,8 +38,9 @@ enum class ViewMode {
     irradiance,  ///< in false colours
     lumels,      ///< a colour for each chart, lumels as a board
     links,       ///< what sends light to a lumel, as lines in space
+    error,       ///< what is not settled of it, in false colours
 };
-inline constexpr int kViewModes = 4;
+inline constexpr int kViewModes = 5;
 
 /// What lies under a pixel.
 struct Picked {
@@ -66,10 +67,12 @@ struct ViewLink {
     glm::vec3 light{0.0f};  ///< that it brings, emission included [lx]
 };
 
-/// What frames took.
+/// What frames, or pictures, took by the clock.
 struct FrameCosts {
     int frames = 0;
     double last_ms = 0.0, most_ms = 0.0, all_ms = 0.0;
+
+    void add(double ms);
 };
 
 /// The scene is laid out once; whatever is changed afterwards is followed by LiveLinks, a frame's
@@ -129,7 +132,8 @@ public:
     void set_automatic_exposure(bool automatic);
     void step_exposure(float stops) { stops_ += stops; }
     void set_mode(ViewMode mode) { mode_ = mode; }
-    void set_scale(const std::optional<LuxScale>& scale) { scale_ = scale; }  ///< none: automatic
+    /// Of the false colours of this mode; none: automatic.
+    void set_scale(const std::optional<LuxScale>& scale);
 
     /// Pictures are so large, and their shape is that of the view.
     void set_size(const glm::ivec2& pixels);
@@ -139,22 +143,27 @@ public:
     /// Follows what has changed, for the budget of a frame.
     const LiveLinksState& frame();
 
-    /// What is to be seen, display-referred.
-    Image picture();
+    enum class Legend { none, beside };
+    /// What is to be seen, display-referred; false colours with a legend at their right, or none.
+    Image picture(Legend legend = Legend::beside);
     glm::ivec2 size() const;  ///< of pictures, without a legend [pixels]
     /// Luminance that the picture has at a pixel [cd/m²], whatever the mode.
     double luminance_at(const glm::ivec2& pixel);
     /// Illuminance of the surface at a pixel [lx], as false colours have it; none where nothing is.
     std::optional<double> lux_at(const glm::ivec2& pixel);
-    float exposure();                            ///< factor from cd/m² to brightness
-    LuxScale scale();                            ///< of false colours
+    float exposure();        ///< factor from cd/m² to brightness
+    LuxScale scale();        ///< of the mode irradiance
+    LuxScale error_scale();  ///< of the mode error [%]
+    /// [N] What is not settled of it, as it is shown [%]; see LiveLinks::unsettled().
+    const std::vector<float>& unsettled();
     const std::vector<glm::vec3>& irradiance();  ///< [N] [lx] as it is shown
 
     const LiveLinks& light() const { return live_; }
     const Scene& scene() const { return shown_; }
     const std::vector<ViewThing>& things() const { return things_; }
     const std::vector<ViewLamp>& lamps() const { return lamps_; }
-    const FrameCosts& costs() const { return costs_; }
+    const FrameCosts& costs() const { return costs_; }  ///< of light
+    const FrameCosts& picture_costs() const { return picture_costs_; }
     ViewMode mode() const { return mode_; }
     bool has_automatic_exposure() const { return !exposure_; }
     float stops() const { return stops_; }
@@ -172,6 +181,8 @@ private:
     const RayScene& rays();
     std::optional<Picked> seen_at(const glm::vec2& place);
     glm::vec3 emission_of(const Lumel& lumel) const;
+    Image make_picture(Legend legend);
+    Image coloured(const Image& map, const LuxScale& scale, const char* unit, Legend legend);
     Image lit_picture();
     Image links_picture();
     void draw_link(Image& picture, const glm::vec3& from, const ViewLink& link, float heat);
@@ -180,7 +191,8 @@ private:
     void place_sky();
     void apply(const ViewLamp& lamp);
     const Image& map();
-    Image render(const Image& map, PreviewShows shows) const;
+    Image error_map();
+    const Image& render(const Image& map, PreviewShows shows);
     void check_inside(const glm::ivec2& pixel) const;
 
     const gpu::Device* device_;
@@ -203,14 +215,16 @@ private:
     std::optional<float> exposure_;
     float stops_ = 0.0f;
     ViewMode mode_ = ViewMode::lit;
-    std::optional<LuxScale> scale_;
+    std::optional<LuxScale> scale_, error_scale_;
     std::optional<SunPosition> sun_;
     glm::vec3 sky_{1.0f};  ///< factor by hand
     double sky_angle_ = 0.0, time_ = 0.0;
-    FrameCosts costs_;
+    FrameCosts costs_, picture_costs_;
     // Made when they are asked for.
     std::optional<RayScene> rays_;
+    std::optional<Preview> preview_;  ///< of drawn_
     std::vector<glm::vec3> irradiance_;
+    std::vector<float> unsettled_;
     std::optional<Image> map_;
 };
 

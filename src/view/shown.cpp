@@ -7,6 +7,7 @@
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
+#include "view/clock.h"
 #include "view/session.h"
 
 namespace lumel {
@@ -14,6 +15,7 @@ namespace {
 
 /// Lumels of a chart are lighter and darker fields of its colour.
 constexpr float kDarkField = 0.7f;
+constexpr float kPercent = 100.0f;
 constexpr float kGoldenTurn = 0.618034f;  ///< of the circle of hues, from chart to chart
 
 /// A colour of its own for each number, as bright as the others.
@@ -81,9 +83,11 @@ glm::ivec2 ViewSession::size() const
     return preview_size(*device_, camera_.view(), options_.width);
 }
 
-Image ViewSession::render(const Image& map, PreviewShows shows) const
+const Image& ViewSession::render(const Image& map, PreviewShows shows)
 {
-    return render_preview(*device_, shown_, drawn_, map, camera_.view(), options_.width, shows);
+    if (!preview_)
+        preview_.emplace(*device_, shown_, drawn_);
+    return preview_->draw(shown_, map, camera_.view(), options_.width, shows);
 }
 
 float ViewSession::exposure()
@@ -103,6 +107,34 @@ LuxScale ViewSession::scale()
     return scale_for(lux);
 }
 
+const std::vector<float>& ViewSession::unsettled()
+{
+    if (unsettled_.empty())
+        for (const float part : live_.unsettled())
+            unsettled_.push_back(kPercent * part);
+    return unsettled_;
+}
+
+/// Of surfaces whose sides share their texels it shows the side that light shows.
+Image ViewSession::error_map()
+{
+    std::vector<glm::vec3> layer;
+    for (const float percent : unsettled())
+        layer.emplace_back(percent);
+    return finish_maps(shown_, live_.atlas(), live_.lumels(), irradiance(), {&layer, 1})
+        .layers.front();
+}
+
+LuxScale ViewSession::error_scale()
+{
+    return error_scale_ ? *error_scale_ : scale_for(unsettled());
+}
+
+void ViewSession::set_scale(const std::optional<LuxScale>& scale)
+{
+    (mode_ == ViewMode::error ? error_scale_ : scale_) = scale;
+}
+
 void ViewSession::set_automatic_exposure(bool automatic)
 {
     if (automatic)
@@ -113,17 +145,35 @@ void ViewSession::set_automatic_exposure(bool automatic)
 
 Image ViewSession::lit_picture()
 {
-    const Image light = render(map(), PreviewShows::light);
+    const Image& light = render(map(), PreviewShows::light);
     const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
     return tone_map(light, of_light * std::exp2(stops_));
 }
 
-Image ViewSession::picture()
+Image ViewSession::picture(Legend legend)
+{
+    const Clock::time_point start = Clock::now();
+    Image picture = make_picture(legend);
+    picture_costs_.add(ms_since(start));
+    return picture;
+}
+
+/// A map in false colours; unit: as its legend writes it.
+Image ViewSession::coloured(const Image& map, const LuxScale& scale, const char* unit,
+                            Legend legend)
+{
+    const Image values = luminances(render(map, PreviewShows::map));
+    return legend == Legend::none ? colours_of(values, scale) : false_colour(values, scale, unit);
+}
+
+Image ViewSession::make_picture(Legend legend)
 {
     if (mode_ == ViewMode::links)
         return links_picture();
     if (mode_ == ViewMode::irradiance)
-        return false_colour(luminances(render(map(), PreviewShows::map)), scale());
+        return coloured(map(), scale(), "lx", legend);
+    if (mode_ == ViewMode::error)
+        return coloured(error_map(), error_scale(), "%", legend);
     if (mode_ == ViewMode::lumels)
         return render(board(live_.lumels()), PreviewShows::texels);
     return lit_picture();
@@ -132,7 +182,7 @@ Image ViewSession::picture()
 double ViewSession::luminance_at(const glm::ivec2& pixel)
 {
     check_inside(pixel);
-    const Image light = render(map(), PreviewShows::light);
+    const Image& light = render(map(), PreviewShows::light);
     const float* const at = light.at(pixel.x, pixel.y);
     return luminance({at[0], at[1], at[2]});
 }

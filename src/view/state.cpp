@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <glm/trigonometric.hpp>
 
@@ -11,7 +12,7 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links"};
+constexpr const char* kModes[] = {"lit", "irradiance", "lumels", "links", "error"};
 
 Json numbers(const glm::vec3& v)
 {
@@ -35,13 +36,22 @@ Json light_of(const ViewSession& session)
             {"lumels", session.light().lumels().lumels.size()}};
 }
 
-Json costs_of(const ViewSession& session)
+Json costs_of(const FrameCosts& costs)
 {
-    const FrameCosts& costs = session.costs();
     return {{"count", costs.frames},
             {"last_ms", costs.last_ms},
             {"most_ms", costs.most_ms},
             {"mean_ms", costs.all_ms / double(std::max(costs.frames, 1))}};
+}
+
+/// What is not settled, as a mean over lumels.
+Json error_of(ViewSession& session)
+{
+    const std::vector<float>& percent = session.unsettled();
+    const double sum = std::accumulate(percent.begin(), percent.end(), 0.0);
+    const LuxScale scale = session.error_scale();
+    return {{"mean_percent", sum / double(percent.size())},
+            {"scale_percent", Json::array({scale.low, scale.high})}};
 }
 
 Json lumel_of(ViewSession& session, std::uint32_t number)
@@ -55,7 +65,8 @@ Json lumel_of(ViewSession& session, std::uint32_t number)
             {"chart", lumel.chart},
             {"back", (lumel.flags & kLumelBack) != 0},
             {"irradiance", numbers(light)},
-            {"illuminance_lx", luminance(light)}};
+            {"illuminance_lx", luminance(light)},
+            {"error_percent", session.unsettled()[number]}};
 }
 
 Json picked_of(ViewSession& session)
@@ -124,7 +135,8 @@ Json state_of(ViewSession& session)
     const glm::ivec2 size = session.size();
     Json json;
     json["light"] = light_of(session);
-    json["frames"] = costs_of(session);
+    json["frames"] = costs_of(session.costs());
+    json["pictures"] = costs_of(session.picture_costs());
     json["picture"] = {{"width", size.x}, {"height", size.y}};
     json["camera"] = {{"eye", numbers(camera.eye())},
                       {"forward", numbers(camera.forward())},
@@ -134,6 +146,7 @@ Json state_of(ViewSession& session)
                         {"stops", session.stops()},
                         {"factor", session.exposure()}};
     json["scale_lx"] = Json::array({scale.low, scale.high});
+    json["error"] = error_of(session);
     json["pixel"] = pixel_of(session);
     json["picked"] = picked_of(session);
     json["links"] = links_of(session);

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/log.h"
 #include "output/folder.h"
+#include "preview/view.h"
 #include "view/player.h"
 #include "json/json_file.h"
 
@@ -36,6 +37,14 @@ Scene scene_to_view(const std::string& path, const Animation& animation,
     if (!animation.nodes.empty())
         pose(scene, animation, 0.0);
     return scene;
+}
+
+View first_view(const Scene& scene, int camera)
+{
+    if (camera >= 0)
+        return view_of(scene.cameras.at(std::size_t(camera)));
+    return scene.cameras.empty() ? choose_view(scene, RayScene(scene))
+                                 : view_of(scene.cameras.front());
 }
 
 void throw_stopped_script()

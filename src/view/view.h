@@ -35,6 +35,9 @@ ViewSummary summary_of(const std::string& scene, ViewSession& session,
 /// The Error{stopped} of a script that did not come to its end.
 [[noreturn]] void throw_stopped_script();
 
+/// Of the camera of that index; of the first, or one that is chosen, for -1.
+View first_view(const Scene& scene, int camera);
+
 /// The scene with the lights of the options, as its animation begins.
 Scene scene_to_view(const std::string& path, const Animation& animation,
                     const SessionOptions& options);

@@ -34,7 +34,7 @@ constexpr std::array kHelp = {
     KeyHelp{"R T", "turn what is picked"},
     KeyHelp{"Delete", "take it out of the scene"},
     KeyHelp{"Esc", "pick nothing"},
-    KeyHelp{"M", "next mode: light, lux, lumels, links"},
+    KeyHelp{"M", "next mode: light, lux, lumels, links, error"},
     KeyHelp{"+ -", "expose more, less"},
     KeyHelp{"X", "automatic exposure on, off"},
     KeyHelp{"Space", "play or stop the animation"},

@@ -165,7 +165,7 @@ bool show_picked(ViewSession& session)
 bool show_mode(ViewSession& session, Desk& desk)
 {
     int mode = int(session.mode());
-    bool changed = ImGui::Combo("mode", &mode, "light\0lux\0lumels, charts\0links\0");
+    bool changed = ImGui::Combo("mode", &mode, "light\0lux\0lumels, charts\0links\0error\0");
     session.set_mode(ViewMode(mode));
     bool automatic = session.has_automatic_exposure();
     if (ImGui::Checkbox("automatic exposure", &automatic)) {
@@ -182,6 +182,43 @@ bool show_mode(ViewSession& session, Desk& desk)
     }
     changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
     return changed;
+}
+
+/// The colours of a mode and what they stand for.
+void show_scale(const LuxScale& scale, const char* unit)
+{
+    constexpr int kSteps = 64;
+    constexpr float kTall = 160.0f, kWide = 20.0f, kTick = 5.0f;  // [pixels]
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float line = ImGui::GetTextLineHeight(), bottom = at.y + kTall + 1.5f * line;
+    list.AddText(at, ImGui::GetColorU32(ImGuiCol_Text), unit);
+    for (int step = 0; step < kSteps; ++step) {
+        const glm::vec3 colour = scale_color((double(step) + 0.5) / kSteps);
+        const float low = bottom - kTall * float(step) / kSteps, high = low - kTall / kSteps;
+        list.AddRectFilled({at.x, high}, {at.x + kWide, low},
+                           ImGui::GetColorU32({colour.r, colour.g, colour.b, 1.0f}));
+    }
+    float last = bottom + line;
+    for (const double value : scale.ticks()) {
+        const float y = bottom - kTall * float(scale.place_of(value));
+        list.AddLine({at.x + kWide, y}, {at.x + kWide + kTick, y},
+                     ImGui::GetColorU32(ImGuiCol_Text));
+        if (last - y < line)  // no room beside the number below
+            continue;
+        last = y;
+        list.AddText({at.x + kWide + 2.0f * kTick, y - 0.5f * line},
+                     ImGui::GetColorU32(ImGuiCol_Text), tick_text(value).c_str());
+    }
+    ImGui::Dummy({4.0f * kWide, bottom + 0.5f * line - at.y});
+}
+
+void show_scale_of_mode(ViewSession& session)
+{
+    if (session.mode() == ViewMode::irradiance)
+        show_scale(session.scale(), "lx");
+    else if (session.mode() == ViewMode::error)
+        show_scale(session.error_scale(), "%");
 }
 
 void show_light(ViewSession& session, Desk& desk)
@@ -222,6 +259,7 @@ void show_all(ViewSession& session, Desk& desk)
 {
     if (open("Picture"))
         desk.changed |= show_mode(session, desk);
+    show_scale_of_mode(session);
     if (open("Picked"))
         desk.changed |= show_picked(session);
     if (open("Light"))
@@ -253,6 +291,18 @@ void show_panel(ViewSession& session, Desk& desk)
         desk.message = error.what();
     }
     ImGui::PopItemWidth();
+    ImGui::End();
+}
+
+void show_legend(ViewSession& session)
+{
+    if (session.mode() != ViewMode::irradiance && session.mode() != ViewMode::error)
+        return;
+    ImGui::SetNextWindowPos({0.0f, 0.0f}, ImGuiCond_FirstUseEver);
+    ImGui::Begin("scale", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoFocusOnAppearing);
+    show_scale_of_mode(session);
     ImGui::End();
 }
 

@@ -9,6 +9,9 @@ namespace lumel {
 /// Draws it, and does what it is asked for.
 void show_panel(ViewSession& session, Desk& desk);
 
+/// The legend of false colours in a box that can be moved, for windows without a panel.
+void show_legend(ViewSession& session);
+
 /// The box of keys, over the picture.
 void show_help(Desk& desk);
 

@@ -23,6 +23,7 @@
 #include "output/folder.h"
 #include "preview/view.h"
 #include "scene/animation.h"
+#include "view/clock.h"
 #include "view/player.h"
 #include "view/save.h"
 #include "window/controls.h"
@@ -32,19 +33,12 @@
 namespace lumel {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kIdle = 0.05;  ///< between looks at mouse and keys while nothing changes [s]
 constexpr double kBetweenNews = 200.0;  ///< of a bake that is saved [ms]
 constexpr double kLongest = 0.1;        ///< frame that keys and films are moved on for [s]
 constexpr float kStrides = 5.0f;        ///< in which the scene is walked through
 constexpr int kFirstCoarse = 4;         ///< side of a pixel of what is shown before there is light
 constexpr ImU32 kFrame = IM_COL32(0, 230, 255, 255);
-
-double ms_since(Clock::time_point start)
-{
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 std::string title_of(const ScriptRun& run)
 {
@@ -98,14 +92,6 @@ private:
     int shots_ = 0;
     Clock::time_point last_ = Clock::now();
 };
-
-View first_view(const Scene& scene, int camera)
-{
-    if (camera >= 0)
-        return view_of(scene.cameras[std::size_t(camera)]);
-    return scene.cameras.empty() ? choose_view(scene, RayScene(scene))
-                                 : view_of(scene.cameras.front());
-}
 
 glm::ivec2 first_size(const View& view, int width)
 {
@@ -229,12 +215,11 @@ void ViewWindow::make_picture()
         return;
     const Clock::time_point start = Clock::now();
     session_->set_size(desk_.pixels());
-    screen_.take(session_->picture());
+    screen_.take(session_->picture(ViewSession::Legend::none));
     desk_.picture_ms = ms_since(start);
     desk_.changed = false;
 }
 
-/// The legend of false colours, which a picture has at its right, lies over what is there.
 void ViewWindow::show_picture() const
 {
     const glm::vec2 texture(screen_.texture_size());
@@ -248,10 +233,6 @@ void ViewWindow::show_picture() const
     const glm::vec2 all = coarse * texture;
     list.PushClipRect({0.0f, 0.0f}, {area.x, area.y});
     list.AddImage(screen_.texture(), {0.0f, 0.0f}, {all.x, all.y});
-    const float legend = texture.x - float(desk_.pixels().x);
-    if (legend > 0.0f)
-        list.AddImage(screen_.texture(), {area.x - coarse * legend, 0.0f}, {area.x, all.y},
-                      {1.0f - legend / texture.x, 0.0f}, {1.0f, 1.0f});
     list.PopClipRect();
 }
 
@@ -295,6 +276,8 @@ Image ViewWindow::draw(double wait, bool read)
         controls_.act(*session_, desk_, screen_);
         if (desk_.area.x < screen_.size().x)
             show_panel(*session_, desk_);
+        else
+            show_legend(*session_);
         show_help(desk_);
     }
     show_line(desk_.message, desk_);

@@ -235,6 +235,29 @@ TEST(View, FalseColoursAreThoseOfTheLegendAtTheirIlluminance)
     }
 }
 
+TEST(View, WhatIsNotSettledIsShownInPerCent)
+{
+    const auto play = [](const std::string& rays) {
+        return Played(own_scene("cornell-box.gltf"),
+                      "mode error\nstate first.json\nwait\nstate rest.json\n"
+                      "pick 60,110\nscale 0.5,50\npicture error.png\nstate floor.json\n",
+                      {"--links", rays});
+    };
+    const Played few = play("16"), many = play("256");
+    const auto mean = [](const Played& played, const std::string& name) {
+        return played.state(name)["error"]["mean_percent"].get<double>();
+    };
+    EXPECT_EQ(few.state("floor.json")["mode"], "error");
+    EXPECT_GT(mean(few, "first.json"), 80.0);
+    // Noise falls by the root of the rays at least: by four.
+    EXPECT_GT(mean(few, "rest.json"), 3.0 * mean(many, "rest.json"));
+    EXPECT_GT(mean(many, "rest.json"), 0.05);
+    // Lighter colours stand for more.
+    EXPECT_GT(few.picture("error.png").at(60, 110)[1], many.picture("error.png").at(60, 110)[1]);
+    EXPECT_EQ(few.state("floor.json")["error"]["scale_percent"], Json::array({0.5, 50.0}));
+    EXPECT_GT(few.picture("error.png").width, few.state("floor.json")["picture"]["width"]);
+}
+
 TEST(View, AStopMoreIsTwiceAsBright)
 {
     const Played played(own_scene("cornell-box.gltf"),
@@ -320,6 +343,27 @@ TEST(View, TheAnimationIsWhereTimeHasIt)
     };
     EXPECT_LT(difference(picture, frame(4)).mean, 0.2);
     EXPECT_GT(difference(picture, frame(1)).mean, 2.0);
+}
+
+TEST(View, APictureAfterOthersIsTheOneThatAFreshSessionMakes)
+{
+    // What is kept between pictures, and what is not: places, colours, map, camera and mode.
+    const std::string edits = "pick \"short block\"\nmove 0.1,0.05,0\nturn 25\npaint 0,0.5,1\n"
+                              "pick \"tall block\"\ndelete\neye 0.3,0.3,-0.7\n",
+                      last = "picture lit.png\nmode irradiance\npicture lux.png\n"
+                             "mode lumels\npicture lumels.png\n";
+    const Played fresh(own_scene("cornell-box.gltf"), "exposure 2\nwait\n" + edits + last);
+    std::string long_way = "exposure 2\nwait\npicture a.png\npicture b.png\nmode lumels\n"
+                           "picture c.png\nmode lit\n";
+    int number = 0;
+    std::istringstream lines(edits);
+    for (std::string line; std::getline(lines, line);)
+        long_way += fmt::format("{}\npicture {}.png\n", line, number++);
+    const Played kept(own_scene("cornell-box.gltf"), long_way + last);
+    EXPECT_EQ(kept.picture("a.png").rgb, kept.picture("b.png").rgb);
+    EXPECT_GT(difference(kept.picture("a.png"), kept.picture("lit.png")).mean, 3.0);
+    for (const char* name : {"lit.png", "lux.png", "lumels.png"})
+        EXPECT_EQ(kept.picture(name).rgb, fresh.picture(name).rgb) << name;
 }
 
 TEST(View, PaintAndLumelsAreShown)

@@ -303,6 +303,37 @@ TEST_F(ViewWindow, AScriptMayCloseItAndWriteWhatItShows)
     EXPECT_GT(panel.most(), 200);
 }
 
+TEST_F(ViewWindow, TheLegendOfFalseColoursHidesNothing)
+{
+    Window window(display(), "walk 0.9\nwait\nstate s.json\nmode irradiance\npicture a.png\n"
+                             "window w.png\nmode lit\nwindow lit.png\nquit\n");
+    window.end();
+    const auto read = [&](const std::string& name) {
+        return read_picture(window.place.path("out/" + name));
+    };
+    const Picture picture = read("a.png"), all = read("w.png"), lit = read("lit.png");
+    const int width =
+        Json::parse(bytes_of(window.place.path("out/s.json")))["picture"]["width"].get<int>();
+    ASSERT_LT(width, picture.width);
+    int wrong = 0;
+    for (int y = 0; y < all.height; ++y)
+        for (int x = 0; x < width; ++x)
+            wrong += all.at(x, y) != picture.at(x, y);
+    EXPECT_EQ(wrong, 0);
+    // It is in the panel: yellow, which nothing else there is.
+    const auto yellow = [&](const Picture& seen) {
+        int count = 0;
+        for (int y = 0; y < seen.height; ++y)
+            for (int x = width; x < seen.width; ++x) {
+                const Colour colour = seen.at(x, y);
+                count += colour[0] > 150 && colour[1] > 200 && colour[2] < 80;
+            }
+        return count;
+    };
+    EXPECT_GT(yellow(all), 100);
+    EXPECT_EQ(yellow(lit), 0);
+}
+
 TEST_F(ViewWindow, ALineThatIsWrongEndsItInOneSentence)
 {
     const Workplace place;

@@ -218,6 +218,14 @@ TEST(Memory, LargerThanTheLargestHeapIsRefusedBeforeTheDriverIsAsked)
     EXPECT_EQ(device.validation_messages(), "");
 }
 
+TEST(Array, PartsAreWrittenAlone)
+{
+    const Device device;
+    Array<std::uint32_t> array(device, std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5});
+    array.upload_part(2, std::vector<std::uint32_t>{12, 13});
+    EXPECT_EQ(array.download(), (std::vector<std::uint32_t>{0, 1, 12, 13, 4, 5}));
+}
+
 TEST(Commands, RunInTheOrderRecorded)
 {
     const Device device;
@@ -315,6 +323,21 @@ TEST(Target, ComesBackAsItWent)
     target.download(back.data());
     EXPECT_EQ(back, pixels);
     EXPECT_EQ(device.validation_messages(), "");
+}
+
+TEST(Target, RowsAreWrittenAlone)
+{
+    const Device device;
+    constexpr std::uint32_t kWidth = 3, kHeight = 5, kRow = 4 * kWidth;
+    Target target(device, Pixel::rgba32, kWidth, kHeight);
+    std::vector<float> pixels(kRow * kHeight, 1.0f);
+    target.upload(pixels.data());
+    const std::vector<float> rows(kRow * 2, 7.0f);
+    target.upload_rows(rows.data(), 2, 2);
+    std::vector<float> back(pixels.size());
+    target.download(back.data());
+    std::copy(rows.begin(), rows.end(), pixels.begin() + 2 * kRow);
+    EXPECT_EQ(back, pixels);
 }
 
 TEST(Target, OfManyPartsComesBackAsItWent)

@@ -81,6 +81,59 @@ TEST(ShownFilter, HasLessNoiseThanTheSolution)
     }
 }
 
+/// Means over lumels that are lit, each by its own light.
+struct RelativeError {
+    double told = 0.0, true_one = 0.0;
+};
+
+RelativeError relative_error(const LiveLinks& live, const Lights& right)
+{
+    const std::vector<float> told = live.unsettled();
+    const Lights shown = live.shown();
+    RelativeError mean;
+    double count = 0.0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const double light = double(right[i].r + right[i].g + right[i].b) / 3.0;
+        if ((live.lumels().lumels[i].flags & kLumelBuried) || !(light > 0.0))
+            continue;
+        const glm::dvec3 off(shown[i] - right[i]);
+        mean.told += double(told[i]);
+        mean.true_one += std::sqrt(glm::dot(off, off) / 3.0) / light;
+        count += 1.0;
+    }
+    return {mean.told / count, mean.true_one / count};
+}
+
+TEST(ShownFilter, KnowsHowFarWhatIsShownIsFromTheTruth)
+{
+    const Lights right = truth(kNowhere);
+    double coarse = 0.0;
+    for (const std::uint32_t rays : {16u, 64u}) {
+        LiveLinks live = live_box(rays, 1);
+        for (const float part : live.unsettled())
+            ASSERT_TRUE(part == 1.0f || part == 0.0f);  // buried ones
+        live.settle();
+        const RelativeError error = relative_error(live, right);
+        RecordProperty("told_" + std::to_string(rays), std::to_string(error.told));
+        RecordProperty("true_" + std::to_string(rays), std::to_string(error.true_one));
+        EXPECT_GT(error.told, 0.5 * error.true_one) << rays;
+        EXPECT_LT(error.told, 2.0 * error.true_one) << rays;
+        // Four times the rays halve the noise at least: they are spread evenly.
+        if (coarse > 0.0) {
+            EXPECT_LT(error.told, 0.6 * coarse);
+        }
+        coarse = error.told;
+        // What is dimmed has the same part of noise, and light to come until it has followed.
+        for (const char* const lamp : {"light", "lamp"})
+            live.set_lamp(lamp, glm::vec3(0.25f));
+        live.set_sky(glm::vec3(0.25f));
+        live.advance(0.0);
+        EXPECT_GT(relative_error(live, right).told, 2.0 * error.told);
+        live.settle();
+        EXPECT_NEAR(relative_error(live, right).told, error.told, 0.02 * error.told);
+    }
+}
+
 TEST(ShownFilter, WeightsOfTheLightBeforeServeTheNext)
 {
     const Lights right = truth(kElsewhere);
