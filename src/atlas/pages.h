@@ -11,12 +11,12 @@
 #include <glm/glm.hpp>
 
 #include "core/image.h"
+#include "gltf/extras.h"
 
 namespace lumel {
 
 struct Surface;
 
-inline constexpr int kMostPages = 256;
 /// What the files of a map begin with.
 inline constexpr const char* kLightmapName = "lightmap";
 

@@ -3,7 +3,6 @@
 namespace lumel {
 namespace {
 
-constexpr int kMostPages = 256;
 constexpr double kLeast = 1e-6, kMost = 1e9;  // [texels/m]
 
 /// A member that is an object. Extras may be anything.

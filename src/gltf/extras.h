@@ -5,6 +5,9 @@
 
 namespace lumel {
 
+/// Of a lightmap.
+inline constexpr int kMostPages = 256;
+
 /// extras.lumel.texels_per_metre of a node, mesh or material: the density of its lightmap; 0 if it
 /// has none. Throws Error{input} if it is not a positive number.
 float density_in_extras(const JsonView& object);

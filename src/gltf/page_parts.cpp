@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 
+#include "gltf/extras.h"
+
 namespace lumel {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr const char *kExtras = "extras", *kPart = "lumel_part", *kWhole = "of",
 /// Runs of triangles of one part: its number, how many; and so on.
 constexpr const char* kRuns = "runs";
 constexpr const char *kIndices = "indices", *kPages = "pages";
-constexpr std::int64_t kMostPages = 256, kMostTriangles = std::int64_t(1) << 31;
+constexpr std::int64_t kMostTriangles = std::int64_t(1) << 31;
 constexpr std::int64_t kTriangleMode = 4;
 
 const Json* mark_of(const Json& primitive)
