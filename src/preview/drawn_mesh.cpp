@@ -76,8 +76,8 @@ void DrawnMesh::place(const Scene& scene, const Piece& piece)
     const Instance& instance = scene.instances[piece.instance];
     const Primitive& primitive = scene.meshes[instance.mesh].primitives[piece.primitive];
     for (std::size_t v = 0; v < piece.source.size(); ++v)
-        positions_[piece.first + v] = glm::vec3(
-            instance.transform * glm::vec4(primitive.positions[piece.source[v]], 1.0f));
+        positions_[piece.first + v] =
+            glm::vec3(instance.transform * glm::vec4(primitive.positions[piece.source[v]], 1.0f));
 }
 
 std::optional<Stretch> DrawnMesh::place(const Scene& scene)
@@ -88,9 +88,9 @@ std::optional<Stretch> DrawnMesh::place(const Scene& scene)
             continue;
         place(scene, piece);
         const std::size_t last = piece.first + piece.source.size();
-        changed = changed ? Stretch{std::min(changed->first, piece.first),
-                                    std::max(changed->last, last)}
-                          : Stretch{piece.first, last};
+        changed =
+            changed ? Stretch{std::min(changed->first, piece.first), std::max(changed->last, last)}
+                    : Stretch{piece.first, last};
     }
     for (std::size_t i = 0; i < placed_.size(); ++i)
         placed_[i] = scene.instances[i].transform;

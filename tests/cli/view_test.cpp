@@ -295,6 +295,24 @@ TEST(View, AShadowMovesWithTheSun)
     EXPECT_EQ(played.state("night.json")["pixel"]["illuminance_lx"], 0.0);
 }
 
+TEST(View, AClearSkyIsThatOfItsSunWhereItStands)
+{
+    // From noon to evening it darkens, and its bright part goes round.
+    const std::string look = "lamp sun 0\neye 0,8,0.01\nlook 0,0,0\nexposure 0.0001\n",
+                      end = "wait\npick 34,33\nstate s.json\npicture a.png\n";
+    const Played evening(own_scene("four-cubes.gltf"), look + end, {"--sun", "250,10"});
+    const Played noon(own_scene("four-cubes.gltf"), look + end, {"--sun", "180,62"});
+    const Played moved(own_scene("four-cubes.gltf"), look + "wait\nsun 250,10\n" + end,
+                       {"--sun", "180,62"});
+    const auto lux = [](const Played& played) {
+        return played.state("s.json")["pixel"]["illuminance_lx"].get<double>();
+    };
+    EXPECT_NEAR(lux(moved) / lux(evening), 1.0, 1e-3);
+    EXPECT_GT(lux(noon), 1.5 * lux(evening));
+    EXPECT_LE(difference(moved.picture("a.png"), evening.picture("a.png")).most, 1);
+    EXPECT_GT(difference(noon.picture("a.png"), evening.picture("a.png")).mean, 3.0);
+}
+
 TEST(View, ATurnedSkyLightsWhatItFaces)
 {
     // The sun's sky is brightest around the sun; the wall of the cube that faces it has most.
