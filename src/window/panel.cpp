@@ -140,7 +140,9 @@ bool show_picked(ViewSession& session)
     const Material& material = scene.materials[std::size_t(picked.material)];
     wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
     if (picked.lumel != kNoLumel)
-        text(fmt::format("{:.4g} lx", luminance(session.irradiance()[picked.lumel])));
+        text(fmt::format("{:.4g} lx, {:.2g} % not settled",
+                         luminance(session.irradiance()[picked.lumel]),
+                         session.unsettled()[picked.lumel]));
     bool changed = false;
     glm::vec3 colour(material.base_color);
     if (ImGui::ColorEdit3("paint", &colour.x, ImGuiColorEditFlags_NoInputs)) {
