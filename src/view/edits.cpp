@@ -15,6 +15,8 @@ bool are_alike(const std::optional<SunPosition>& a, const std::optional<SunPosit
 
 void ViewSession::take_edits(const ViewSession& before)
 {
+    while (live_.state().all_sweeps == 0)  // or all is dark until moves are followed
+        live_.advance(0.0);
     for (std::uint32_t t = 0; t < things_.size(); ++t) {
         things_[t].by_hand = before.things_[t].by_hand;
         things_[t].deleted = before.things_[t].deleted;
