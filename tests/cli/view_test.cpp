@@ -366,8 +366,8 @@ TEST(View, TheAnimationIsWhereTimeHasIt)
 TEST(View, APictureAfterOthersIsTheOneThatAFreshSessionMakes)
 {
     // What is kept between pictures, and what is not: places, colours, map, camera and mode.
-    const std::string edits = "pick \"short block\"\nmove 0.1,0.05,0\nturn 25\npaint 0,0.5,1\n"
-                              "pick \"tall block\"\ndelete\neye 0.3,0.3,-0.7\n",
+    const std::string edits = "pick \"tall block\"\ndelete\npick \"short block\"\n"
+                              "move 0.1,0.05,0\nturn 25\npaint 0,0.5,1\neye 0.3,0.3,-0.7\n",
                       last = "picture lit.png\nmode irradiance\npicture lux.png\n"
                              "mode lumels\npicture lumels.png\n";
     const Played fresh(own_scene("cornell-box.gltf"), "exposure 2\nwait\n" + edits + last);
