@@ -33,6 +33,7 @@ GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& op
     groups_.resize(std::min(fit, senders_.size()));
     for (std::uint32_t s = 0; s < senders_.size(); ++s)
         groups_[std::min<std::size_t>(s, groups_.size() - 1)].senders.push_back(s);
+    this->place();
     const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
     for (std::size_t g = 0; g < groups_.size(); ++g)
         find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
@@ -48,12 +49,27 @@ void GroupedLight::list_senders()
         if (std::none_of(senders_.begin(), senders_.end(), is_it))
             senders_.push_back({.part = origin.part, .index = origin.index});
     }
-    place();
+}
+
+/// Of senders that were none before, such as the bright part of another sky.
+void GroupedLight::add_groups()
+{
+    const bool is_full = !groups_.empty() && groups_.back().is_shared();
+    std::size_t grouped = 0;
+    for (const Group& group : groups_)
+        grouped += group.senders.size();
+    for (std::size_t s = grouped; s < senders_.size(); ++s) {
+        if (!is_full)
+            groups_.emplace_back().light.resize(place_.lumels.lumels.size());
+        groups_.back().senders.push_back(std::uint32_t(s));
+    }
 }
 
 /// Surfaces that move may be split into other sources.
 void GroupedLight::place()
 {
+    list_senders();
+    add_groups();
     for (Sender& sender : senders_)
         sender.sources.clear();
     for (std::uint32_t s = 0; s < place_.sources.count(); ++s) {

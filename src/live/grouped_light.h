@@ -62,6 +62,7 @@ private:
     };
 
     void list_senders();
+    void add_groups();
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
     void find(Group& group, const Watch& watch = {});
     glm::vec3 light_of(const Group& group, std::size_t lumel) const;

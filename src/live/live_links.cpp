@@ -179,15 +179,29 @@ void LiveLinks::set_sky(const glm::vec3& factor)
     edited_ = true;
 }
 
-/// What others refer to stays where it is.
 void LiveLinks::turn_sky(double angle)
 {
     if (given_sky_.empty())
         throw Error(ErrorKind::input, scene().path, "has no sky");
+    place_sky(angle);
+}
+
+void LiveLinks::replace_sky(Sky sky, double angle)
+{
+    if (given_sky_.empty() || sky.empty())
+        throw Error(ErrorKind::input, scene().path, "has no sky");
+    given_sky_ = std::move(sky);
+    place_sky(angle);
+}
+
+/// What others refer to stays where it is.
+void LiveLinks::place_sky(double angle)
+{
     laid_out_.scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
     sources_.emplace(scene(), surfaces_, extent());
     links_.find_sky();
     light_.find_again(Part::sky, 0);
+    light_.set_factor(Part::sky, 0, sky_factor_);  // its bright part may be new
     edited_ = true;
 }
 

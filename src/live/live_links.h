@@ -88,6 +88,8 @@ public:
     /// The sky of the scene, turned about +y, counter-clockwise as seen from above, by an angle
     /// [rad] from how it was given. No ray is traced again but those to its bright parts.
     void turn_sky(double angle);
+    /// Another sky, turned so, stands in place of the one of the scene.
+    void replace_sky(Sky sky, double angle);
     /// A material reflects with this base colour, 0 to 1, times its texture. The first time for
     /// each material takes longer. Throws Error{input} if there is no such material.
     void set_albedo(const std::string& material, const glm::vec3& colour);
@@ -145,6 +147,7 @@ private:
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
     void put_requested();
+    void place_sky(double angle);
     bool is_under_way() const;
     void follow();
     void work();

@@ -271,15 +271,21 @@ void ViewSession::remove()
     ViewThing& thing = picked_thing();
     thing.deleted = true;
     put(*picked_->thing);
+    hide(*picked_->thing);
+    picked_.reset();
+    probe_.reset();
+}
+
+/// Pictures are without it from now on.
+void ViewSession::hide(std::uint32_t thing)
+{
     const auto is_gone = [&](const Surface& surface) {
-        return thing_of(surface.instance) == picked_->thing;
+        return thing_of(surface.instance) == thing;
     };
     drawn_.surfaces.erase(std::remove_if(drawn_.surfaces.begin(), drawn_.surfaces.end(), is_gone),
                           drawn_.surfaces.end());
     if (preview_)
         preview_->show(shown_, drawn_);
-    picked_.reset();
-    probe_.reset();
 }
 
 void ViewSession::apply(const ViewLamp& lamp)
@@ -340,14 +346,20 @@ void ViewSession::set_sky(const glm::vec3& factor)
     sky_ = factor;
 }
 
-/// A clear sky that came with the sun goes round with it.
+/// A clear sky that came with the sun is that of where it stands now.
 void ViewSession::place_sky()
 {
     const LightOptions& lights = options_.lights;
     const bool with_sun = lights.sun && lights.sky_file.empty() && !lights.sky_color &&
                           !lights.overcast && !shown_.sky.empty();
-    const double by_sun = with_sun ? lights.sun->azimuth - sun_->azimuth : 0.0;
-    live_.turn_sky(sky_angle_ + by_sun);
+    if (!with_sun)
+        return live_.turn_sky(sky_angle_);
+    Scene under;
+    LightOptions now = lights;
+    now.sun = sun_;
+    now.profiles.clear();
+    add_lights(under, now);
+    live_.replace_sky(std::move(under.sky), sky_angle_);
 }
 
 void ViewSession::turn_sky(double angle)

@@ -87,6 +87,10 @@ public:
     ViewSession(const ViewSession&) = delete;
     ViewSession& operator=(const ViewSession&) = delete;
 
+    /// Does what was done to another session of the same scene and animation, and looks as it does.
+    /// Nothing is picked.
+    void take_edits(const ViewSession& before);
+
     ViewCamera& camera() { return camera_; }
     const ViewCamera& camera() const { return camera_; }
     /// Looks through a camera of the file.
@@ -187,6 +191,8 @@ private:
     Image links_picture();
     void draw_link(Image& picture, const glm::vec3& from, const ViewLink& link, float heat);
     void put(std::uint32_t thing);
+    void hide(std::uint32_t thing);
+    void take_light(const ViewSession& before);
     glm::vec3 away();
     void place_sky();
     void apply(const ViewLamp& lamp);

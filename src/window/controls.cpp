@@ -38,6 +38,7 @@ constexpr std::array kHelp = {
     KeyHelp{"+ -", "expose more, less"},
     KeyHelp{"X", "automatic exposure on, off"},
     KeyHelp{"Space", "play or stop the animation"},
+    KeyHelp{"N", "solve the light anew, with the options of the panel"},
     KeyHelp{"P", "write picture-N.png"},
     KeyHelp{"Ctrl S", "save as a bake"},
     KeyHelp{"Tab", "panel on, off"},
@@ -84,16 +85,16 @@ constexpr std::array kGazes = {
     GazeKey{GLFW_KEY_DOWN, {0.0f, -1.0f}},
 };
 
-/// Since the last frame [s]: a key that is down, or was touched.
+/// Since the last frame [s] that a key is down; a touch counts for kKeyPress at least, however
+/// short the frame is.
 float time_of(int key, const Screen& screen, const Desk& desk)
 {
-    if (screen.holds(key))
-        return float(desk.passed);
     const std::vector<KeyPress>& pressed = screen.pressed();
     const bool touched = std::any_of(pressed.begin(), pressed.end(), [&](const KeyPress& one) {
-        return one.key == key && !one.control;
+        return one.key == key && !one.control && !one.again;
     });
-    return touched ? kKeyPress : 0.0f;
+    const float held = screen.holds(key) ? float(desk.passed) : 0.0f;
+    return touched ? std::max(kKeyPress, held) : held;
 }
 
 void press_with_control(int key, Desk& desk, Screen& screen)
@@ -154,6 +155,9 @@ void Controls::press(const KeyPress& press, ViewSession& session, Desk& desk, Sc
         return session.set_automatic_exposure(!session.has_automatic_exposure());
     case GLFW_KEY_SPACE:
         desk.playing = !desk.playing;
+        break;
+    case GLFW_KEY_N:
+        desk.solve = true;
         break;
     case GLFW_KEY_P:
         desk.shoot = true;

@@ -22,6 +22,9 @@ struct Desk {
     std::string message;                                       ///< what could not be done, or was
     std::string save_to = "saved";
     bool save = false, shoot = false;  ///< asked for: a bake, a picture
+    /// What the light is to be solved with, once that is asked for.
+    int rays = 0, atlas = 0, seed = 0;
+    bool solve = false;
 
     /// Pixels of the picture that fill the area.
     glm::ivec2 pixels() const { return glm::max(area / coarse, glm::ivec2(1)); }

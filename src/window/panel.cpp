@@ -1,6 +1,7 @@
 #include "window/panel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ namespace {
 constexpr float kBrightest = 4.0f;  ///< of a lamp's slider, times its own light
 constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;                 ///< [ms]
 constexpr float kDarkest = 1e-6f, kLightest = 1e3f;                        ///< exposure by hand
+constexpr int kAtlasStep = 64, kMostAtlas = 8192;                          ///< [texels]
 constexpr float kTurnStep = 15.0f;                                         ///< [degrees]
 constexpr float kLowestSun = -10.0f, kZenith = 90.0f, kHalfTurn = 180.0f;  ///< [degrees]
 /// Where and on which day the sun goes its way, where the options do not say.
@@ -138,7 +140,9 @@ bool show_picked(ViewSession& session)
     const Material& material = scene.materials[std::size_t(picked.material)];
     wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
     if (picked.lumel != kNoLumel)
-        text(fmt::format("{:.4g} lx", luminance(session.irradiance()[picked.lumel])));
+        text(fmt::format("{:.4g} lx, {:.2g} % not settled",
+                         luminance(session.irradiance()[picked.lumel]),
+                         session.unsettled()[picked.lumel]));
     bool changed = false;
     glm::vec3 colour(material.base_color);
     if (ImGui::ColorEdit3("paint", &colour.x, ImGuiColorEditFlags_NoInputs)) {
@@ -239,6 +243,21 @@ void show_light(ViewSession& session, Desk& desk)
     wrapped(desk.draws);
 }
 
+/// An atlas of 0 is as dense as the options say. Nothing of it happens before the button is
+/// pressed.
+void show_solver(Desk& desk)
+{
+    constexpr std::array kRays = {4, 16, 64, 256};
+    int chosen = int(std::find(kRays.begin(), kRays.end(), desk.rays) - kRays.begin());
+    if (ImGui::Combo("rays", &chosen, "4\00016\00064\000256\0"))
+        desk.rays = kRays[std::size_t(chosen)];
+    if (ImGui::InputInt("atlas", &desk.atlas, kAtlasStep))
+        desk.atlas = std::clamp(desk.atlas, 0, kMostAtlas);
+    if (ImGui::InputInt("seed", &desk.seed))
+        desk.seed = std::max(desk.seed, 0);
+    desk.solve |= ImGui::Button("solve anew");
+}
+
 void show_files(Desk& desk)
 {
     ImGui::InputText("folder", &desk.save_to);
@@ -264,6 +283,8 @@ void show_all(ViewSession& session, Desk& desk)
         desk.changed |= show_picked(session);
     if (open("Light"))
         show_light(session, desk);
+    if (ImGui::CollapsingHeader("Solver"))
+        show_solver(desk);
     if (!session.lamps().empty() && open("Lamps"))
         desk.changed |= show_lamps(session);
     if (session.has_sun() && open("Sun"))

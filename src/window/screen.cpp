@@ -44,7 +44,7 @@ void on_key(GLFWwindow* window, int key, int, int action, int with)
 {
     if (action != GLFW_RELEASE)
         static_cast<std::vector<KeyPress>*>(glfwGetWindowUserPointer(window))
-            ->push_back({key, (with & GLFW_MOD_CONTROL) != 0});
+            ->push_back({key, (with & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace lumel {
 struct KeyPress {
     int key;
     bool control;  ///< with Ctrl
+    bool again;    ///< it was down before
 };
 
 class Screen {

@@ -71,6 +71,7 @@ private:
     void act();
     void shoot();
     void save();
+    void solve_anew();
     void end_script();
     bool is_busy() const;
 
@@ -114,6 +115,9 @@ ViewWindow::ViewWindow(const ScriptRun& run, const SessionOptions& options, Stag
         output_.emplace(run.folder);
     device_.emplace(options.device);
     stages.watch(*device_);
+    desk_.rays = int(options.link_rays);
+    desk_.atlas = options.atlas.size;
+    desk_.seed = int(options.seed);
     desk_.draws = fmt::format("light and picture by {}, window by {}", device_->info().name,
                               screen_.draws_by());
 }
@@ -195,6 +199,30 @@ void ViewWindow::step()
     desk_.light_ms = session_->costs().last_ms;
     desk_.changed |= before != session_->light().state().all_sweeps ||
                      was_at_rest != session_->light().state().at_rest;
+}
+
+/// All links are traced again, with other options; what was done to the scene is kept.
+void ViewWindow::solve_anew()
+{
+    if (player_)
+        throw Error(ErrorKind::input, "", "a script is played; light can be solved anew after it");
+    const SessionOptions before = options_;
+    options_.link_rays = std::uint32_t(desk_.rays);
+    options_.atlas.size = desk_.atlas;
+    options_.seed = std::uint32_t(desk_.seed);
+    options_.budget_ms = session_->budget();
+    view_ = session_->camera().view();
+    desk_.changed = true;
+    std::unique_ptr<ViewSession> old = std::move(session_);
+    try {
+        wait_for_light();
+        session_->take_edits(*old);
+    } catch (const Error&) {
+        session_ = std::move(old);
+        options_ = before;
+        throw;
+    }
+    stages_->begin("showing");
 }
 
 void ViewWindow::end_script()
@@ -328,12 +356,15 @@ void ViewWindow::save()
 /// What was asked for by hand.
 void ViewWindow::act()
 {
-    const bool shoots = std::exchange(desk_.shoot, false), saves = std::exchange(desk_.save, false);
+    const bool shoots = std::exchange(desk_.shoot, false), saves = std::exchange(desk_.save, false),
+               solves = std::exchange(desk_.solve, false);
     try {
         if (shoots)
             shoot();
         if (saves)
             save();
+        if (solves)
+            solve_anew();
     } catch (const Error& error) {
         desk_.message = error.what();
     }

@@ -295,6 +295,24 @@ TEST(View, AShadowMovesWithTheSun)
     EXPECT_EQ(played.state("night.json")["pixel"]["illuminance_lx"], 0.0);
 }
 
+TEST(View, AClearSkyIsThatOfItsSunWhereItStands)
+{
+    // From noon to evening it darkens, and its bright part goes round.
+    const std::string look = "lamp sun 0\neye 0,8,0.01\nlook 0,0,0\nexposure 0.0001\n",
+                      end = "wait\npick 34,33\nstate s.json\npicture a.png\n";
+    const Played evening(own_scene("four-cubes.gltf"), look + end, {"--sun", "250,10"});
+    const Played noon(own_scene("four-cubes.gltf"), look + end, {"--sun", "180,62"});
+    const Played moved(own_scene("four-cubes.gltf"), look + "wait\nsun 250,10\n" + end,
+                       {"--sun", "180,62"});
+    const auto lux = [](const Played& played) {
+        return played.state("s.json")["pixel"]["illuminance_lx"].get<double>();
+    };
+    EXPECT_NEAR(lux(moved) / lux(evening), 1.0, 1e-3);
+    EXPECT_GT(lux(noon), 1.5 * lux(evening));
+    EXPECT_LE(difference(moved.picture("a.png"), evening.picture("a.png")).most, 1);
+    EXPECT_GT(difference(noon.picture("a.png"), evening.picture("a.png")).mean, 3.0);
+}
+
 TEST(View, ATurnedSkyLightsWhatItFaces)
 {
     // The sun's sky is brightest around the sun; the wall of the cube that faces it has most.
@@ -348,8 +366,8 @@ TEST(View, TheAnimationIsWhereTimeHasIt)
 TEST(View, APictureAfterOthersIsTheOneThatAFreshSessionMakes)
 {
     // What is kept between pictures, and what is not: places, colours, map, camera and mode.
-    const std::string edits = "pick \"short block\"\nmove 0.1,0.05,0\nturn 25\npaint 0,0.5,1\n"
-                              "pick \"tall block\"\ndelete\neye 0.3,0.3,-0.7\n",
+    const std::string edits = "pick \"tall block\"\ndelete\npick \"short block\"\n"
+                              "move 0.1,0.05,0\nturn 25\npaint 0,0.5,1\neye 0.3,0.3,-0.7\n",
                       last = "picture lit.png\nmode irradiance\npicture lux.png\n"
                              "mode lumels\npicture lumels.png\n";
     const Played fresh(own_scene("cornell-box.gltf"), "exposure 2\nwait\n" + edits + last);

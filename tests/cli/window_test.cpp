@@ -303,6 +303,36 @@ TEST_F(ViewWindow, AScriptMayCloseItAndWriteWhatItShows)
     EXPECT_GT(panel.most(), 200);
 }
 
+TEST_F(ViewWindow, LightThatIsSolvedAnewKeepsWhatWasDone)
+{
+    Window window(display(),
+                  "exposure 2\npick \"short block\"\nmove 0.1,0,0\nturn 20\npaint 0,0.5,1\n"
+                  "pick \"tall block\"\ndelete\nlamp light 0.5,0.4,0.3\n"
+                  "pick 60,200\nwait\nstate before.json\n");
+    ASSERT_TRUE(window.is_there());
+    display().hand("mousemove 799 599");
+    ASSERT_TRUE(window.has_written("before.json"));
+    const Json before = Json::parse(bytes_of(window.place.path("out/before.json")));
+    ASSERT_NE(before["picked"], nullptr);
+    display().hand("key p sleep 0.5");
+    ASSERT_TRUE(window.has_written("picture-1.png"));
+    const Picture one = read_picture(window.place.path("out/picture-1.png"));
+    display().hand("key n sleep 1");
+    // Moves are followed again, and then the picture is the one of before.
+    int number = 1;
+    EXPECT_TRUE(wait_until([&] {
+        const std::string name = fmt::format("picture-{}.png", ++number);
+        display().hand("key p sleep 0.5");
+        return window.has_written(name) &&
+               difference(one, read_picture(window.place.path("out/" + name))).mean < 0.1;
+    }));
+    const Json after = window.close();
+    EXPECT_EQ(after["picked"], nullptr);  // it is another session
+    EXPECT_EQ(after["lamps"], before["lamps"]);
+    EXPECT_EQ(after["light"]["lumels"], before["light"]["lumels"]);
+    EXPECT_EQ(after["exposure"]["automatic"], false);
+}
+
 TEST_F(ViewWindow, TheLegendOfFalseColoursHidesNothing)
 {
     Window window(display(), "walk 0.9\nwait\nstate s.json\nmode irradiance\npicture a.png\n"
