@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/gltf_extensions.h"
+#include "scene/unpackers.h"
 
 namespace lumel {
 
@@ -71,6 +72,13 @@ void name_webp_images(GltfDocument& document)
             erase_extension(texture, kWebp);
         }
     forget_extension(document.json, kWebp);
+}
+
+std::string webp_version()
+{
+    const int version = WebPGetDecoderVersion();  // a byte each
+    return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xff) + "." +
+           std::to_string(version & 0xff);
 }
 
 }  // namespace lumel
