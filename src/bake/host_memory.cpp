@@ -41,9 +41,9 @@ constexpr int kMostPictureSide = 1 << 14;
 /// How much there is of everything.
 struct Sizes {
     std::uint64_t lumels = 0, pieces = 0, texels = 0, page_texels = 0;
-    std::uint64_t written = 0;  ///< bytes of a glTF that is written, without its maps
-    std::uint64_t document = 0;  ///< bytes of it in memory, beside that
-    std::uint64_t finish = 0;   ///< see finish_bytes
+    std::uint64_t written = 0;        ///< bytes of a glTF that is written, without its maps
+    std::uint64_t document = 0;       ///< bytes of it in memory, beside that
+    std::uint64_t finish = 0;         ///< see finish_bytes
     std::uint64_t texture_scale = 1;  ///< of the side of scene-baked.glb's texture
     PreviewMemory preview;
     std::uint64_t picture = 0;  ///< bytes
@@ -118,8 +118,9 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
         gltf + sizes.page_texels * (kOfTexel + kOfRgb + kOfTexel / 2 + 2 * kOfPng);
     const std::uint64_t finer = sizes.texture_scale * sizes.texture_scale;
     const std::uint64_t toning = 2 * finer * sizes.texels * kOfTexel;
-    const std::uint64_t baked = gltf + finer * (sizes.texels * kOfTexel +
-                                                sizes.page_texels * (kOfTexel + kOfRgb + 2 * kOfPng));
+    const std::uint64_t baked =
+        gltf +
+        finer * (sizes.texels * kOfTexel + sizes.page_texels * (kOfTexel + kOfRgb + 2 * kOfPng));
     return std::max({map, solution, scene, toning, baked});
 }
 
@@ -127,8 +128,8 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
 std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
 {
     const std::uint64_t layers = layers_of(options);
-    const std::uint64_t maps = (2 + layers) * sizes.texels * kOfTexel +
-                               (1 + layers) * sizes.lumels * sizeof(glm::vec3);
+    const std::uint64_t maps =
+        (2 + layers) * sizes.texels * kOfTexel + (1 + layers) * sizes.lumels * sizeof(glm::vec3);
     const std::uint64_t solving =
         is_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels, sizes.texels) : 0;
     const std::uint64_t drawing =
@@ -204,12 +205,10 @@ HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, boo
         sizes.written += surface.texcoord.size() * kWrittenVertexBytes +
                          surface.indices.size() * kWrittenIndexBytes;
     sizes.document += atlas.surfaces.size() * kJsonValues * kJsonValueBytes;
-    sizes.texture_scale = std::uint64_t(
-        std::clamp(options.baked_size / atlas.pages.side, 1,
-                   texture_density(prepared.scene, atlas)));
+    sizes.texture_scale = std::uint64_t(std::clamp(options.baked_size / atlas.pages.side, 1,
+                                                   texture_density(prepared.scene, atlas)));
     if (options.preview_width > 0) {
-        const glm::ivec2 picture =
-            picture_of(options, choose_view(prepared.scene, prepared.rays));
+        const glm::ivec2 picture = picture_of(options, choose_view(prepared.scene, prepared.rays));
         sizes.preview = preview_memory(prepared.scene, atlas, picture);
         sizes.picture = picture_bytes(picture);
     }
@@ -231,8 +230,8 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
     if (options.preview_width > 0) {
         Atlas map;
         map.width = map.height = options.atlas.size;
-        const glm::ivec2 picture = picture_of(
-            options, scene.cameras.empty() ? View{} : view_of(scene.cameras.front()));
+        const glm::ivec2 picture =
+            picture_of(options, scene.cameras.empty() ? View{} : view_of(scene.cameras.front()));
         sizes.preview = preview_memory(scene, map, picture);
         sizes.picture = picture_bytes(picture);
     }

@@ -12,7 +12,7 @@ namespace lumel {
 struct HostMemory {
     std::uint64_t program = 0;  ///< with its libraries
     std::uint64_t scene = 0, trees = 0, atlas = 0, lumels = 0;
-    std::uint64_t solver = 0;  ///< beside links
+    std::uint64_t solver = 0;       ///< beside links
     std::uint64_t links = 0;        ///< of as many rays as most scenes take
     std::uint64_t first_links = 0;  ///< of the rays without which there is no light
     /// Of the stage that takes most beside all these: sweeps, the finish of maps, the preview or
