@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "scene/baked_lights.h"
+#include "scene/baked_probes.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_draco.h"
@@ -131,6 +132,7 @@ GltfDocument load_gltf_document(const std::string& path)
         bring_back_lights(document.json);
         join_sides(document.json);
         join_pages(document.json);
+        drop_light_probes(document.json);
     }
     const JsonView root = document.root();
     root.as_object();
