@@ -6,11 +6,11 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "json/json_file.h"
-#include "json/json_view.h"
 #include "output/folder.h"
 #include "scene/baked_probes.h"
 #include "scene/gltf_container.h"
+#include "json/json_file.h"
+#include "json/json_view.h"
 
 namespace lumel {
 namespace {
