@@ -96,6 +96,13 @@ Command bake_command(CLI::App& program)
     add_scene_file_options(command, bake.options);
     add_only_option(command, bake.options.parts);
     add_directional_option(command, bake.options.directional);
+    command
+        .add_option("--probes", bake.options.probe_spacing,
+                    "Also write probes.json, as lumel probes --spacing does: light probes this "
+                    "many metres apart; and put them into the glTF files as nodes")
+        ->group(kLightmapGroup)
+        ->type_name("SPACING")
+        ->check(positive());
     add_preview_option(command, bake.options.preview_width);
     command
         .add_flag("--html", bake.page,

@@ -267,12 +267,23 @@ private:
 
 // --------------------------------------------------------------------------------------- results
 
+/// The density of what is named so.
+struct DensityRule {
+    std::string pattern;  ///< of names of nodes, meshes or materials, as the shell's: * ? []
+    float texels_per_metre = 0.0f;  ///< above 0
+};
+
 /// Sizes of the square lightmap, all in texels.
 struct AtlasSettings {
     float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`
     int size = 0;                   ///< fixes the side, 1…16384; 0: as the density asks for
     int max_size = 4096;            ///< largest side; the density is scaled to fit
     int gutter = 2;                 ///< kept free between any two charts, 0…64
+    /// Most squares of that side that the map is made of where one is too small, 1…256. All of
+    /// them together have 16384 texels a side at most. No chart lies on two of them.
+    int pages = 1;
+    std::vector<DensityRule> densities;  ///< beside the file's; of two that fit, the later counts
+    bool coarse_afar = false;            ///< fewer texels far from cameras and detail
 };
 
 /// One primitive of one instance in the lightmap. Vertices are split where charts end.
@@ -282,6 +293,9 @@ struct Surface {
     std::vector<std::uint32_t> source_vertex;  ///< [V] the primitive's vertex that it copies
     std::vector<Vec2> lightmap;                ///< [V] coordinates in 0…1, (0, 0) at the top left
     std::vector<std::uint32_t> indices;        ///< [3T] in the primitive's order
+    /// [V] which page holds it, or empty: the map has one. Triangles do not mix pages.
+    std::vector<std::uint16_t> page;
+    float texels_per_metre = 0.0f;  ///< its density
 };
 
 /// A lightmap: RGB is H [lx], A is 0 where no surface is. Gutters are filled and seams matched, so
@@ -290,6 +304,16 @@ struct Map {
     int width = 0, height = 0;
     std::vector<float> rgba;  ///< [height][width][4], top row first
 };
+
+/// A square of the map, for hosts whose textures cannot be as large as that [texels].
+struct Page {
+    int x = 0, y = 0;  ///< top left
+    int side = 0;
+};
+
+/// A page by itself. A place of the map is at (lightmap × width − (x, y)) / side there.
+/// Throws Error{input} if the page is not inside of the map.
+LUMEL_API Map cut_page(const Map& map, const Page& page);
 
 // ------------------------------------------------------------------------------------------ bake
 
@@ -331,6 +355,7 @@ struct BakeSettings {
 struct Baked {
     Map map;
     std::vector<Surface> surfaces;  ///< by instance, then primitive
+    std::vector<Page> pages;        ///< that the map is made of; one, where it is enough
     float texels_per_metre = 0.0f;
     double error = -1.0;  ///< estimated relative error, < 0: not known
     std::uint64_t shots = 0;

@@ -97,6 +97,7 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
     baked.map =
         map_of(finish_map(prepared.scene, prepared.atlas, prepared.lumels, solution->irradiance));
     baked.surfaces = surfaces_of(prepared.scene, prepared.atlas);
+    baked.pages = pages_of(prepared.atlas);
     baked.texels_per_metre = prepared.atlas.texels_per_metre;
     baked.error = solved.error;
     baked.shots = solved.shots;

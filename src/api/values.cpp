@@ -2,6 +2,7 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include "api/translate.h"
 #include "core/error.h"
 
 namespace lumel::v0 {
@@ -86,11 +87,50 @@ AtlasOptions checked_options(const AtlasSettings& settings)
     check_range(settings.size, 0, kLargestAtlas, "size");
     check_range(settings.max_size, 1, kLargestAtlas, "max_size");
     check_range(settings.gutter, 0, kLargestGutter, "gutter");
-    return {.texels_per_metre = density,
-            .size = settings.size,
-            .max_size = settings.max_size,
-            .gutter = settings.gutter,
-            .sides = Sides::brighter};
+    check_range(settings.pages, 1, kMostPages, "pages");
+    AtlasOptions options{.texels_per_metre = density,
+                         .size = settings.size,
+                         .max_size = settings.max_size,
+                         .pages = settings.pages,
+                         .gutter = settings.gutter,
+                         .sides = Sides::brighter,
+                         .coarse_afar = settings.coarse_afar};
+    for (const DensityRule& rule : settings.densities) {
+        if (!std::isfinite(rule.texels_per_metre) || !(rule.texels_per_metre > 0.0f))
+            throw lumel::Error(lumel::ErrorKind::input, "AtlasSettings::densities",
+                               "must be numbers above 0, unlike that of '" + rule.pattern + "'");
+        options.densities.push_back({rule.pattern, rule.texels_per_metre});
+    }
+    return options;
+}
+
+std::vector<Page> pages_of(const Atlas& atlas)
+{
+    std::vector<Page> pages;
+    for (int page = 0; page < atlas.pages.count; ++page) {
+        const glm::ivec2 corner = atlas.pages.corner(page);
+        pages.push_back({.x = corner.x, .y = corner.y, .side = atlas.pages.side});
+    }
+    return pages;
+}
+
+Map cut_page(const Map& map, const Page& page)
+{
+    return translated([&] {
+        if (page.side < 1 || page.x < 0 || page.y < 0 || page.x > map.width - page.side ||
+            page.y > map.height - page.side)
+            throw lumel::Error(lumel::ErrorKind::input, "page", "is not inside of the map");
+        constexpr std::size_t kChannels = 4;
+        Map part{.width = page.side, .height = page.side, .rgba = {}};
+        for (int y = page.y; y < page.y + page.side; ++y) {
+            const std::size_t first =
+                (std::size_t(y) * std::size_t(map.width) + std::size_t(page.x)) * kChannels;
+            const auto row = map.rgba.begin() + std::ptrdiff_t(first);
+            part.rgba.insert(part.rgba.end(), row,
+                             row + std::ptrdiff_t(std::size_t(page.side) * kChannels));
+        }
+        return part;
+    });
 }
 
 Map map_of(Image&& image)
@@ -111,6 +151,9 @@ std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas)
         surface.indices = from.indices;
         for (const glm::vec2& place : from.texcoord)
             surface.lightmap.push_back({place.x / size.x, place.y / size.y});
+        if (atlas.pages.count > 1)
+            surface.page = pages_of_vertices(atlas.pages, from);
+        surface.texels_per_metre = from.texels_per_metre;
     }
     return surfaces;
 }

@@ -48,6 +48,7 @@ glm::vec3 checked_factor(const Vec3& factor, const std::string& what);
 AtlasOptions checked_options(const AtlasSettings& settings);
 
 Map map_of(Image&& image);
+std::vector<Page> pages_of(const Atlas& atlas);
 std::vector<Surface> surfaces_of(const lumel::Scene& scene, const Atlas& atlas);
 
 }  // namespace lumel::v0

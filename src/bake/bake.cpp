@@ -11,6 +11,8 @@
 #include "bake/lighting.h"
 #include "bake/memory_plan.h"
 #include "bake/outputs.h"
+#include "bake/probe_nodes.h"
+#include "bake/probes.h"
 #include "bake/sources.h"
 #include "lights/direct_light.h"
 #include "live/links_file.h"
@@ -37,14 +39,15 @@ bool has_sources(const Prepared& prepared)
                        [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
 }
 
-}  // namespace
-
-BakeSummary bake(const std::string& scene_path, const std::string& folder, const BakeOptions& given,
-                 const ProgressFunction& progress)
+/// All but light probes.
+BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
+                       BakeOptions options, const ProgressFunction& progress)
 {
-    BakeOptions options = given;
-    options.atlas = atlas_that_fits(given);
+    options.atlas = atlas_that_fits(options);
     const MethodInfo& method = method_of(options.solver.method);
+    if (options.probe_spacing > 0.0 && options.parts != Parts::all)
+        throw Error(ErrorKind::input, "--probes with --only",
+                    "is not possible: light probes hold all light, direct and indirect");
     if (options.directional != Directional::none && options.parts != Parts::all)
         throw Error(ErrorKind::input, "--directional with --only",
                     "is not possible: directional layers hold all light, direct and indirect");
@@ -63,6 +66,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
     const MemoryLimits limits = memory_limits(options, device.info());
     check_memory(scene, options, limits);
     const Setting setting(std::move(scene), device, options, stages);
+    if (options.probe_spacing > 0.0)
+        check_probe_spacing(options.probe_spacing, setting.prepared);
     options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
     Checkpoint checkpoint(folder, options, setting.prepared);
     const std::unique_ptr<Solution> solution =
@@ -115,6 +120,20 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder, const
         write_links(output.path(kLinksFile), std::move(*solution->links));
     return write_bake(output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
+}
+
+}  // namespace
+
+BakeSummary bake(const std::string& scene_path, const std::string& folder,
+                 const BakeOptions& options, const ProgressFunction& progress)
+{
+    const BakeSummary summary = bake_light(scene_path, folder, options, progress);
+    if (options.probe_spacing > 0.0 && !summary.interrupted) {
+        ProbesOptions grid;
+        grid.spacing = options.probe_spacing;
+        write_probe_nodes(folder, probes(folder, grid, progress));
+    }
+    return summary;
 }
 
 }  // namespace lumel

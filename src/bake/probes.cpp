@@ -79,10 +79,7 @@ Json json_of(const ProbeRow& row)
     json["inside"] = row.light.inside;
     if (row.light.inside)
         return json;
-    Json& coefficients = json["coefficients"] = Json::array();
-    for (const glm::vec3& c : row.light.coefficients)
-        for (const float channel : {c.r, c.g, c.b})
-            coefficients.push_back(shortest(channel));
+    json["coefficients"] = coefficients_of(row.light);
     json["noise"] = row.light.noise;
     return json;
 }
@@ -115,6 +112,27 @@ std::string report_of(const FinishedBake& bake, const ProbesSummary& summary)
 }
 
 }  // namespace
+
+Json coefficients_of(const ProbeLight& light)
+{
+    Json coefficients = Json::array();
+    for (const glm::vec3& c : light.coefficients)
+        for (const float channel : {c.r, c.g, c.b})
+            coefficients.push_back(shortest(channel));
+    return coefficients;
+}
+
+void check_probe_spacing(double spacing, const Prepared& prepared)
+{
+    ProbesOptions options;
+    options.spacing = spacing;
+    try {
+        grid_of(options, prepared);
+    } catch (const Error&) {
+        throw Error(ErrorKind::input, "--probes",
+                    "would make more than a million probes; a wider spacing is needed");
+    }
+}
 
 ProbesSummary probes(const std::string& folder, const ProbesOptions& options,
                      const ProgressFunction& progress)

@@ -11,7 +11,9 @@
 #include "bake/bake.h"
 #include "measure/light_probe.h"
 #include "measure/probe_grid.h"
+#include "prepare/prepare.h"
 #include "scene/probe_places.h"
+#include "json/json_file.h"
 
 namespace lumel {
 
@@ -36,6 +38,12 @@ struct ProbesSummary {
     std::string file;        ///< that was written
     std::string report;      ///< JSON: what it holds
 };
+
+/// Coefficients as files have them: red, green and blue of each in turn.
+Json coefficients_of(const ProbeLight& light);
+
+/// Throws Error{input} if a grid over this scene would have too many probes.
+void check_probe_spacing(double spacing, const Prepared& prepared);
 
 /// Finds the light at probes in a folder that lumel bake wrote. Throws Error.
 ProbesSummary probes(const std::string& folder, const ProbesOptions& options,

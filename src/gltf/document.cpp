@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "gltf/accessor.h"
 #include "gltf/baked_lights.h"
+#include "gltf/baked_probes.h"
 #include "gltf/container.h"
 #include "gltf/draco.h"
 #include "gltf/extensions.h"
@@ -131,6 +132,7 @@ GltfDocument load_gltf_document(const std::string& path)
         bring_back_lights(document.json);
         join_sides(document.json);
         join_pages(document.json);
+        drop_light_probes(document.json);
     }
     const JsonView root = document.root();
     root.as_object();

@@ -10,7 +10,10 @@
 #include <draco/compression/config/decoder_options.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
+#include <draco/core/draco_version.h>
 #include <draco/core/varint_decoding.h>
+
+#include "gltf/unpackers.h"
 
 namespace lumel {
 
@@ -199,6 +202,11 @@ DracoMesh decode_draco_stream(const JsonView& place, std::span<const std::uint8_
             fail();
     }
     return result;
+}
+
+std::string draco_version()
+{
+    return draco::kDracoVersion;
 }
 
 }  // namespace lumel

@@ -8,6 +8,7 @@
 #include <meshoptimizer.h>
 
 #include "gltf/extensions.h"
+#include "gltf/unpackers.h"
 
 namespace lumel {
 
@@ -221,6 +222,14 @@ void decode_meshopt(GltfDocument& document)
                     erase_extension(part, name);
         forget_extension(document.json, name);
     }
+}
+
+std::string meshoptimizer_version()
+{
+    constexpr int kMajor = 1000, kMinor = 10;  // as the header counts
+    return std::to_string(MESHOPTIMIZER_VERSION / kMajor) + "." +
+           std::to_string(MESHOPTIMIZER_VERSION % kMajor / kMinor) + "." +
+           std::to_string(MESHOPTIMIZER_VERSION % kMinor);
 }
 
 }  // namespace lumel

@@ -4,9 +4,11 @@
 #include <ctime>
 
 #include "core/parallel.h"
+#include "gltf/unpackers.h"
 #include "images/image_files.h"
 #include "matrix/blas.h"
 #include "rays/ray_scene.h"
+#include "scene/webp_image.h"
 #include "json/version.h"
 
 namespace lumel {
@@ -18,10 +20,13 @@ std::string lumel_version()
 
 std::map<std::string, std::string> library_versions()
 {
-    return {{"Embree", embree_version()},
+    return {{"Draco", draco_version()},
+            {"Embree", embree_version()},
             {"OpenBLAS", blas::openblas_version()},
             {"OpenEXR", openexr_version()},
             {"libpng", libpng_version()},
+            {"libwebp", webp_version()},
+            {"meshoptimizer", meshoptimizer_version()},
             {"nlohmann_json", json_library_version()},
             {"zstd", zstd_version()},
             {"oneTBB", tbb_version()}};

@@ -50,4 +50,11 @@ Texture decode_webp(const Bytes& bytes, const std::string& place)
     return texture;
 }
 
+std::string webp_version()
+{
+    const int version = WebPGetDecoderVersion();  // a byte each
+    return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xff) + "." +
+           std::to_string(version & 0xff);
+}
+
 }  // namespace lumel

@@ -15,4 +15,7 @@ bool is_webp(const Bytes& bytes);
 /// broken, cut short, animated, or claims far more pixels than its bytes can be expected to hold.
 Texture decode_webp(const Bytes& bytes, const std::string& place);
 
+/// Of the library that is linked: "1.2.4".
+std::string webp_version();
+
 }  // namespace lumel

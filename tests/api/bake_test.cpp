@@ -89,6 +89,62 @@ TEST(BakeInMemory, HasASurfaceForEachPrimitiveOfAnInstance)
     }
 }
 
+TEST(BakeInMemory, OnPagesIsOfOneDensityAndEachPageHoldsItsSurfaces)
+{
+    const Scene scene = Scene::load(scene_path("cornell-box"));
+    const AtlasSettings one{.size = 64};
+    AtlasSettings four = one;
+    four.pages = 4;
+    const auto bake_on = [&](const AtlasSettings& atlas) {
+        return bake(Device(), scene, {.atlas = atlas, .error = 0.0, .shots = 24});
+    };
+    const Baked a = bake_on(one), b = bake_on(four);
+    ASSERT_EQ(a.pages.size(), 1u);
+    EXPECT_TRUE(a.surfaces.at(0).page.empty());
+    ASSERT_GT(b.pages.size(), 1u);
+    ASSERT_LE(b.pages.size(), 4u);
+    EXPECT_GT(b.texels_per_metre, 1.3f * a.texels_per_metre);
+    for (const Surface& surface : b.surfaces) {
+        EXPECT_EQ(surface.texels_per_metre, b.texels_per_metre);
+        ASSERT_EQ(surface.page.size(), surface.lightmap.size());
+        for (std::size_t v = 0; v < surface.page.size(); ++v) {
+            const Page& page = b.pages.at(surface.page[v]);
+            const float x = surface.lightmap[v][0] * float(b.map.width) - float(page.x),
+                        y = surface.lightmap[v][1] * float(b.map.height) - float(page.y);
+            EXPECT_TRUE(x >= 0.0f && x <= float(page.side) && y >= 0.0f && y <= float(page.side));
+        }
+    }
+    const Page page = b.pages[1];
+    const Map part = cut_page(b.map, page);
+    EXPECT_EQ(part.width, 64);
+    ASSERT_EQ(part.rgba.size(), 64u * 64u * 4u);
+    for (int y = 0; y < page.side; ++y)
+        for (int x = 0; x < 4 * page.side; ++x)
+            ASSERT_EQ(part.rgba[std::size_t(4 * page.side * y + x)],
+                      b.map.rgba[std::size_t(4 * (b.map.width * (page.y + y) + page.x) + x)]);
+    expect_error(ErrorKind::input, {"page"}, [&] { cut_page(a.map, page); });
+}
+
+TEST(BakeInMemory, HasTheDensityThatARuleSets)
+{
+    const Scene scene = Scene::load(scene_path("cornell-box"));
+    const Baked baked =
+        bake(Device(), scene,
+             {.atlas = {.texels_per_metre = 30.0f, .densities = {{"*", 50.0f}, {"* block", 80.0f}}},
+              .error = 0.0,
+              .shots = 24});
+    int dense = 0;
+    for (const Surface& surface : baked.surfaces) {
+        EXPECT_TRUE(surface.texels_per_metre == 50.0f || surface.texels_per_metre == 80.0f);
+        dense += surface.texels_per_metre == 80.0f;
+    }
+    EXPECT_GT(dense, 0);
+    EXPECT_LT(dense, int(baked.surfaces.size()));
+    expect_error(ErrorKind::input, {"densities", "wall"}, [&] {
+        bake(Device(), scene, {.atlas = {.densities = {{"wall", -1.0f}}}});
+    });
+}
+
 TEST(BakeInMemory, EndsWhenTheHostSaysSo)
 {
     const Baked baked =

@@ -188,7 +188,8 @@ TEST(Messages, TheReportNamesTheLibrariesThatMadeIt)
     const Workplace place;
     ASSERT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).code, 0);
     const Json libraries = report_in(place)["libraries"];
-    for (const char* name : {"Embree", "OpenEXR", "libpng", "nlohmann_json", "oneTBB"})
+    for (const char* name : {"Draco", "Embree", "OpenEXR", "libpng", "libwebp", "meshoptimizer",
+                             "nlohmann_json", "oneTBB"})
         EXPECT_TRUE(std::isdigit(libraries.value(name, "none").front())) << libraries;
 }
 

@@ -90,6 +90,69 @@ TEST(Probes, StandWhereNodesOfTheFileSay)
     EXPECT_EQ(Json::parse(bytes_of(elsewhere)), file);
 }
 
+/// The JSON of a .glb.
+Json gltf_in(const std::string& path)
+{
+    constexpr std::size_t kJsonLengthAt = 12, kJsonAt = 20;
+    const std::string file = bytes_of(path);
+    std::size_t length = 0;
+    for (std::size_t i = 4; i-- > 0;)
+        length = length << 8 | std::uint8_t(file.at(kJsonLengthAt + i));
+    return Json::parse(file.substr(kJsonAt, length));
+}
+
+TEST(Probes, OfABakeAreThoseOfTheCommandByteForByte)
+{
+    const Workplace place;
+    const std::string one = place.path("one"), two = place.path("two");
+    bake(own_scene("cornell-box.gltf"), one, {"--shots", "24", "--probes", "0.15"});
+    bake(own_scene("cornell-box.gltf"), two, {"--shots", "24"});
+    const std::string together = bytes_of(one + "/probes.json");
+    ASSERT_NE(together, "");
+    probes(two, {"--spacing", "0.15"});
+    EXPECT_EQ(together, bytes_of(two + "/probes.json"));
+    // Nor do the nodes in the files count as places for more of them.
+    probes(one, {"--spacing", "0.15"});
+    EXPECT_EQ(together, bytes_of(one + "/probes.json"));
+}
+
+TEST(Probes, OfABakeAreNodesOfItsFilesUntilTheNextBake)
+{
+    const Workplace place;
+    const std::string folder = place.path("out");
+    bake(own_scene("cornell-box.gltf"), folder, {"--shots", "24", "--probes", "0.15"});
+    const Json file = Json::parse(bytes_of(folder + "/probes.json"));
+    std::size_t inside = 0;
+    for (const char* name : {"/scene.glb", "/scene-baked.glb"}) {
+        const Json gltf = gltf_in(folder + name);
+        const Json& group = gltf["nodes"][gltf["scenes"][0]["nodes"].back().get<std::size_t>()];
+        ASSERT_EQ(group["children"].size(), file["probes"].size());
+        for (std::size_t i = 0; i < file["probes"].size(); ++i) {
+            const Json& probe = file["probes"][i];
+            const Json& node = gltf["nodes"][group["children"][i].get<std::size_t>()];
+            const Json& light = node["extras"]["lumel"]["light_probe"];
+            EXPECT_EQ(node["translation"], probe["position"]);
+            EXPECT_EQ(light["inside"], probe["inside"]);
+            EXPECT_EQ(light.value("coefficients", Json()), probe.value("coefficients", Json()));
+            inside += probe["inside"].get<bool>();
+        }
+    }
+    EXPECT_GT(inside, 0u);  // of the blocks
+    bake(folder + "/scene.glb", place.path("again"), {"--shots", "24"});
+    EXPECT_EQ(gltf_in(place.path("again/scene.glb")).dump().find("light_probe"), std::string::npos);
+}
+
+TEST(Probes, OfABakeAreRefusedBeforeTheWork)
+{
+    const Workplace place;
+    const std::string scene = own_scene("cornell-box.gltf"), out = place.path("out");
+    expect_one_sentence(run_lumel({"bake", scene, out, "--probes", "1e-5"}), 2,
+                        {"--probes", "million"});
+    expect_one_sentence(run_lumel({"bake", scene, out, "--probes", "0.2", "--only", "indirect"}), 2,
+                        {"--probes", "--only"});
+    EXPECT_FALSE(std::filesystem::exists(place.path("out")));
+}
+
 TEST(Probes, NeedAPlaceAndExtrasThatSayYesOrNo)
 {
     const Workplace place;
