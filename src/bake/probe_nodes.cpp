@@ -7,8 +7,8 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "gltf/baked_probes.h"
+#include "gltf/container.h"
 #include "output/folder.h"
-#include "scene/gltf_container.h"
 #include "json/json_file.h"
 #include "json/json_view.h"
 
