@@ -221,7 +221,7 @@ HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, boo
 HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions& options,
                        bool shared)
 {
-    const auto side = std::uint64_t(options.atlas.size);
+    const auto side = std::uint64_t(fixed_side(options.atlas));
     const std::uint64_t triangles = triangles_of(scene);
     Sizes sizes{.lumels = lumels,
                 .pieces = lumels,
@@ -229,7 +229,7 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
                 .page_texels = side * side};
     if (options.preview_width > 0) {
         Atlas map;
-        map.width = map.height = options.atlas.size;
+        map.width = map.height = fixed_side(options.atlas);
         const glm::ivec2 picture =
             picture_of(options, scene.cameras.empty() ? View{} : view_of(scene.cameras.front()));
         sizes.preview = preview_memory(scene, map, picture);

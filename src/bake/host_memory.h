@@ -1,12 +1,19 @@
 #pragma once
 // The memory of the host that a bake takes, counted by what it allocates.
 
+#include <algorithm>
 #include <cstdint>
 
 #include "bake/bake.h"
 #include "prepare/prepare.h"
 
 namespace lumel {
+
+/// Side of a map if it is fixed [texels], else 0.
+inline int fixed_side(const AtlasOptions& options)
+{
+    return std::min(options.size, options.max_size);
+}
 
 /// Bytes of the host, by what takes them.
 struct HostMemory {

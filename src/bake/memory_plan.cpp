@@ -122,7 +122,7 @@ std::string shortage(const GraphicsMemory& device, const HostMemory& host, int s
 
 void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLimits& limits)
 {
-    const int side = options.atlas.size;
+    const int side = fixed_side(options.atlas);
     if (side == 0)
         return;
     const double texels = double(options.atlas.pages) * double(side) * double(side);

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/source_folder.h"
 #include "bake/memory_plan.h"
 #include "bake/setting.h"
+#include "core/error.h"
 #include "core/log.h"
 #include "solve/solver.h"
 
@@ -87,6 +89,18 @@ const gpu::DeviceInfo kSoftware{.name = "llvmpipe", .type = "cpu", .memory_bytes
 std::string shortage_of(std::uint64_t device, std::uint64_t host, const MemoryLimits& limits)
 {
     return shortage({.solver = device * kMebibyte}, {.lumels = host * kMebibyte}, 1024, limits);
+}
+
+TEST(Memory, IsThatOfTheSideToWhichAMapIsLimited)
+{
+    const Scene scene = read_gltf(support::source_path("scenes/cornell-box.gltf"));
+    const MemoryLimits limits = memory_limits(0, kSoftware, 1000 * kMebibyte);
+    for (const int pages : {1, 4}) {
+        BakeOptions options{.atlas = {.size = 4096, .max_size = 64, .pages = pages}};
+        EXPECT_NO_THROW(check_memory(scene, options, limits));
+        options.atlas.max_size = 4096;
+        EXPECT_THROW(check_memory(scene, options, limits), Error);
+    }
 }
 
 TEST(Memory, ThatIsNotThereIsASentenceWithASizeThatFits)
