@@ -44,8 +44,7 @@ KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOption
 
 SolverState KeptLinksSolver::state() const
 {
-    return {.shots = std::uint64_t(irradiance_.size()) * light_->links().rays(),
-            .iterations = std::uint64_t(light_->sweeps())};
+    return {.shots = light_->links().rays(), .iterations = std::uint64_t(light_->sweeps())};
 }
 
 std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,

@@ -126,7 +126,8 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, KeptLinks& kept
     KeptLinksSolver solver(edit.now, kept_light_options(baked.keep_links, links), stages, &kept);
     const SolverState state = solver.state();
     row.rays = solver.light().links().traced().all();
-    row.links = baked.shots = state.shots;
+    row.links = kept.rays * std::uint64_t(edit.now.lumels.lumels.size());
+    baked.shots = state.shots;
     baked.iterations = state.iterations;
     kept = solver.light().kept(edit.now.scene.hash);
     return solver.irradiance();

@@ -99,6 +99,7 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
     const Box box;
     const std::string folder = box.bake("out");
     EXPECT_TRUE(std::filesystem::exists(folder + "/scene.lumellinks"));
+    EXPECT_EQ(Json::parse(bytes_of(folder + "/report.json"))["solution"]["shots"], 16);
     const Outcome outcome = box.relight(
         folder, {{"states",
                   {{{"name", "as baked"}},
