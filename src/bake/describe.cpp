@@ -104,15 +104,6 @@ std::optional<MemoryLimits> usual_limits(const BakeOptions& options)
     return std::nullopt;
 }
 
-std::size_t triangle_count(const Scene& scene)
-{
-    std::size_t count = 0;
-    for (const Instance& instance : scene.instances)
-        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
-            count += primitive.indices.size() / 3;
-    return count;
-}
-
 /// Lamps of the file, without the sun that the options add.
 std::size_t lamp_count(const Scene& scene, const LightOptions& options)
 {

@@ -64,15 +64,6 @@ std::uint64_t bytes_of_scene(const Scene& scene)
     return bytes + scene.instances.size() * sizeof(Instance);
 }
 
-std::uint64_t triangles_of(const Scene& scene)
-{
-    std::uint64_t triangles = 0;
-    for (const Instance& instance : scene.instances)
-        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
-            triangles += primitive.indices.size() / 3;
-    return triangles;
-}
-
 std::uint64_t bytes_of_atlas(const Atlas& atlas)
 {
     std::uint64_t bytes = atlas.surfaces.size() * sizeof(Surface) + bytes_of(atlas.back_shift);
@@ -191,6 +182,15 @@ std::uint64_t picture_bytes(const glm::ivec2& size)
 
 }  // namespace
 
+std::uint64_t triangle_count(const Scene& scene)
+{
+    std::uint64_t count = 0;
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            count += primitive.indices.size() / 3;
+    return count;
+}
+
 HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, bool shared)
 {
     const Atlas& atlas = prepared.atlas;
@@ -222,7 +222,7 @@ HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions
                        bool shared)
 {
     const auto side = std::uint64_t(fixed_side(options.atlas));
-    const std::uint64_t triangles = triangles_of(scene);
+    const std::uint64_t triangles = triangle_count(scene);
     Sizes sizes{.lumels = lumels,
                 .pieces = lumels,
                 .texels = side * side * std::uint64_t(options.atlas.pages),

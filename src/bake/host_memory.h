@@ -15,6 +15,9 @@ inline int fixed_side(const AtlasOptions& options)
     return std::min(options.size, options.max_size);
 }
 
+/// Triangles of all instances.
+std::uint64_t triangle_count(const Scene& scene);
+
 /// Bytes of the host, by what takes them.
 struct HostMemory {
     std::uint64_t program = 0;  ///< with its libraries
