@@ -495,13 +495,13 @@ public:
     /// material takes longer. Throws Error{input}.
     void set_color(const std::string& material, const Vec3& color);
 
-    /// Works for about this long: moves first, then light that bounces. Takes longer by a few
-    /// milliseconds at most. Infinity: until at rest.
+    /// Works for about this long: on light that arrives straight in the new places, which is shown
+    /// when it is whole; then on what bounces. Takes longer by a few milliseconds at most.
+    /// Infinity: until at rest.
     LiveLinksState update(double budget_ms);
     const LiveLinksState& state() const;  ///< as the last update() left it
 
-    /// The lightmap after the last move that is wholly followed, finished as by bake(), which takes
-    /// time.
+    /// The lightmap as update() left it, finished as by bake(), which takes time.
     Map map() const;
     /// H [lx] alone, without gutters and seams, which takes little: RGB, A is 1 where there is a
     /// lumel, else 0; of front sides.

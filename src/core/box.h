@@ -17,6 +17,13 @@ struct Box {
     bool may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
                   float margin) const;
 
+    /// May a line from a point of one box to one of another meet this one? Exactly so for boxes: as
+    /// the line goes on, all places it may have are a box that changes from the one to the other.
+    bool may_lie_between(const Box& from, const Box& to) const;
+
+    /// The same, grown by a margin [m] to all sides.
+    Box grown(float margin) const { return {low - margin, high + margin}; }
+
     /// Squared distance of a point from the box [m²], 0 inside.
     float distance2(const glm::vec3& point) const
     {

@@ -122,13 +122,15 @@ LightSources::Origin LightSources::origin(std::size_t index) const
                 .index = source.first,
                 .centre = source.centre,
                 .radius = source.radius,
+                .box = source.box,
                 .sun = source.kind == Kind::sun ? &scene_->lights[source.first] : nullptr};
     const std::size_t surface = triangles_[source.first].surface;
     return {.part = Part::material,
             .index = std::uint32_t(surfaces_->all()[surface].source->material),
             .instance = surfaces_->instance(surface),
             .centre = source.centre,
-            .radius = source.radius};
+            .radius = source.radius,
+            .box = source.box};
 }
 
 void LightSources::add_surfaces(const Surfaces& surfaces)
@@ -139,19 +141,19 @@ void LightSources::add_surfaces(const Surfaces& surfaces)
     running_.resize(triangles_.size());
     for (Source& source : sources_) {
         double sum = 0.0;
-        glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+        source.box = {glm::vec3(kInfinite), glm::vec3(-kInfinite)};
         for (std::uint32_t t = source.first; t < source.last; ++t) {
             running_[t] = sum += double(triangles_[t].power);
             for (const glm::vec3& corner : triangles_[t].corner) {
-                low = glm::min(low, corner);
-                high = glm::max(high, corner);
+                source.box.low = glm::min(source.box.low, corner);
+                source.box.high = glm::max(source.box.high, corner);
             }
         }
         for (std::uint32_t t = source.first; t < source.last; ++t)
             running_[t] /= sum;
         source.power = sum * (source.double_sided ? 2.0 : 1.0);
-        source.centre = 0.5f * (low + high);
-        source.radius = 0.5f * glm::distance(low, high);
+        source.centre = source.box.centre();
+        source.radius = source.box.radius();
     }
 }
 
@@ -245,12 +247,14 @@ void LightSources::add_lights()
                 scene_->profiles[std::size_t(light.profile)].candela;
             brightest *= double(*std::max_element(candela.begin(), candela.end()));
         }
+        const glm::vec3 centre(light.transform[3]);
         sources_.push_back({.kind = sun ? Kind::sun : Kind::lamp,
                             .small = sun ? light.angle < kSmallAngle : light.radius == 0.0f,
                             .first = l,
                             .power = brightest,
-                            .centre = glm::vec3(light.transform[3]),
-                            .radius = light.radius});
+                            .centre = centre,
+                            .radius = light.radius,
+                            .box = Box{centre, centre}.grown(light.radius)});
     }
 }
 

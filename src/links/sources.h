@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "core/box.h"
 #include "links/starts.h"
 #include "paths/surfaces.h"
 #include "scene/scene.h"
@@ -42,6 +43,7 @@ public:
         std::uint32_t instance;              ///< of a surface
         glm::vec3 centre;                    ///< of a ball around it [m]
         float radius;                        ///< [m]
+        Box box;                             ///< around it [m]
         const PunctualLight* sun = nullptr;  ///< that it is; then it is infinitely far away
     };
     Origin origin(std::size_t source) const;
@@ -81,6 +83,7 @@ private:
         double power = 0.0;      ///< by luminance: of surfaces [lm], lamps at most [cd], skies [lx]
         glm::vec3 centre{0.0f};  ///< [m]
         float radius = 0.0f;     ///< of a ball around it [m]
+        Box box;                 ///< around it [m]
     };
 
     void add_surfaces(const Surfaces& surfaces);

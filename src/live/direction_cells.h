@@ -25,31 +25,46 @@ struct DirectionCells {
     }
 };
 
-/// Those that hold all directions from 0 that meet a ball and lie above the horizon z = 0.
-/// centre [m]: in the frame of the hemisphere. radius [m].
-inline DirectionCells cells_towards(const glm::vec3& centre, float radius, std::uint32_t side)
+/// Those that hold all directions from 0 that meet a box, centre ± half[0] ± half[1] ± half[2] [m],
+/// and lie above the horizon z = 0. Seen from outside, a box reaches as far around and as far down
+/// as its corners do. How far up is bounded by its height, and by how near the axis it comes.
+inline DirectionCells cells_towards(const glm::vec3& centre, const glm::mat3& half,
+                                    std::uint32_t side)
 {
     // Far above the rounding of angles and squares of sines, far below a cell.
     constexpr float kRounding = 1e-4f, kPi = std::numbers::pi_v<float>;
-    const float distance = glm::length(centre);
-    if (centre.z + radius < 0.0f)
+    const float away = glm::length(glm::vec2(centre));
+    const glm::vec2 along = away > 0.0f ? glm::vec2(centre) / away : glm::vec2(0.0f);
+    const auto turn = [](const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; };
+    float lowest = centre.z, highest = centre.z, nearest = away, high = 0.0f;
+    glm::vec2 right = along, left = along;
+    for (int k = 0; k < 8; ++k) {
+        const glm::vec3 corner = centre + ((k & 1) != 0 ? half[0] : -half[0]) +
+                                 ((k & 2) != 0 ? half[1] : -half[1]) +
+                                 ((k & 4) != 0 ? half[2] : -half[2]);
+        const glm::vec2 aside(corner);
+        lowest = std::min(lowest, corner.z);
+        highest = std::max(highest, corner.z);
+        nearest = std::min(nearest, glm::dot(aside, along));
+        high = std::max(high, glm::dot(aside, aside) / glm::dot(corner, corner));
+        right = turn(right, aside) < 0.0f ? aside : right;
+        left = turn(left, aside) > 0.0f ? aside : left;
+    }
+    if (highest < 0.0f)
         return {};
-    if (distance <= radius)
-        return {0, side, 0, side};
-    const float half = std::asin(radius / distance) + kRounding;
-    const float theta = std::acos(std::clamp(centre.z / distance, -1.0f, 1.0f));
+    const bool around = !(nearest > 0.0f);  // the axis may be inside
+    const float low = around ? 0.0f : nearest * nearest / (nearest * nearest + highest * highest);
+    if (!(lowest > 0.0f))
+        high = 1.0f;
     const auto cell = [&](float at) { return std::floor(at * float(side)); };
-    const auto sine2 = [](float angle) { return std::sin(angle) * std::sin(angle); };
-    const float low = sine2(std::clamp(theta - half, 0.0f, 0.5f * kPi)) - kRounding;
-    const float high = sine2(std::clamp(theta + half, 0.0f, 0.5f * kPi)) + kRounding;
-    DirectionCells cells{std::uint32_t(std::max(cell(low), 0.0f)),
-                         std::min(std::uint32_t(cell(high)) + 1, side), 0, side};
-    if (theta <= half || theta + half >= kPi)
-        return cells;  // a pole is inside
-    const float turn =
-        std::asin(std::min(std::sin(half) / std::sin(theta), 1.0f)) / (2.0f * kPi) + kRounding;
-    const float around = std::atan2(centre.y, centre.x) / (2.0f * kPi);
-    const float first = cell(around - turn), last = cell(around + turn);
+    DirectionCells cells{std::uint32_t(std::max(cell(low - kRounding), 0.0f)),
+                         std::min(std::uint32_t(cell(high + kRounding)) + 1, side), 0, side};
+    if (around)
+        return cells;
+    const auto angle = [](const glm::vec2& at) { return std::atan2(at.y, at.x) / (2.0f * kPi); };
+    const float from = angle(right), to = angle(left);
+    const float first = cell(from - kRounding),
+                last = cell((to < from ? to + 1.0f : to) + kRounding);
     if (last - first + 1.0f >= float(side))
         return cells;
     cells.first_v = std::uint32_t(int(first) + 2 * int(side)) % side;

@@ -168,8 +168,7 @@ bool GroupedLight::may_cross(const Group& group, std::size_t i, const Box& befor
     });
 }
 
-/// May a ray from a lumel to a source meet a box? All of them lie in the hull of two balls, around
-/// the lumel and around the source.
+/// May a ray from a lumel to a source meet a box?
 bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
 {
     const LightSources::Origin origin = place_.sources.origin(source);
@@ -182,16 +181,7 @@ bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box
         return box.may_meet(from, glm::normalize(glm::vec3(origin.sun->transform[2])), far,
                             reach + far * std::tan(origin.sun->angle));
     }
-    const glm::vec3 path = origin.centre - from;
-    const float distance = glm::length(path);
-    if (!(distance > 0.0f))
-        return true;
-    // Of the balls that lead from the one to the other, so many times the way may touch the box.
-    const glm::vec3 along = path / distance;
-    const float growth = std::max(origin.radius - reach, 0.0f);
-    const float last = glm::dot(box.centre() - from, along) + box.radius() + reach;
-    const float way = distance > growth ? std::clamp(last / (distance - growth), 0.0f, 1.0f) : 1.0f;
-    return box.may_meet(from, along, way * distance, reach + way * growth);
+    return box.may_lie_between(Box{from, from}.grown(reach), origin.box.grown(place_.lift));
 }
 
 glm::vec3 GroupedLight::light_of(const Group& group, std::size_t i) const

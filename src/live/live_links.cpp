@@ -267,10 +267,12 @@ Moved LiveLinks::move(const std::string& name, const glm::mat4& motion)
     const Moved before = state_.found;
     request(thing(name), motion);
     while (is_under_way())
-        if (following_.empty())
+        if (Following* one = with_direct())
+            follow_direct(*one);
+        else if (is_requested())
             put_requested();
         else
-            follow();
+            follow_links();
     const Moved& now = state_.found;
     return {.links = {now.links.started - before.links.started,
                       now.links.ended - before.links.ended,
@@ -290,11 +292,15 @@ void LiveLinks::request(std::uint32_t thing, const glm::mat4& motion)
         requested_[thing] = motion;
 }
 
+bool LiveLinks::is_requested() const
+{
+    return std::any_of(requested_.begin(), requested_.end(),
+                       [](const std::optional<glm::mat4>& motion) { return motion.has_value(); });
+}
+
 bool LiveLinks::is_under_way() const
 {
-    return !following_.empty() ||
-           std::any_of(requested_.begin(), requested_.end(),
-                       [](const std::optional<glm::mat4>& motion) { return motion.has_value(); });
+    return !following_.empty() || is_requested();
 }
 
 /// All things first: rays that are traced again for one meet the others where they are.
@@ -302,36 +308,49 @@ void LiveLinks::put_requested()
 {
     for (std::uint32_t t = 0; t < requested_.size(); ++t)
         if (requested_[t]) {
+            following_.erase(std::remove_if(following_.begin(), following_.end(),
+                                            [&](const Following& one) { return one.thing == t; }),
+                             following_.end());
             following_.push_back({.thing = t, .before = rays_.box(t)});
             put(t, *requested_[t]);
+            following_.back().order = follow_order(world_, rays_.box(t));
             requested_[t].reset();
         }
     sources_->place();
     light_.place();
 }
 
-/// A piece of what has moved.
-void LiveLinks::follow()
+/// The first whose direct light is not known to all lumels.
+LiveLinks::Following* LiveLinks::with_direct()
+{
+    const auto found =
+        std::find_if(following_.begin(), following_.end(),
+                     [&](const Following& one) { return one.direct < lumels().lumels.size(); });
+    return found == following_.end() ? nullptr : &*found;
+}
+
+/// A piece of the direct light that has changed.
+void LiveLinks::follow_direct(Following& one)
 {
     const std::size_t count = lumels().lumels.size();
+    const std::size_t end = std::min(one.direct + kPiece, count);
+    const double all = double(count * std::max<std::size_t>(light_.groups(), 1));
+    state_.found.direct += double(light_.follow(one.thing, one.before, one.direct, end)) / all;
+    one.direct = end;
+    edited_ |= with_direct() == nullptr;
+}
+
+/// A piece of the links that have changed. What a shell of lumels found is shown.
+void LiveLinks::follow_links()
+{
     Following& one = following_.front();
-    Moved& found = state_.found;
-    if (one.links < count) {
-        const std::size_t end = std::min(one.links + kPiece, count);
-        found.links += links_.follow(one.thing, one.links, end);
-        one.links = end;
-    } else {
-        const std::size_t end = std::min(one.direct + kPiece, count);
-        const double all = double(count * std::max<std::size_t>(light_.groups(), 1));
-        found.direct += double(light_.follow(one.thing, one.before, one.direct, end)) / all;
-        one.direct = end;
-    }
-    if (one.direct == count)
+    const std::size_t end = std::min(one.links + kPiece, one.order.end_after(one.links));
+    state_.found.links +=
+        links_.follow(one.thing, std::span(one.order.lumels).subspan(one.links, end - one.links));
+    one.links = end;
+    edited_ |= one.order.ends_at(end);
+    if (end == one.order.lumels.size())
         following_.erase(following_.begin());
-    if (following_.empty()) {
-        edited_ = true;
-        swept_ = false;
-    }
 }
 
 std::vector<glm::vec3> LiveLinks::direct()
@@ -353,18 +372,31 @@ void LiveLinks::begin()
     sweeps_.begin(direct(), paint_.albedo());
     before_ = {};
     weighing_ = false;
+    swept_ = false;
     state_ = {.found = state_.found, .all_sweeps = state_.all_sweeps};
     edited_ = false;
 }
 
-/// A part of what there is to do. What has moved is shown before things move on.
+/// Do the nearest lumels know of all moves? So things that never stop are followed by these.
+bool LiveLinks::has_followed_near() const
+{
+    return std::all_of(following_.begin(), following_.end(),
+                       [](const Following& one) { return one.links >= one.order.end_after(0); });
+}
+
+/// A part of what there is to do. What is found is shown before things move on, and their links
+/// follow for a while before they do.
 void LiveLinks::work()
 {
-    if (!following_.empty())
-        follow();
-    else if (swept_ && is_under_way())
+    if (Following* one = with_direct())
+        follow_direct(*one);
+    else if (edited_ || !swept_)
+        sweep();
+    else if (is_requested() && has_followed_near())
         put_requested();
-    else if (edited_ || !weighing_)
+    else if (!following_.empty())
+        follow_links();
+    else if (!weighing_)
         sweep();
     else if (filter_.step()) {
         weighing_ = false;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "live/follow_order.h"
 #include "live/grouped_light.h"
 #include "live/lumel_links.h"
 #include "live/lumel_sweeps.h"
@@ -67,8 +68,9 @@ struct LiveLinksState {
 /// light in every bit, what bounces within the residual. Works on the host; not safe for use from
 /// several threads. Closed rooms of albedo 0.99 take hundreds of sweeps.
 ///
-/// move() traces at once. request() leaves that to advance(), within its budget; until a request is
-/// wholly followed, irradiance() is that of the places before it.
+/// move() traces at once. request() leaves that to advance(), within its budget. Light that arrives
+/// straight from senders is found first, and shown when it is whole; until the links have followed
+/// too, what bounces, and the sky but for its bright part, is that of the places before.
 class LiveLinks {
 public:
     /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
@@ -135,21 +137,27 @@ public:
 
 private:
     using Part = LightSources::Part;
-    /// A thing that has moved, and the lumels that know.
+    /// A thing that has moved, and how many lumels know.
     struct Following {
         std::uint32_t thing;
-        Box before;
-        std::size_t links = 0, direct = 0;
+        Box before;              ///< where it was when direct light last was whole
+        std::size_t direct = 0;  ///< lumels
+        FollowOrder order;       ///< in which links follow
+        std::size_t links = 0;   ///< lumels of it
     };
 
     float extent() const;
     LivePlace place() const;
     std::uint32_t thing(const std::string& name) const;
     void put(std::uint32_t thing, const glm::mat4& motion);
+    bool is_requested() const;
     void put_requested();
     void place_sky(double angle);
     bool is_under_way() const;
-    void follow();
+    bool has_followed_near() const;
+    Following* with_direct();
+    void follow_direct(Following& one);
+    void follow_links();
     void work();
     void begin();
     void sweep();
@@ -176,7 +184,7 @@ private:
     std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
     std::vector<Following> following_;
     bool edited_ = true;     ///< since the last sweep
-    bool swept_ = true;      ///< wholly, since a move was followed
+    bool swept_ = true;      ///< wholly, since the last edit
     bool weighing_ = false;  ///< light is at rest, but not the filter's weights
     SweepChange before_;     ///< of the sweep before the last
     LiveLinksState state_;

@@ -178,8 +178,11 @@ void LumelLinks::for_rays_towards(const Rays& rays_of, std::size_t i, const Box&
 {
     const float reach = place_.reach(i);
     const glm::vec3& centre = place_.world[i].centre;
-    const glm::vec3 towards = (box.centre() - centre) * rays_of.frame();  // into the frame
-    cells_towards(towards, box.radius() + reach, side_).for_each(side_, [&](std::uint32_t k) {
+    const glm::mat3 into = glm::transpose(rays_of.frame());
+    const glm::vec3 half = 0.5f * (box.high - box.low) + reach;
+    const glm::mat3 sides(half.x * into[0], half.y * into[1], half.z * into[2]);
+    const DirectionCells cells = cells_towards(into * (box.centre() - centre), sides, side_);
+    cells.for_each(side_, [&](std::uint32_t k) {
         const glm::vec3 direction = rays_of.direction(k);
         if (box.may_meet(centre, direction, std::numeric_limits<float>::max(), reach))
             visit(k, direction);
@@ -224,16 +227,22 @@ std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
 /// Where it ends if it meets this thing. What it meets there is the first, unless something lies
 /// before; to learn that is less than to find what it is.
 std::optional<std::uint32_t> LumelLinks::end_by(const Rays& rays, std::uint32_t k,
-                                                const glm::vec3& direction,
-                                                std::uint32_t thing) const
+                                                const glm::vec3& direction, std::uint32_t thing,
+                                                Misses misses) const
 {
     const RayStart start = rays.start(k);
     RaySpan ray = rays.ray(start, direction, k);
     RayHit hit;
-    if (!(start.cosine(ray.direction) > 0.0f) || !place_.rays.closest_on(thing, ray, hit))
+    const bool is_above = start.cosine(ray.direction) > 0.0f;
+    if (is_above && place_.rays.closest_on(thing, ray, hit)) {
+        ray.far = hit.distance;
+        return place_.rays.is_clear_but_for(thing, ray) ? end_at(hit) : end_of(rays, k);
+    }
+    if (misses == Misses::stay)
         return std::nullopt;
-    ray.far = hit.distance;
-    return place_.rays.is_clear_but_for(thing, ray) ? end_at(hit) : end_of(rays, k);
+    if (!is_above)
+        return lost();
+    return place_.rays.closest_but_for(thing, ray, hit) ? end_at(hit) : sky();
 }
 
 std::uint32_t LumelLinks::end_at(const RayHit& hit) const
@@ -273,17 +282,16 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     white_sky_light_[i] = share * sums[0];
 }
 
-Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
+Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> lumels)
 {
     const Box box = place_.rays.box(thing);
-    std::vector<Retraced> blocks((last - first + kFollowed - 1) / kFollowed);
+    std::vector<Retraced> blocks((lumels.size() + kFollowed - 1) / kFollowed);
     parallel_for(blocks.size(), 1, [&](std::size_t from, std::size_t to) {
-        for (std::size_t b = from; b < to; ++b) {
-            const std::size_t begin = first + b * kFollowed,
-                              end = std::min(begin + kFollowed, last);
-            for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t b = from; b < to; ++b)
+            for (const std::uint32_t i :
+                 lumels.subspan(b * kFollowed)
+                     .first(std::min(kFollowed, lumels.size() - b * kFollowed)))
                 blocks[b] += follow(i, thing, box);
-        }
     });
     Retraced sum;
     for (const Retraced& block : blocks)
@@ -310,15 +318,14 @@ Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
     };
     for (std::uint32_t k = 0; k < rays(); ++k)
         if (on_thing_[links[k]] == thing) {
-            const std::optional<std::uint32_t> end =
-                end_by(rays_of, k, rays_of.direction(k), thing);
-            set(k, end ? *end : end_of(rays_of, k));
+            set(k, *end_by(rays_of, k, rays_of.direction(k), thing, Misses::go_on));
             ++count.ended;
         }
     for_rays_towards(rays_of, i, box, [&](std::uint32_t k, const glm::vec3& direction) {
         if (on_thing_[links[k]] == thing)
             return;
-        if (const std::optional<std::uint32_t> end = end_by(rays_of, k, direction, thing)) {
+        if (const std::optional<std::uint32_t> end =
+                end_by(rays_of, k, direction, thing, Misses::stay)) {
             set(k, *end);
             ++count.crossed;
         }

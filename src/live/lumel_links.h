@@ -43,7 +43,7 @@ public:
 
     /// A thing has moved: of these lumels, traces again what starts on it, ended on it, or meets it
     /// now. Once all lumels have followed, links are as if all had been traced.
-    Retraced follow(std::uint32_t thing, std::size_t first, std::size_t last);
+    Retraced follow(std::uint32_t thing, std::span<const std::uint32_t> lumels);
 
     /// The sky is another, and the sources know: finds again what rays bring from it.
     void find_sky();
@@ -91,8 +91,11 @@ private:
     void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,
                           const Visit& visit) const;
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
+    /// What rays do that do not meet a thing: end where they did, or further on.
+    enum class Misses { stay, go_on };
     std::optional<std::uint32_t> end_by(const Rays& rays, std::uint32_t k,
-                                        const glm::vec3& direction, std::uint32_t thing) const;
+                                        const glm::vec3& direction, std::uint32_t thing,
+                                        Misses misses) const;
     std::uint32_t end_at(const RayHit& hit) const;
     void trace(std::size_t lumel);
     Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);

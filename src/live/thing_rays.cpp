@@ -43,14 +43,14 @@ void ThingRays::place(std::size_t thing)
     boxes_[thing] = {trees_[thing].low(), trees_[thing].high()};
 }
 
-bool ThingRays::closest(const RaySpan& ray, RayHit& hit) const
+bool ThingRays::closest_but_for(std::size_t thing, const RaySpan& ray, RayHit& hit) const
 {
     RaySpan rest = ray;
     bool any = still_.closest(rest, hit);
     for (std::size_t t = 0; t < trees_.size(); ++t) {
         if (any)
             rest.far = hit.distance;
-        if (may_meet(t, rest))
+        if (t != thing && may_meet(t, rest))
             any = trees_[t].closest(rest, hit) || any;
     }
     return any;

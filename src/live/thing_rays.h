@@ -22,7 +22,12 @@ public:
     void place(std::size_t thing);
 
     /// The first hit along a ray, or false.
-    bool closest(const RaySpan& ray, RayHit& hit) const;
+    bool closest(const RaySpan& ray, RayHit& hit) const
+    {
+        return closest_but_for(kStays, ray, hit);
+    }
+    /// The same as if this thing were not there.
+    bool closest_but_for(std::size_t thing, const RaySpan& ray, RayHit& hit) const;
     /// Does nothing lie along a ray?
     bool is_clear(const RaySpan& ray) const;
     /// The first hit of a thing alone, or false.
