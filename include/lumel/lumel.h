@@ -448,7 +448,7 @@ struct LiveLinksSettings {
     std::uint32_t rays = 64;            ///< that each lumel keeps: 4, 16, 64 or 256
     bool filter = true;                 ///< of the noise in what is shown
     std::uint32_t seed = 1;
-    double residual = 0.0002;  ///< light still to bounce, as a part of all, to rest at
+    double residual = 0.0001;  ///< light still to bounce, as a part of all, to rest at
 };
 
 /// Where LiveLinks stand.

@@ -23,7 +23,7 @@ struct LiveLinksOptions {
     std::vector<std::vector<std::uint32_t>> groups;
     std::uint32_t seed = 0;
     /// Light still to come, as a part of all and of dark lumels' own, to rest at.
-    double residual = 2e-4;
+    double residual = 1e-4;
     bool filter = true;  ///< makes weights for shown()
 };
 

@@ -337,11 +337,9 @@ TEST(LiveLinks, RequestsThatComeFasterThanTheyAreFollowedEndInTheLast)
               last * open_box_in_the_sun().instances[block].transform);
 }
 
-/// Does a line from 0 along a direction meet the box centre ± half[0] ± half[1] ± half[2]?
-bool meets(const glm::vec3& direction, const glm::vec3& centre, const glm::mat3& half)
+/// Does a line meet the box from -1 to 1?
+bool meets_unit_box(const glm::vec3& from, const glm::vec3& along)
 {
-    const glm::mat3 into = glm::inverse(half);  // the box is then from -1 to 1
-    const glm::vec3 from = into * -centre, along = into * direction;
     float enter = 0.0f, leave = std::numeric_limits<float>::max();
     for (int c = 0; c < 3; ++c) {
         const float a = (-1.0f - from[c]) / along[c], b = (1.0f - from[c]) / along[c];
@@ -368,12 +366,13 @@ TEST(LiveLinks, CellsHoldAllDirectionsThatMeetABox)
             has[cell] = 1;
             ++listed;
         });
+        const glm::mat3 into = glm::inverse(half);
         std::vector<char> hits(has.size(), 0);
         for (int n = 0; n < 2000; ++n) {
             const glm::vec2 at(0.5f + 0.5f * any(random), 0.5f + 0.5f * any(random));
             const float r = std::sqrt(at.x), turn = 2.0f * kPi * at.y;
             const glm::vec3 d(r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0f - at.x));
-            if (!meets(d, centre, half))
+            if (!meets_unit_box(into * -centre, into * d))
                 continue;
             ++met;
             const auto u = std::min(std::uint32_t(at.x * kCellsASide), kCellsASide - 1),
