@@ -7,7 +7,9 @@ namespace lumel {
 namespace {
 
 /// Distances at which shells end, in radii of the ball around the thing; the last has all the rest.
-constexpr std::array<float, 3> kShells{0.5f, 1.0f, 2.0f};
+constexpr std::array<float, 3> kEnds{0.5f, 1.0f, 2.0f};
+/// The shell of lumels on the thing, after the closest.
+constexpr std::size_t kOwn = 1, kShells = kEnds.size() + 2;
 
 }  // namespace
 
@@ -21,17 +23,22 @@ bool FollowOrder::ends_at(std::size_t place) const
     return std::binary_search(ends.begin(), ends.end(), place);
 }
 
-FollowOrder follow_order(const WorldLumels& world, const Box& box)
+FollowOrder follow_order(const WorldLumels& world, std::span<const std::uint32_t> own,
+                         const Box& box)
 {
-    std::array<float, kShells.size()> bounds{};
+    std::array<float, kEnds.size()> bounds{};  // squared [m²]
     for (std::size_t s = 0; s < bounds.size(); ++s)
-        bounds[s] = kShells[s] * kShells[s] * box.radius() * box.radius();
+        bounds[s] = kEnds[s] * kEnds[s] * box.radius() * box.radius();
+    std::vector<char> is_own(world.size(), 0);
+    for (const std::uint32_t i : own)
+        is_own[i] = 1;
     const auto shell_of = [&](std::size_t i) {
         const float distance2 = box.distance2(world[i].centre);
-        return std::size_t(std::upper_bound(bounds.begin(), bounds.end(), distance2) -
-                           bounds.begin());
+        const auto s =
+            std::size_t(std::upper_bound(bounds.begin(), bounds.end(), distance2) - bounds.begin());
+        return is_own[i] != 0 ? kOwn : s < kOwn ? s : s + 1;
     };
-    std::array<std::vector<std::uint32_t>, kShells.size() + 1> shells;
+    std::array<std::vector<std::uint32_t>, kShells> shells;
     for (std::size_t i = 0; i < world.size(); ++i)
         shells[shell_of(i)].push_back(std::uint32_t(i));
     FollowOrder order;

@@ -2,6 +2,7 @@
 // Whose links follow first when a thing moves.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/box.h"
@@ -9,9 +10,8 @@
 
 namespace lumel {
 
-/// All lumels, in shells around a thing. Of the light of a lumel a move changes a share that is the
-/// square of how large the lumel sees the thing; what its links cost is in proportion to that
-/// share.
+/// All lumels, in shells around a thing: those close to it, whose light a move changes most; those
+/// on it, which take longest, as all their links start elsewhere; then farther and farther ones.
 struct FollowOrder {
     std::vector<std::uint32_t> lumels;  ///< [N], those of a shell in their own order
     std::vector<std::size_t> ends;      ///< [shells] in `lumels`; no shell is empty
@@ -20,7 +20,8 @@ struct FollowOrder {
     std::size_t end_after(std::size_t place) const;
     bool ends_at(std::size_t place) const;
 };
-/// box: around the thing where it is now.
-FollowOrder follow_order(const WorldLumels& world, const Box& box);
+/// own: lumels on the thing. box: around it where it is now.
+FollowOrder follow_order(const WorldLumels& world, std::span<const std::uint32_t> own,
+                         const Box& box);
 
 }  // namespace lumel

@@ -313,7 +313,7 @@ void LiveLinks::put_requested()
                              following_.end());
             following_.push_back({.thing = t, .before = rays_.box(t)});
             put(t, *requested_[t]);
-            following_.back().order = follow_order(world_, rays_.box(t));
+            following_.back().order = follow_order(world_, lumels_of_[t], rays_.box(t));
             requested_[t].reset();
         }
     sources_->place();
