@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/number.h"
+#include "view/solve_order.h"
 #include "json/json_view.h"
 
 namespace lumel {
@@ -151,6 +152,17 @@ constexpr std::array kForms = {
                 .least = 1,
                 .most = 1,
                 .high = kMostSeconds},
+    CommandForm{.verb = Verb::solve,
+                .word = "solve",
+                .arguments = "METHOD [--OPTION VALUE ...]",
+                .meaning = "light the scene as it stands by another method, and show that; options "
+                           "and limits are those of lumel bake",
+                .takes = Word::method},
+    CommandForm{.verb = Verb::light,
+                .word = "light",
+                .arguments = "links | solved",
+                .meaning = "show the light of links, or what was solved of the scene as it stands",
+                .takes = Word::light},
     CommandForm{.verb = Verb::exposure,
                 .word = "exposure",
                 .arguments = "F | auto",
@@ -291,9 +303,12 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     switch (form.takes) {
     case Word::none:
         return false;
+    case Word::method:
     case Word::name:
     case Word::name_or_numbers:
         return true;
+    case Word::light:
+        return word == "links" || word == "solved";
     case Word::automatic:
         return word == "auto";
     case Word::mode:
@@ -339,6 +354,18 @@ const CommandForm* form_of(const std::string& word)
     return found == kForms.end() ? nullptr : &*found;
 }
 
+ScriptCommand take_order(ScriptCommand command, const std::vector<std::string>& words,
+                         const std::string& place)
+{
+    try {
+        command.text = words.front();
+        command.solver = solve_order(words);
+        return command;
+    } catch (const Error& error) {
+        throw Error(ErrorKind::input, place, error.what());
+    }
+}
+
 ScriptCommand read_command(const std::string& word, Words& rest, int line, const std::string& place)
 {
     ScriptCommand command{.form = form_of(word), .line = line};
@@ -348,6 +375,8 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
     std::vector<std::string> words;
     for (std::string next; rest.next(next);)
         words.push_back(next);
+    if (command.form->takes == Word::method && !words.empty())
+        return take_order(command, words, place);
     if (take(command, words))
         return command;
     std::string given;
@@ -379,6 +408,11 @@ void check_files(const std::vector<ScriptCommand>& commands, const std::string& 
 std::span<const CommandForm> command_forms()
 {
     return kForms;
+}
+
+ScriptCommand solve_command(const SolverOptions& solver)
+{
+    return {.form = form_of("solve"), .line = 0, .solver = solver};
 }
 
 std::string place_of(const std::string& place, int line)
