@@ -108,8 +108,8 @@ void show_methods(Desk& desk)
         return;
     }
     ImGui::ProgressBar(desk.solved_part);
-    wrapped(desk.solving);
     desk.stop |= ImGui::Button("stop");
+    wrapped(desk.solving);
 }
 
 }  // namespace

@@ -60,7 +60,10 @@ void note_progress(const SolveAside* solving, Desk& desk)
         return;
     const BakeProgress now = solving->progress();
     desk.solved_part = float(now.fraction);
-    desk.solving = fmt::format("{}: {}", method_of(solving->options().method).id, now.stage);
+    const MethodInfo& method = method_of(solving->options().method);
+    desk.solving = fmt::format("{}: {}", method.id, now.stage);
+    if (now.shots > 0)
+        desk.solving += fmt::format(", {} {}", now.shots, method.shots);
     if (now.error >= 0.0)
         desk.solving += fmt::format(", error {:.2g} %", kPercent * now.error);
 }

@@ -90,7 +90,8 @@ TEST(ViewSolve, SunAndSkyAreThoseOfNow)
     const Played played(own_scene("four-cubes.gltf"),
                         "eye 0,8,0.01\nlook 0,0,0\nwait\nsolve stochastic\npick 34,33\n"
                         "state lit.json\nsun 90,45\nsky 0.5\nwait\nstate links.json\n"
-                        "solve stochastic\nstate shadow.json\n",
+                        "solve stochastic\nstate shadow.json\nsun 270,45\nlamp sun 0.25\n"
+                        "solve stochastic\nstate dimmed.json\n",
                         {"--sun", "270,45", "--sky", "1000,1000,1000"});
     const auto lux = [&](const std::string& name) {
         return played.state(name)["pixel"]["illuminance_lx"].get<double>();
@@ -99,6 +100,7 @@ TEST(ViewSolve, SunAndSkyAreThoseOfNow)
     EXPECT_GT(lux("lit.json"), 30000.0);
     EXPECT_LT(lux("shadow.json"), 4000.0);
     EXPECT_NEAR(lux("shadow.json") / lux("links.json"), 1.0, 0.1);
+    EXPECT_NEAR(lux("dimmed.json") / lux("lit.json"), 0.25, 0.05);
 }
 
 TEST(ViewSolve, WhatIsDeletedIsMissing)
@@ -115,6 +117,16 @@ TEST(ViewSolve, WhatIsDeletedIsMissing)
     // Its shadow is gone with it.
     EXPECT_LT(difference(played.picture("gone.png"), played.picture("links.png")).mean, 1.5);
     EXPECT_GT(difference(played.picture("gone.png"), played.picture("there.png")).mean, 4.0);
+}
+
+TEST(ViewSolve, GlossIsReadAgainForThePlacesOfNow)
+{
+    const Played played(own_scene("cornell-box.gltf"),
+                        "exposure 10\nwait\npicture before.png\npick \"short block\"\n"
+                        "move -0.2,0,0\nwait\npicture links.png\nsolve glossy --error 3\n"
+                        "picture solved.png\n");
+    EXPECT_LT(difference(played.picture("solved.png"), played.picture("links.png")).mean, 3.0);
+    EXPECT_GT(difference(played.picture("before.png"), played.picture("links.png")).mean, 6.0);
 }
 
 TEST(ViewSolve, TheNextEditReturnsToLinks)
