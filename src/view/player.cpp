@@ -224,6 +224,8 @@ void ScriptPlayer::show(const ScriptCommand& command)
         return session_->step_exposure(float(n[0]));
     case Verb::mode:
         return session_->set_mode(mode_of(command.text));
+    case Verb::probes:
+        return session_->set_probes(n.empty() ? 0.0 : n[0]);
     case Verb::light:
         return session_->show_solved(command.text == "solved");
     case Verb::scale:

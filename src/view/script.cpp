@@ -163,6 +163,15 @@ constexpr std::array kForms = {
                 .arguments = "links | solved",
                 .meaning = "show the light of links, or what was solved of the scene as it stands",
                 .takes = Word::light},
+    CommandForm{.verb = Verb::probes,
+                .word = "probes",
+                .arguments = "SPACING | off",
+                .meaning = "show light probes as balls, over a grid of this spacing [m]",
+                .takes = Word::off,
+                .least = 1,
+                .most = 1,
+                .low = 1e-3,
+                .high = kFar},
     CommandForm{.verb = Verb::exposure,
                 .word = "exposure",
                 .arguments = "F | auto",
@@ -311,6 +320,8 @@ bool is_word_for(const CommandForm& form, const std::string& word)
         return word == "links" || word == "solved";
     case Word::automatic:
         return word == "auto";
+    case Word::off:
+        return word == "off";
     case Word::mode:
         return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
                word == "error";
@@ -330,7 +341,7 @@ bool take(ScriptCommand& command, const std::vector<std::string>& words)
     const CommandForm& form = *command.form;
     std::size_t taken = 0;
     const bool may_be_numbers = form.takes == Word::none || form.takes == Word::automatic ||
-                                form.takes == Word::name_or_numbers;
+                                form.takes == Word::off || form.takes == Word::name_or_numbers;
     if (may_be_numbers && form.least > 0 && !words.empty()) {
         command.numbers = numbers_of(form, words[0]);
         taken = command.numbers.empty() ? 0 : 1;
@@ -354,18 +365,6 @@ const CommandForm* form_of(const std::string& word)
     return found == kForms.end() ? nullptr : &*found;
 }
 
-ScriptCommand take_order(ScriptCommand command, const std::vector<std::string>& words,
-                         const std::string& place)
-{
-    try {
-        command.text = words.front();
-        command.solver = solve_order(words);
-        return command;
-    } catch (const Error& error) {
-        throw Error(ErrorKind::input, place, error.what());
-    }
-}
-
 ScriptCommand read_command(const std::string& word, Words& rest, int line, const std::string& place)
 {
     ScriptCommand command{.form = form_of(word), .line = line};
@@ -375,9 +374,10 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
     std::vector<std::string> words;
     for (std::string next; rest.next(next);)
         words.push_back(next);
-    if (command.form->takes == Word::method && !words.empty())
-        return take_order(command, words, place);
-    if (take(command, words))
+    const bool orders = command.form->takes == Word::method && !words.empty();
+    if (orders)
+        command.solver = solve_order(words, place);
+    if (orders || take(command, words))
         return command;
     std::string given;
     for (const std::string& one : words)

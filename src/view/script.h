@@ -30,6 +30,7 @@ enum class Verb {
     time,
     solve,
     light,
+    probes,
     exposure,
     stops,
     mode,
@@ -49,6 +50,7 @@ enum class Word {
     name,             ///< of something in the scene
     name_or_numbers,  ///< one of the two
     automatic,        ///< "auto", or the numbers
+    off,              ///< "off", or the numbers
     mode,             ///< "lit", "irradiance", "lumels", "links" or "error"
     light,            ///< "links" or "solved"
     method,           ///< a method, and then options with their values

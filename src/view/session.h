@@ -13,6 +13,7 @@
 #include "scene/animation.h"
 #include "scene/light_options.h"
 #include "view/camera.h"
+#include "view/probe_balls.h"
 #include "view/solved.h"
 #include "view/things.h"
 #include "json/json_view.h"
@@ -139,6 +140,13 @@ public:
     void step_exposure(float stops) { stops_ += stops; }
     void set_mode(ViewMode mode) { mode_ = mode; }
 
+    /// Shows light probes as balls, over a grid of that spacing [m] and where the file names them,
+    /// in ViewMode::lit and irradiance. 0: none. Throws Error{input} if there would be too many.
+    void set_probes(double spacing);
+    double probe_spacing() const { return probe_spacing_; }
+    /// Of the light that is shown, when it was last at rest.
+    const std::vector<ProbeBall>& probe_balls();
+
     /// The scene as it stands, its materials as that model reads them. Throws Error.
     StandingScene standing(MaterialModel model) const;
     std::uint64_t edits() const { return edits_; }  ///< changes to the scene so far
@@ -204,6 +212,7 @@ private:
         std::vector<glm::vec3> irradiance;
         std::vector<float> unsettled;
         std::optional<Image> map;
+        bool has_balls = false;  ///< balls_ were found in it
     };
 
     Seen& seen() { return shows_solved() ? by_solver_ : by_links_; }
@@ -211,6 +220,8 @@ private:
     void note_edit();
     glm::vec3 factor_of(const ViewLamp& lamp) const;
     Lumels lumels_of_solved() const;
+    void draw_lit_balls(Image& light);
+    void draw_lux_balls(Image& lux);
     ViewThing& picked_thing();
     std::optional<std::uint32_t> thing_of(std::uint32_t instance) const;
     const RayScene& rays();
@@ -261,6 +272,9 @@ private:
     std::optional<SolvedLight> solved_;  ///< of the scene as it stands
     bool shows_solved_ = false;
     Seen by_links_, by_solver_;
+    double probe_spacing_ = 0.0;  ///< [m], 0: none are shown
+    std::vector<ProbeBall> balls_;
+    bool balls_of_solved_ = false;
     // Made when they are asked for.
     std::optional<RayScene> rays_;
     std::optional<Preview> preview_;  ///< of drawn_

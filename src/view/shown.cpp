@@ -205,8 +205,12 @@ void ViewSession::set_automatic_exposure(bool automatic)
 Image ViewSession::lit_picture()
 {
     const Image& light = render(map(), PreviewShows::light);
-    const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
-    return tone_map(light, of_light * std::exp2(stops_));
+    const float factor = (exposure_ ? *exposure_ : choose_exposure(light)) * std::exp2(stops_);
+    if (mode_ != ViewMode::lit || !(probe_spacing_ > 0.0))
+        return tone_map(light, factor);
+    Image with_balls = light;
+    draw_lit_balls(with_balls);
+    return tone_map(with_balls, factor);
 }
 
 Image ViewSession::picture(Legend legend)
@@ -221,7 +225,9 @@ Image ViewSession::picture(Legend legend)
 Image ViewSession::coloured(const Image& map, const LuxScale& scale, const char* unit,
                             Legend legend)
 {
-    const Image values = luminances(render(map, PreviewShows::map));
+    Image values = luminances(render(map, PreviewShows::map));
+    if (mode_ == ViewMode::irradiance && probe_spacing_ > 0.0)
+        draw_lux_balls(values);
     return legend == Legend::none ? colours_of(values, scale) : false_colour(values, scale, unit);
 }
 

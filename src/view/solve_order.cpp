@@ -50,9 +50,7 @@ bool take_limit(SolverOptions& options, const std::string& name, const std::stri
     return false;
 }
 
-}  // namespace
-
-SolverOptions solve_order(std::span<const std::string> words)
+SolverOptions order_of(std::span<const std::string> words)
 {
     GivenMethod given;
     given.id = words.empty() ? std::string() : words.front();
@@ -75,6 +73,17 @@ SolverOptions solve_order(std::span<const std::string> words)
         options.target_error = SolverOptions{}.target_error;
     check_limits(options);
     return options;
+}
+
+}  // namespace
+
+SolverOptions solve_order(std::span<const std::string> words, const std::string& place)
+{
+    try {
+        return order_of(words);
+    } catch (const Error& error) {
+        throw Error(ErrorKind::input, place, error.what());
+    }
 }
 
 }  // namespace lumel

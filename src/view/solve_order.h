@@ -9,7 +9,7 @@
 namespace lumel {
 
 /// "progressive", "--batch", "4", "--error", "1": a method, then its options and limits as on the
-/// command line. Throws Error{input}.
-SolverOptions solve_order(std::span<const std::string> words);
+/// command line. Throws Error{input} with the place of these words.
+SolverOptions solve_order(std::span<const std::string> words, const std::string& place);
 
 }  // namespace lumel

@@ -6,6 +6,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "bake/probes.h"
 #include "core/luminance.h"
 #include "record/solver_settings.h"
 #include "view/session.h"
@@ -59,6 +60,19 @@ Json error_of(ViewSession& session)
     const LuxScale scale = session.error_scale();
     return {{"mean_percent", percent_of(sum / double(percent.size()))},
             {"scale_percent", Json::array({scale.low, scale.high})}};
+}
+
+/// Light probes as they are shown.
+Json probes_of(ViewSession& session)
+{
+    if (!(session.probe_spacing() > 0.0))
+        return nullptr;
+    Json probes = Json::array();
+    for (const ProbeBall& ball : session.probe_balls())
+        probes.push_back({{"position", numbers(ball.place)},
+                          {"coefficients", coefficients_of(ball.light)},
+                          {"noise", ball.light.noise}});
+    return {{"spacing_m", session.probe_spacing()}, {"probes", probes}};
 }
 
 /// What was solved of the scene as it stands.
@@ -170,6 +184,7 @@ Json state_of(ViewSession& session)
                         {"factor", session.exposure()}};
     json["scale_lx"] = Json::array({scale.low, scale.high});
     json["error"] = error_of(session);
+    json["probes"] = probes_of(session);
     json["pixel"] = pixel_of(session);
     json["picked"] = picked_of(session);
     json["links"] = links_of(session);

@@ -20,9 +20,10 @@ namespace lumel {
 namespace {
 
 constexpr float kBrightest = 4.0f;  ///< of a lamp's slider, times its own light
-constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;                 ///< [ms]
-constexpr float kDarkest = 1e-6f, kLightest = 1e3f;                        ///< exposure by hand
-constexpr float kTurnStep = 15.0f;                                         ///< [degrees]
+constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;  ///< [ms]
+constexpr float kDarkest = 1e-6f, kLightest = 1e3f;         ///< exposure by hand
+constexpr float kDensest = 0.5f, kSparsest = 5.0f;          ///< grid of probes, in strides
+constexpr float kTurnStep = 15.0f;                          ///< [degrees]
 constexpr float kLowestSun = -10.0f, kZenith = 90.0f, kHalfTurn = 180.0f;  ///< [degrees]
 /// Where and on which day the sun goes its way, where the options do not say.
 constexpr double kLatitude = 50.0, kLongitude = 0.0;  ///< [degrees]
@@ -159,6 +160,22 @@ bool show_picked(ViewSession& session)
     return changed;
 }
 
+/// A grid of light probes, as dense as the scene is walked through in strides at first.
+bool show_probes(ViewSession& session, const Desk& desk)
+{
+    auto spacing = float(session.probe_spacing());
+    bool shown = spacing > 0.0f;
+    bool changed = ImGui::Checkbox("probes", &shown);
+    if (changed)
+        spacing = shown ? desk.stride : 0.0f;
+    if (shown)
+        changed |= ImGui::SliderFloat("spacing", &spacing, kDensest * desk.stride,
+                                      kSparsest * desk.stride, "%.2g m");
+    if (changed)
+        session.set_probes(double(spacing));
+    return changed;
+}
+
 bool show_mode(ViewSession& session, Desk& desk)
 {
     int mode = int(session.mode());
@@ -178,7 +195,7 @@ bool show_mode(ViewSession& session, Desk& desk)
         }
     }
     changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
-    return changed;
+    return show_probes(session, desk) || changed;
 }
 
 /// The colours of a mode and what they stand for.
