@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "option_values.h"
 #include "shared_options.h"
+#include "solve/methods.h"
 #include "view/script.h"
 
 namespace lumel {
@@ -49,9 +50,26 @@ void add_session_options(CLI::App& app, ViewArguments& view)
         ->check(positive());
 }
 
+/// "links|stochastic|..."
+std::string names_of_methods()
+{
+    std::string names;
+    for (const MethodInfo& method : methods())
+        names += (names.empty() ? "" : "|") + std::string(method.id);
+    return names;
+}
+
 void add_method_options(CLI::App& app, SessionOptions& options)
 {
     app.option_defaults()->group(kSessionGroup);
+    app.add_option_function<std::string>(
+           "--solver",
+           [&options](const std::string& id) {
+               options.solver = SolverOptions{.method = method_of(id).defaults()};
+           },
+           "Show the light of this method first, before the first edit; see lumel methods")
+        ->type_name(names_of_methods())
+        ->default_str("none: links that are kept");
     app.add_option("--links", options.link_rays, "Rays that each lumel keeps: 4, 16, 64 or 256")
         ->type_name("N")
         ->capture_default_str()

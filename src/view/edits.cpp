@@ -1,5 +1,10 @@
-// What was done to one session, done to another of the same scene.
+// A session at another time of its animation, and what was done to it done to another of the same
+// scene.
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "live/still_part.h"
 #include "view/session.h"
 
 namespace lumel {
@@ -12,6 +17,37 @@ bool are_alike(const std::optional<SunPosition>& a, const std::optional<SunPosit
 }
 
 }  // namespace
+
+void ViewSession::set_time(double seconds)
+{
+    std::vector<glm::mat4> motions;
+    for (const ViewThing& thing : things_) {
+        if (!thing.played)
+            continue;
+        const std::uint32_t any = thing.instances.front();
+        const glm::mat4 now = place_in(shown_, animation_, shown_.instances[any].node, seconds);
+        if (!is_rigid(given_[any], now))
+            throw Error(
+                ErrorKind::input, "",
+                fmt::format("\"{}\" is stretched by the animation at {:g} s", thing.name, seconds));
+        motions.push_back(now == given_[any]
+                              ? glm::mat4(1.0f)
+                              : glm::mat4(glm::dmat4(now) * glm::inverse(glm::dmat4(given_[any]))));
+    }
+    time_ = seconds;
+    auto motion = motions.begin();
+    for (std::uint32_t t = 0; t < things_.size(); ++t)
+        if (things_[t].played) {
+            things_[t].animation = *motion++;
+            if (!things_[t].deleted)
+                put(t);
+        }
+    for (const AnimatedMaterial& material : animation_.materials)
+        played_[std::size_t(material.material)] = emission_factor(material, seconds);
+    for (const ViewLamp& lamp : lamps_)
+        if (!lamp.is_light)
+            apply(lamp);
+}
 
 void ViewSession::take_edits(const ViewSession& before)
 {
@@ -40,6 +76,7 @@ void ViewSession::take_edits(const ViewSession& before)
     mode_ = before.mode_;
     scale_ = before.scale_;
     error_scale_ = before.error_scale_;
+    probe_spacing_ = before.probe_spacing_;
 }
 
 /// Lamps, sun, sky and time.

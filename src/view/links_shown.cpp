@@ -86,6 +86,7 @@ std::vector<ViewLink> ViewSession::links()
     const glm::vec3 from = place_of(live_.scene(), lumels[own]);
     const float far = glm::distance(rays().low(), rays().high());
     const float each = 1.0f / float(links.rays());
+    const std::vector<glm::vec3>& irradiance = irradiance_of(by_links_);
     for (std::uint32_t ray = 0; ray < links.rays(); ++ray) {
         const std::uint32_t end = links.of(own)[ray];
         if (end < lumels.size()) {
@@ -93,7 +94,7 @@ std::vector<ViewLink> ViewSession::links()
             found.push_back(
                 {.name = live_.scene().instances[other.instance].name,
                  .to = place_of(live_.scene(), other),
-                 .light = each * (emission_of(other) + live_.albedo()[end] * irradiance()[end])});
+                 .light = each * (emission_of(other) + live_.albedo()[end] * irradiance[end])});
         } else if (end == links.sky()) {
             const glm::vec3 direction = links.direction(own, ray);
             found.push_back({.name = "sky",

@@ -6,12 +6,15 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/log.h"
 #include "images/image_files.h"
 #include "view/save.h"
 #include "json/json_file.h"
 
 namespace lumel {
 namespace {
+
+constexpr std::chrono::milliseconds kLook(20);  ///< between looks at a solve
 
 glm::vec3 vector_of(const std::vector<double>& numbers)
 {
@@ -86,6 +89,11 @@ bool ScriptPlayer::play(const ScriptCommand& command)
     case Verb::wait:
         next_ += session_->frame().at_rest ? 1 : 0;
         return false;
+    case Verb::solve:
+        if (!solve(command))
+            return false;
+        ++next_;
+        return true;
     case Verb::quit:
         quit_ = true;
         next_ = script_.size();
@@ -100,6 +108,22 @@ bool ScriptPlayer::play(const ScriptCommand& command)
         ++next_;
         return true;
     }
+}
+
+/// True once its light is there.
+bool ScriptPlayer::solve(const ScriptCommand& command)
+{
+    if (!solving_)
+        solving_ = std::make_unique<SolveAside>(*session_, command.solver);
+    if (!solving_->has_ended(kLook))
+        return false;
+    const std::unique_ptr<SolveAside> ended = std::move(solving_);
+    SolvedLight light = ended->take();
+    for (const std::string& warning : light.warnings)
+        log_warning(warning);
+    if (!session_->take_solved(std::move(light), ended->edits()))
+        log_warning("the scene was changed while it was solved: the light of links is shown");
+    return true;
 }
 
 /// True if it is a command that writes a file.
@@ -200,6 +224,10 @@ void ScriptPlayer::show(const ScriptCommand& command)
         return session_->step_exposure(float(n[0]));
     case Verb::mode:
         return session_->set_mode(mode_of(command.text));
+    case Verb::probes:
+        return session_->set_probes(n.empty() ? 0.0 : n[0]);
+    case Verb::light:
+        return session_->show_solved(command.text == "solved");
     case Verb::scale:
         if (n.empty())
             return session_->set_scale(std::nullopt);

@@ -2,6 +2,7 @@
 // A script played on a session, a frame of light at a time.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,17 @@ public:
                  OutputFolder& output, std::string folder, std::function<Image()> window = {});
 
     bool done() const { return next_ == script_.size(); }
-    bool has_quit() const { return quit_; }  ///< by its own word
+    const SolveAside* solving() const { return solving_.get(); }  ///< null: nothing is solved now
+    bool has_quit() const { return quit_; }                       ///< by its own word
     /// Does what stands before the next frame of light, and lets light follow for it; or all that
-    /// is left. Throws Error; of a command that cannot be done with "script:line".
+    /// is left. While a method solves, it is a step to wait a moment for it. Throws Error; of a
+    /// command that cannot be done with "script:line".
     void step();
     const std::vector<std::string>& files() const { return files_; }  ///< written
 
 private:
     bool play(const ScriptCommand& command);
+    bool solve(const ScriptCommand& command);
     bool write(const ScriptCommand& command);
     void look(const ScriptCommand& command);
     void handle(const ScriptCommand& command);
@@ -42,6 +46,7 @@ private:
     std::function<Image()> window_;
     std::size_t next_ = 0;
     int frames_ = 0;  ///< of the command that is being done
+    std::unique_ptr<SolveAside> solving_;
     bool quit_ = false;
     std::vector<std::string> files_;
 };

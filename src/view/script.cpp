@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/number.h"
+#include "view/solve_order.h"
 #include "json/json_view.h"
 
 namespace lumel {
@@ -151,6 +152,26 @@ constexpr std::array kForms = {
                 .least = 1,
                 .most = 1,
                 .high = kMostSeconds},
+    CommandForm{.verb = Verb::solve,
+                .word = "solve",
+                .arguments = "METHOD [--OPTION VALUE ...]",
+                .meaning = "light the scene as it stands by another method, and show that; options "
+                           "and limits are those of lumel bake",
+                .takes = Word::method},
+    CommandForm{.verb = Verb::light,
+                .word = "light",
+                .arguments = "links | solved",
+                .meaning = "show the light of links, or what was solved of the scene as it stands",
+                .takes = Word::light},
+    CommandForm{.verb = Verb::probes,
+                .word = "probes",
+                .arguments = "SPACING | off",
+                .meaning = "show light probes as balls, over a grid of this spacing [m]",
+                .takes = Word::off,
+                .least = 1,
+                .most = 1,
+                .low = 1e-3,
+                .high = kFar},
     CommandForm{.verb = Verb::exposure,
                 .word = "exposure",
                 .arguments = "F | auto",
@@ -291,11 +312,16 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     switch (form.takes) {
     case Word::none:
         return false;
+    case Word::method:
     case Word::name:
     case Word::name_or_numbers:
         return true;
+    case Word::light:
+        return word == "links" || word == "solved";
     case Word::automatic:
         return word == "auto";
+    case Word::off:
+        return word == "off";
     case Word::mode:
         return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
                word == "error";
@@ -315,7 +341,7 @@ bool take(ScriptCommand& command, const std::vector<std::string>& words)
     const CommandForm& form = *command.form;
     std::size_t taken = 0;
     const bool may_be_numbers = form.takes == Word::none || form.takes == Word::automatic ||
-                                form.takes == Word::name_or_numbers;
+                                form.takes == Word::off || form.takes == Word::name_or_numbers;
     if (may_be_numbers && form.least > 0 && !words.empty()) {
         command.numbers = numbers_of(form, words[0]);
         taken = command.numbers.empty() ? 0 : 1;
@@ -348,7 +374,10 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
     std::vector<std::string> words;
     for (std::string next; rest.next(next);)
         words.push_back(next);
-    if (take(command, words))
+    const bool orders = command.form->takes == Word::method && !words.empty();
+    if (orders)
+        command.solver = solve_order(words, place);
+    if (orders || take(command, words))
         return command;
     std::string given;
     for (const std::string& one : words)
@@ -379,6 +408,11 @@ void check_files(const std::vector<ScriptCommand>& commands, const std::string& 
 std::span<const CommandForm> command_forms()
 {
     return kForms;
+}
+
+ScriptCommand solve_command(const SolverOptions& solver)
+{
+    return {.form = form_of("solve"), .line = 0, .solver = solver};
 }
 
 std::string place_of(const std::string& place, int line)

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "solve/options.h"
+
 namespace lumel {
 
 enum class Verb {
@@ -26,6 +28,9 @@ enum class Verb {
     turn_sky,
     sun,
     time,
+    solve,
+    light,
+    probes,
     exposure,
     stops,
     mode,
@@ -45,7 +50,10 @@ enum class Word {
     name,             ///< of something in the scene
     name_or_numbers,  ///< one of the two
     automatic,        ///< "auto", or the numbers
+    off,              ///< "off", or the numbers
     mode,             ///< "lit", "irradiance", "lumels", "links" or "error"
+    light,            ///< "links" or "solved"
+    method,           ///< a method, and then options with their values
     png,              ///< name of a file
     json,
     folder,  ///< its name
@@ -68,11 +76,15 @@ struct ScriptCommand {
     int line;                     ///< from 1
     std::string text;             ///< the word
     std::vector<double> numbers;  ///< empty where the word stands for them
+    SolverOptions solver = {};    ///< of Word::method
 };
 
 /// `place`: the file's name, for messages. Throws Error{input} with "place:line" for what is no
 /// command, or writes a file twice.
 std::vector<ScriptCommand> read_script(std::string_view text, const std::string& place);
+
+/// The command that solves by a method, as the line 0 of a script.
+ScriptCommand solve_command(const SolverOptions& solver);
 
 /// A line of the script, as messages name it.
 std::string place_of(const std::string& place, int line);

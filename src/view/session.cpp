@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/error.h"
 #include "core/luminance.h"
-#include "live/still_part.h"
 #include "preview/view.h"
 #include "scene/clear_sky.h"
 #include "view/clock.h"
@@ -98,14 +96,6 @@ ViewSession::ViewSession(const gpu::Device& device, Scene scene, Animation anima
     for (const Instance& instance : shown_.instances)
         given_.push_back(instance.transform);
     set_time(0.0);
-}
-
-void FrameCosts::add(double ms)
-{
-    ++frames;
-    last_ms = ms;
-    most_ms = std::max(most_ms, ms);
-    all_ms += ms;
 }
 
 void ViewSession::take_camera(int index)
@@ -237,6 +227,7 @@ void ViewSession::put(std::uint32_t number)
     for (const std::uint32_t instance : thing.instances)
         shown_.instances[instance].transform = motion * given_[instance];
     rays_.reset();
+    note_edit();
 }
 
 glm::vec3 ViewSession::away()
@@ -288,13 +279,20 @@ void ViewSession::hide(std::uint32_t thing)
         preview_->show(shown_, drawn_);
 }
 
+/// What a lamp is of what the scene has.
+glm::vec3 ViewSession::factor_of(const ViewLamp& lamp) const
+{
+    if (!lamp.is_light)
+        return lamp.factor * played_[lamp.index];
+    return lamp.factor * (lamp.index == sun_light_ ? sun_factor_ : 1.0f);
+}
+
 void ViewSession::apply(const ViewLamp& lamp)
 {
-    if (lamp.is_light) {
-        live_.set_light(lamp.index, lamp.factor * (lamp.index == sun_light_ ? sun_factor_ : 1.0f));
-        return;
-    }
-    const glm::vec3 factor = lamp.factor * played_[lamp.index];
+    const glm::vec3 factor = factor_of(lamp);
+    note_edit();
+    if (lamp.is_light)
+        return live_.set_light(lamp.index, factor);
     live_.set_emission(lamp.index, factor);
     shown_.materials[lamp.index].emitted = factor * live_.scene().materials[lamp.index].emitted;
 }
@@ -338,12 +336,14 @@ void ViewSession::paint(const glm::vec3& colour)
     live_.set_albedo(std::uint32_t(picked_->material), colour);
     glm::vec4& base = shown_.materials[std::size_t(picked_->material)].base_color;
     base = glm::vec4(colour, base.a);
+    note_edit();
 }
 
 void ViewSession::set_sky(const glm::vec3& factor)
 {
     live_.set_sky(factor);
     sky_ = factor;
+    note_edit();
 }
 
 /// A clear sky that came with the sun is that of where it stands now.
@@ -352,14 +352,17 @@ void ViewSession::place_sky()
     const LightOptions& lights = options_.lights;
     const bool with_sun = lights.sun && lights.sky_file.empty() && !lights.sky_color &&
                           !lights.overcast && !shown_.sky.empty();
-    if (!with_sun)
-        return live_.turn_sky(sky_angle_);
+    if (!with_sun) {
+        live_.turn_sky(sky_angle_);
+        return note_edit();
+    }
     Scene under;
     LightOptions now = lights;
     now.sun = sun_;
     now.profiles.clear();
     add_lights(under, now);
     live_.replace_sky(std::move(under.sky), sky_angle_);
+    note_edit();
 }
 
 void ViewSession::turn_sky(double angle)
@@ -392,37 +395,6 @@ void ViewSession::set_sun(const SunPosition& sun)
         place_sky();
 }
 
-void ViewSession::set_time(double seconds)
-{
-    std::vector<glm::mat4> motions;
-    for (const ViewThing& thing : things_) {
-        if (!thing.played)
-            continue;
-        const std::uint32_t any = thing.instances.front();
-        const glm::mat4 now = place_in(shown_, animation_, shown_.instances[any].node, seconds);
-        if (!is_rigid(given_[any], now))
-            throw Error(
-                ErrorKind::input, "",
-                fmt::format("\"{}\" is stretched by the animation at {:g} s", thing.name, seconds));
-        motions.push_back(now == given_[any]
-                              ? glm::mat4(1.0f)
-                              : glm::mat4(glm::dmat4(now) * glm::inverse(glm::dmat4(given_[any]))));
-    }
-    time_ = seconds;
-    auto motion = motions.begin();
-    for (std::uint32_t t = 0; t < things_.size(); ++t)
-        if (things_[t].played) {
-            things_[t].animation = *motion++;
-            if (!things_[t].deleted)
-                put(t);
-        }
-    for (const AnimatedMaterial& material : animation_.materials)
-        played_[std::size_t(material.material)] = emission_factor(material, seconds);
-    for (const ViewLamp& lamp : lamps_)
-        if (!lamp.is_light)
-            apply(lamp);
-}
-
 const LiveLinksState& ViewSession::frame()
 {
     const Clock::time_point start = Clock::now();
@@ -432,9 +404,7 @@ const LiveLinksState& ViewSession::frame()
     costs_.add(ms_since(start));
     if (before.at_rest && state.at_rest && before.all_sweeps == state.all_sweeps)
         return state;
-    irradiance_.clear();
-    unsettled_.clear();
-    map_.reset();
+    by_links_ = {};
     return state;
 }
 

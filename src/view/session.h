@@ -13,6 +13,8 @@
 #include "scene/animation.h"
 #include "scene/light_options.h"
 #include "view/camera.h"
+#include "view/probe_balls.h"
+#include "view/solved.h"
 #include "view/things.h"
 #include "json/json_view.h"
 
@@ -30,7 +32,8 @@ struct SessionOptions {
     int camera = -1;            ///< index into the file's cameras; -1: the first, or one chosen
     int width = 640;            ///< of pictures [pixels]
     std::size_t animation = 0;  ///< index into the file's animations
-    std::vector<std::string> movable;  ///< names of what may move; empty: what is small
+    std::vector<std::string> movable;     ///< names of what may move; empty: what is small
+    std::optional<SolverOptions> solver;  ///< that the scene is lit by first; none: links alone
 };
 
 enum class ViewMode {
@@ -136,6 +139,28 @@ public:
     void set_automatic_exposure(bool automatic);
     void step_exposure(float stops) { stops_ += stops; }
     void set_mode(ViewMode mode) { mode_ = mode; }
+
+    /// Shows light probes as balls, over a grid of that spacing [m] and where the file names them,
+    /// in ViewMode::lit and irradiance. 0: none. Throws Error{input} if there would be too many.
+    void set_probes(double spacing);
+    double probe_spacing() const { return probe_spacing_; }
+    /// Of the light that is shown, when it was last at rest.
+    const std::vector<ProbeBall>& probe_balls();
+
+    /// The scene as it stands, its materials as that model reads them. Throws Error.
+    StandingScene standing(MaterialModel model) const;
+    std::uint64_t edits() const { return edits_; }  ///< changes to the scene so far
+    /// Shows that light from now on, of the scene as it was after so many edits. False if there
+    /// were more since, and it is not taken.
+    bool take_solved(SolvedLight light, std::uint64_t edits);
+    /// Shows what was solved of the scene as it stands, or else the light of links. Throws
+    /// Error{input} if nothing was.
+    void show_solved(bool solved);
+    /// What was solved of the scene as it stands; null: nothing.
+    const SolvedLight* solved() const { return solved_ ? &*solved_ : nullptr; }
+    /// Is that shown, and not the light of links? Never in ViewMode::links.
+    bool shows_solved() const;
+
     /// Of the false colours of this mode; none: automatic.
     void set_scale(const std::optional<LuxScale>& scale);
 
@@ -158,9 +183,10 @@ public:
     float exposure();        ///< factor from cd/m² to brightness
     LuxScale scale();        ///< of the mode irradiance
     LuxScale error_scale();  ///< of the mode error [%]
-    /// [N] What is not settled of it, as it is shown [%]; see LiveLinks::unsettled().
+    /// [N] What is not settled of it, as it is shown [%]; see LiveLinks::unsettled(). Of what was
+    /// solved: the error that the method states, everywhere; less than 0 if it states none.
     const std::vector<float>& unsettled();
-    const std::vector<glm::vec3>& irradiance();  ///< [N] [lx] as it is shown
+    const std::vector<glm::vec3>& irradiance() { return irradiance_of(seen()); }  ///< [N] [lx]
 
     const LiveLinks& light() const { return live_; }
     const Scene& scene() const { return shown_; }
@@ -180,6 +206,22 @@ public:
     const gpu::Device& device() const { return *device_; }
 
 private:
+    /// A light of the session: of links, or what was solved. What is empty is made when it is asked
+    /// for.
+    struct Seen {
+        std::vector<glm::vec3> irradiance;
+        std::vector<float> unsettled;
+        std::optional<Image> map;
+        bool has_balls = false;  ///< balls_ were found in it
+    };
+
+    Seen& seen() { return shows_solved() ? by_solver_ : by_links_; }
+    const std::vector<glm::vec3>& irradiance_of(Seen& seen);
+    void note_edit();
+    glm::vec3 factor_of(const ViewLamp& lamp) const;
+    Lumels lumels_of_solved() const;
+    void draw_lit_balls(Image& light);
+    void draw_lux_balls(Image& lux);
     ViewThing& picked_thing();
     std::optional<std::uint32_t> thing_of(std::uint32_t instance) const;
     const RayScene& rays();
@@ -226,12 +268,16 @@ private:
     glm::vec3 sky_{1.0f};  ///< factor by hand
     double sky_angle_ = 0.0, time_ = 0.0;
     FrameCosts costs_, picture_costs_;
+    std::uint64_t edits_ = 0;
+    std::optional<SolvedLight> solved_;  ///< of the scene as it stands
+    bool shows_solved_ = false;
+    Seen by_links_, by_solver_;
+    double probe_spacing_ = 0.0;  ///< [m], 0: none are shown
+    std::vector<ProbeBall> balls_;
+    bool balls_of_solved_ = false;
     // Made when they are asked for.
     std::optional<RayScene> rays_;
     std::optional<Preview> preview_;  ///< of drawn_
-    std::vector<glm::vec3> irradiance_;
-    std::vector<float> unsettled_;
-    std::optional<Image> map_;
 };
 
 /// The session and what it shows as JSON.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atlas/sides.h"
+#include "core/error.h"
 #include "core/luminance.h"
 #include "finish/finish.h"
 #include "images/image_files.h"
@@ -64,18 +65,71 @@ Image luminances(const Image& image)
 
 }  // namespace
 
-const std::vector<glm::vec3>& ViewSession::irradiance()
+void FrameCosts::add(double ms)
 {
-    if (irradiance_.empty())
-        irradiance_ = live_.shown();
-    return irradiance_;
+    ++frames;
+    last_ms = ms;
+    most_ms = std::max(most_ms, ms);
+    all_ms += ms;
+}
+
+/// What was solved stands in the place of links until the scene changes.
+void ViewSession::note_edit()
+{
+    ++edits_;
+    solved_.reset();
+    by_solver_ = {};
+}
+
+bool ViewSession::take_solved(SolvedLight light, std::uint64_t edits)
+{
+    if (edits != edits_)
+        return false;
+    by_solver_ = {.irradiance = std::move(light.irradiance)};
+    solved_ = std::move(light);
+    shows_solved_ = true;
+    return true;
+}
+
+void ViewSession::show_solved(bool solved)
+{
+    if (solved && !solved_)
+        throw Error(ErrorKind::input, "",
+                    "nothing is solved of the scene as it stands; solve METHOD does it");
+    shows_solved_ = solved;
+}
+
+bool ViewSession::shows_solved() const
+{
+    return solved_ && shows_solved_ && mode_ != ViewMode::links;
+}
+
+const std::vector<glm::vec3>& ViewSession::irradiance_of(Seen& seen)
+{
+    if (seen.irradiance.empty())
+        seen.irradiance = live_.shown();
+    return seen.irradiance;
+}
+
+/// Things that were moved may bury lumels, or no longer.
+Lumels ViewSession::lumels_of_solved() const
+{
+    Lumels lumels = live_.lumels();
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        std::uint32_t& flags = lumels.lumels[i].flags;
+        flags = solved_->buried[i] ? flags | kLumelBuried : flags & ~kLumelBuried;
+    }
+    return lumels;
 }
 
 const Image& ViewSession::map()
 {
-    if (!map_)
-        map_ = finish_map(shown_, live_.atlas(), live_.lumels(), irradiance());
-    return *map_;
+    std::optional<Image>& map = seen().map;
+    if (!map && shows_solved())
+        map = finish_map(shown_, live_.atlas(), lumels_of_solved(), irradiance());
+    else if (!map)
+        map = finish_map(shown_, live_.atlas(), live_.lumels(), irradiance());
+    return *map;
 }
 
 glm::ivec2 ViewSession::size() const
@@ -109,10 +163,15 @@ LuxScale ViewSession::scale()
 
 const std::vector<float>& ViewSession::unsettled()
 {
-    if (unsettled_.empty())
+    std::vector<float>& percent = seen().unsettled;
+    if (!percent.empty())
+        return percent;
+    if (shows_solved())
+        percent.assign(live_.lumels().lumels.size(), kPercent * float(solved_->error));
+    else
         for (const float part : live_.unsettled())
-            unsettled_.push_back(kPercent * part);
-    return unsettled_;
+            percent.push_back(kPercent * part);
+    return percent;
 }
 
 /// Of surfaces whose sides share their texels it shows the side that light shows.
@@ -146,8 +205,12 @@ void ViewSession::set_automatic_exposure(bool automatic)
 Image ViewSession::lit_picture()
 {
     const Image& light = render(map(), PreviewShows::light);
-    const float of_light = exposure_ ? *exposure_ : choose_exposure(light);
-    return tone_map(light, of_light * std::exp2(stops_));
+    const float factor = (exposure_ ? *exposure_ : choose_exposure(light)) * std::exp2(stops_);
+    if (mode_ != ViewMode::lit || !(probe_spacing_ > 0.0))
+        return tone_map(light, factor);
+    Image with_balls = light;
+    draw_lit_balls(with_balls);
+    return tone_map(with_balls, factor);
 }
 
 Image ViewSession::picture(Legend legend)
@@ -162,7 +225,9 @@ Image ViewSession::picture(Legend legend)
 Image ViewSession::coloured(const Image& map, const LuxScale& scale, const char* unit,
                             Legend legend)
 {
-    const Image values = luminances(render(map, PreviewShows::map));
+    Image values = luminances(render(map, PreviewShows::map));
+    if (mode_ == ViewMode::irradiance && probe_spacing_ > 0.0)
+        draw_lux_balls(values);
     return legend == Legend::none ? colours_of(values, scale) : false_colour(values, scale, unit);
 }
 

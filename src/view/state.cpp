@@ -6,7 +6,9 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "bake/probes.h"
 #include "core/luminance.h"
+#include "record/solver_settings.h"
 #include "view/session.h"
 
 namespace lumel {
@@ -44,14 +46,48 @@ Json costs_of(const FrameCosts& costs)
             {"mean_ms", costs.all_ms / double(std::max(costs.frames, 1))}};
 }
 
+/// None is less than 0.
+Json percent_of(double percent)
+{
+    return percent < 0.0 ? Json(nullptr) : Json(percent);
+}
+
 /// What is not settled, as a mean over lumels.
 Json error_of(ViewSession& session)
 {
     const std::vector<float>& percent = session.unsettled();
     const double sum = std::accumulate(percent.begin(), percent.end(), 0.0);
     const LuxScale scale = session.error_scale();
-    return {{"mean_percent", sum / double(percent.size())},
+    return {{"mean_percent", percent_of(sum / double(percent.size()))},
             {"scale_percent", Json::array({scale.low, scale.high})}};
+}
+
+/// Light probes as they are shown.
+Json probes_of(ViewSession& session)
+{
+    if (!(session.probe_spacing() > 0.0))
+        return nullptr;
+    Json probes = Json::array();
+    for (const ProbeBall& ball : session.probe_balls())
+        probes.push_back({{"position", numbers(ball.place)},
+                          {"coefficients", coefficients_of(ball.light)},
+                          {"noise", ball.light.noise}});
+    return {{"spacing_m", session.probe_spacing()}, {"probes", probes}};
+}
+
+/// What was solved of the scene as it stands.
+Json solved_of(ViewSession& session)
+{
+    const SolvedLight* solved = session.solved();
+    if (!solved)
+        return nullptr;
+    Json json = solver_settings(solved->options);
+    json["shots"] = solved->shots;
+    json["seconds"] = solved->seconds;
+    json["error_percent"] = percent_of(100.0 * solved->error);
+    json["stopped"] = solved->stopped;
+    json["shown"] = session.shows_solved();
+    return json;
 }
 
 Json lumel_of(ViewSession& session, std::uint32_t number)
@@ -66,7 +102,7 @@ Json lumel_of(ViewSession& session, std::uint32_t number)
             {"back", (lumel.flags & kLumelBack) != 0},
             {"irradiance", numbers(light)},
             {"illuminance_lx", luminance(light)},
-            {"error_percent", session.unsettled()[number]}};
+            {"error_percent", percent_of(session.unsettled()[number])}};
 }
 
 Json picked_of(ViewSession& session)
@@ -135,6 +171,7 @@ Json state_of(ViewSession& session)
     const glm::ivec2 size = session.size();
     Json json;
     json["light"] = light_of(session);
+    json["solved"] = solved_of(session);
     json["frames"] = costs_of(session.costs());
     json["pictures"] = costs_of(session.picture_costs());
     json["picture"] = {{"width", size.x}, {"height", size.y}};
@@ -147,6 +184,7 @@ Json state_of(ViewSession& session)
                         {"factor", session.exposure()}};
     json["scale_lx"] = Json::array({scale.low, scale.high});
     json["error"] = error_of(session);
+    json["probes"] = probes_of(session);
     json["pixel"] = pixel_of(session);
     json["picked"] = picked_of(session);
     json["links"] = links_of(session);

@@ -80,6 +80,8 @@ ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
     for (const std::string& note : session.light().atlas().notes)
         log_info(note);
     stages.begin("playing");
+    if (options.solver)
+        script.insert(script.begin(), solve_command(*options.solver));
     ScriptPlayer player(std::move(script), run.script, session, output, run.folder);
     while (!player.done()) {
         if (!stages.progress(0.0))

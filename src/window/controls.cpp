@@ -35,6 +35,7 @@ constexpr std::array kHelp = {
     KeyHelp{"Delete", "take it out of the scene"},
     KeyHelp{"Esc", "pick nothing"},
     KeyHelp{"M", "next mode: light, lux, lumels, links, error"},
+    KeyHelp{"L", "light of links, or what was solved by another method"},
     KeyHelp{"+ -", "expose more, less"},
     KeyHelp{"X", "automatic exposure on, off"},
     KeyHelp{"Space", "play or stop the animation"},
@@ -145,6 +146,8 @@ void Controls::press(const KeyPress& press, ViewSession& session, Desk& desk, Sc
         return session.unpick();
     case GLFW_KEY_M:
         return next_mode(session);
+    case GLFW_KEY_L:
+        return session.show_solved(!session.shows_solved());
     case GLFW_KEY_EQUAL:
     case GLFW_KEY_KP_ADD:
         return session.step_exposure(kStop);

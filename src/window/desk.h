@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include "solve/methods.h"
+
 namespace lumel {
 
 /// Widths of the panel, and of the window that has room for it and a picture [pixels].
@@ -25,6 +27,11 @@ struct Desk {
     /// What the light is to be solved with, once that is asked for.
     int rays = 0, atlas = 0, seed = 0;
     bool solve = false;
+    GivenMethod method;                   ///< that the scene is to be solved by besides
+    float error = 2.0f;                   ///< to solve it to [%]
+    bool solve_by = false, stop = false;  ///< asked for: to begin, to end it
+    std::string solving;                  ///< what is being solved, and how far; empty: nothing
+    float solved_part = 0.0f;             ///< of its stage
 
     /// Pixels of the picture that fill the area.
     glm::ivec2 pixels() const { return glm::max(area / coarse, glm::ivec2(1)); }

@@ -13,15 +13,17 @@
 #include "core/error.h"
 #include "core/luminance.h"
 #include "window/controls.h"
+#include "window/solver_panel.h"
+#include "window/widgets.h"
 
 namespace lumel {
 namespace {
 
 constexpr float kBrightest = 4.0f;  ///< of a lamp's slider, times its own light
-constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;                 ///< [ms]
-constexpr float kDarkest = 1e-6f, kLightest = 1e3f;                        ///< exposure by hand
-constexpr int kAtlasStep = 64, kMostAtlas = 8192;                          ///< [texels]
-constexpr float kTurnStep = 15.0f;                                         ///< [degrees]
+constexpr float kLeastBudget = 1.0f, kMostBudget = 100.0f;  ///< [ms]
+constexpr float kDarkest = 1e-6f, kLightest = 1e3f;         ///< exposure by hand
+constexpr float kDensest = 0.5f, kSparsest = 5.0f;          ///< grid of probes, in strides
+constexpr float kTurnStep = 15.0f;                          ///< [degrees]
 constexpr float kLowestSun = -10.0f, kZenith = 90.0f, kHalfTurn = 180.0f;  ///< [degrees]
 /// Where and on which day the sun goes its way, where the options do not say.
 constexpr double kLatitude = 50.0, kLongitude = 0.0;  ///< [degrees]
@@ -31,18 +33,6 @@ constexpr float kHours = 24.0f;
 
 /// Widgets leave room for their names.
 constexpr float kNames = -90.0f;
-
-void text(const std::string& line)
-{
-    ImGui::TextUnformatted(line.c_str());
-}
-
-void wrapped(const std::string& line)
-{
-    ImGui::PushTextWrapPos();
-    text(line);
-    ImGui::PopTextWrapPos();
-}
 
 /// Brightness and colour of a factor. True if they were changed.
 bool edit_factor(glm::vec3& factor)
@@ -139,10 +129,14 @@ bool show_picked(ViewSession& session)
     const Scene& scene = session.scene();
     const Material& material = scene.materials[std::size_t(picked.material)];
     wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
-    if (picked.lumel != kNoLumel)
-        text(fmt::format("{:.4g} lx, {:.2g} % not settled",
-                         luminance(session.irradiance()[picked.lumel]),
-                         session.unsettled()[picked.lumel]));
+    if (picked.lumel != kNoLumel) {
+        const float percent = session.unsettled()[picked.lumel];
+        text(fmt::format(
+            "{:.4g} lx, {}", luminance(session.irradiance()[picked.lumel]),
+            percent < 0.0f ? std::string("no error stated")
+                           : fmt::format("{:.2g} % {}", percent,
+                                         session.shows_solved() ? "of the mean" : "not settled")));
+    }
     bool changed = false;
     glm::vec3 colour(material.base_color);
     if (ImGui::ColorEdit3("paint", &colour.x, ImGuiColorEditFlags_NoInputs)) {
@@ -166,6 +160,22 @@ bool show_picked(ViewSession& session)
     return changed;
 }
 
+/// A grid of light probes, as dense as the scene is walked through in strides at first.
+bool show_probes(ViewSession& session, const Desk& desk)
+{
+    auto spacing = float(session.probe_spacing());
+    bool shown = spacing > 0.0f;
+    bool changed = ImGui::Checkbox("probes", &shown);
+    if (changed)
+        spacing = shown ? desk.stride : 0.0f;
+    if (shown)
+        changed |= ImGui::SliderFloat("spacing", &spacing, kDensest * desk.stride,
+                                      kSparsest * desk.stride, "%.2g m");
+    if (changed)
+        session.set_probes(double(spacing));
+    return changed;
+}
+
 bool show_mode(ViewSession& session, Desk& desk)
 {
     int mode = int(session.mode());
@@ -185,7 +195,7 @@ bool show_mode(ViewSession& session, Desk& desk)
         }
     }
     changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
-    return changed;
+    return show_probes(session, desk) || changed;
 }
 
 /// The colours of a mode and what they stand for.
@@ -228,6 +238,7 @@ void show_scale_of_mode(ViewSession& session)
 void show_light(ViewSession& session, Desk& desk)
 {
     const LiveLinksState& light = session.light().state();
+    desk.changed |= show_whose_light(session);
     auto budget = float(session.budget());
     if (ImGui::SliderFloat("budget", &budget, kLeastBudget, kMostBudget, "%.0f ms"))
         session.set_budget(double(budget));
@@ -241,21 +252,6 @@ void show_light(ViewSession& session, Desk& desk)
     wrapped(fmt::format("last frame: light {:.1f}, picture {:.1f}, window {:.1f} ms", desk.light_ms,
                         desk.picture_ms, desk.window_ms));
     wrapped(desk.draws);
-}
-
-/// An atlas of 0 is as dense as the options say. Nothing of it happens before the button is
-/// pressed.
-void show_solver(Desk& desk)
-{
-    constexpr std::array kRays = {4, 16, 64, 256};
-    int chosen = int(std::find(kRays.begin(), kRays.end(), desk.rays) - kRays.begin());
-    if (ImGui::Combo("rays", &chosen, "4\00016\00064\000256\0"))
-        desk.rays = kRays[std::size_t(chosen)];
-    if (ImGui::InputInt("atlas", &desk.atlas, kAtlasStep))
-        desk.atlas = std::clamp(desk.atlas, 0, kMostAtlas);
-    if (ImGui::InputInt("seed", &desk.seed))
-        desk.seed = std::max(desk.seed, 0);
-    desk.solve |= ImGui::Button("solve anew");
 }
 
 void show_files(Desk& desk)
@@ -283,8 +279,10 @@ void show_all(ViewSession& session, Desk& desk)
         desk.changed |= show_picked(session);
     if (open("Light"))
         show_light(session, desk);
+    if (session.solved() || !desk.solving.empty())
+        ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     if (ImGui::CollapsingHeader("Solver"))
-        show_solver(desk);
+        show_solvers(desk);
     if (!session.lamps().empty() && open("Lamps"))
         desk.changed |= show_lamps(session);
     if (session.has_sun() && open("Sun"))

@@ -29,6 +29,7 @@
 #include "window/controls.h"
 #include "window/first_picture.h"
 #include "window/panel.h"
+#include "window/solving.h"
 
 namespace lumel {
 namespace {
@@ -88,6 +89,7 @@ private:
     std::optional<OutputFolder> output_;  ///< of the script, while it is played
     std::optional<ScriptPlayer> player_;
     std::vector<std::string> files_;
+    Solving solving_;
     Controls controls_;
     Desk desk_;
     int shots_ = 0;
@@ -111,13 +113,18 @@ ViewWindow::ViewWindow(const ScriptRun& run, const SessionOptions& options, Stag
       screen_(title_of(run), first_size(view_, options.width))
 {
     tell_warnings(scene_);
-    if (!script_.empty())
+    if (!script_.empty()) {
         output_.emplace(run.folder);
+        if (options.solver)
+            script_.insert(script_.begin(), solve_command(*options.solver));
+    }
     device_.emplace(options.device);
     stages.watch(*device_);
     desk_.rays = int(options.link_rays);
     desk_.atlas = options.atlas.size;
     desk_.seed = int(options.seed);
+    if (options.solver)
+        desk_.method.id = method_of(options.solver->method).id;
     desk_.draws = fmt::format("light and picture by {}, window by {}", device_->info().name,
                               screen_.draws_by());
 }
@@ -206,6 +213,7 @@ void ViewWindow::solve_anew()
 {
     if (player_)
         throw Error(ErrorKind::input, "", "a script is played; light can be solved anew after it");
+    solving_.drop();
     const SessionOptions before = options_;
     options_.link_rays = std::uint32_t(desk_.rays);
     options_.atlas.size = desk_.atlas;
@@ -365,6 +373,10 @@ void ViewWindow::act()
             save();
         if (solves)
             solve_anew();
+        if (player_)
+            note_progress(player_->solving(), desk_);
+        else
+            solving_.follow(*session_, desk_);
     } catch (const Error& error) {
         desk_.message = error.what();
     }
@@ -374,6 +386,8 @@ ViewSummary ViewWindow::show()
 {
     wait_for_light();
     stages_->begin("showing");
+    if (script_.empty() && options_.solver)
+        solving_.begin(*session_, *options_.solver);
     if (!script_.empty())
         player_.emplace(std::move(script_), run_->script, *session_, *output_, run_->folder,
                         [this] { return seen(); });

@@ -1,0 +1,22 @@
+#pragma once
+// What the parts of the panel share.
+
+#include <string>
+
+#include <imgui.h>
+
+namespace lumel {
+
+inline void text(const std::string& line)
+{
+    ImGui::TextUnformatted(line.c_str());
+}
+
+inline void wrapped(const std::string& line)
+{
+    ImGui::PushTextWrapPos();
+    text(line);
+    ImGui::PopTextWrapPos();
+}
+
+}  // namespace lumel

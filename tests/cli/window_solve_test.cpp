@@ -1,0 +1,143 @@
+// What the panel of lumel view solves: links anew, and other methods.
+
+#include "window_on_display.h"
+
+namespace lumel::test {
+namespace {
+
+class ViewWindowSolver : public ViewWindow {};
+
+/// Clicks at a height of the panel, whose headers above that of the solver are closed first.
+class SolverPanel {
+public:
+    explicit SolverPanel(const Display& display) : display_(&display)
+    {
+        display.hand("search --name lumel windowsize --sync 520 560 sleep 0.5");
+        for (const int header : {17, 40, 63, 86})
+            click(header);
+    }
+    void click(int y) const
+    {
+        display_->hand(fmt::format("mousemove 270 {} sleep 0.3 click 1 sleep 0.4", y));
+    }
+    void type(int y, const std::string& text) const
+    {
+        click(y);
+        display_->hand("key --delay 50 End BackSpace BackSpace BackSpace BackSpace BackSpace");
+        display_->hand(fmt::format("sleep 0.2 type --delay 50 {}", text));
+        display_->hand("sleep 0.2 key Return sleep 0.3");
+    }
+
+    // Heights [pixels].
+    static constexpr int kRays = 109, k16Rays = 151, kAtlas = 132, kSeed = 155, kAnew = 178,
+                         kMethod = 206, kStochastic = 247, kGather = 315, kMethodSeed = 229,
+                         kByLinks = 344, kByGather = 344, kByStochastic = 390, kStop = 367;
+
+private:
+    const Display* display_;
+};
+
+TEST_F(ViewWindowSolver, ThePanelSolvesAnewWithItsValues)
+{
+    const std::string script = "exposure 1\nwait\nstate ready.json\n";
+    Window window(display(), script);
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const SolverPanel panel(display());
+    panel.click(SolverPanel::kRays);
+    panel.click(SolverPanel::k16Rays);
+    panel.type(SolverPanel::kAtlas, "32");
+    panel.type(SolverPanel::kSeed, "7");
+    panel.click(SolverPanel::kAnew);
+    display().hand("sleep 1.5 mousemove 120 400 sleep 0.3 click 1 sleep 0.5 key p sleep 0.3");
+    ASSERT_TRUE(window.has_written("picture-1.png"));
+    const Picture picture = read_picture(window.place.path("out/picture-1.png"));
+    const Json state = window.close();
+    ASSERT_NE(state["picked"], nullptr);
+    EXPECT_EQ(state["links"]["count"], 16);
+
+    // As of a session that began with them, and of none of the others.
+    const auto begun = [&](const std::string& seed) {
+        Window other(display(), script, {"--links", "16", "--seed", seed}, "32");
+        EXPECT_TRUE(other.is_there());
+        EXPECT_TRUE(other.has_written("ready.json"));
+        display().hand("search --name lumel windowsize --sync 520 560 sleep 0.5 "
+                       "mousemove 120 400 sleep 0.3 click 1 sleep 0.5 key p sleep 0.3");
+        EXPECT_TRUE(other.has_written("picture-1.png"));
+        const Picture seen = read_picture(other.place.path("out/picture-1.png"));
+        return std::pair(other.close(), seen);
+    };
+    const auto [same, seen] = begun("7");
+    EXPECT_EQ(state["light"]["lumels"], same["light"]["lumels"]);
+    EXPECT_EQ(state["picked"]["lumel"]["number"], same["picked"]["lumel"]["number"]);
+    EXPECT_LE(difference(picture, seen).most, 1);
+    const auto [unlike, other] = begun("8");
+    EXPECT_GT(difference(picture, other).most, 4);
+}
+
+TEST_F(ViewWindowSolver, ThePanelSolvesByAMethodAndAKeyShowsLinksAgain)
+{
+    Window window(display(), "pick \"short block\"\nmove 0.1,0,0\nwait\nstate ready.json\n");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const SolverPanel panel(display());
+    const Picture links = window.shoot();
+    panel.click(SolverPanel::kMethod);
+    panel.click(SolverPanel::kStochastic);
+    panel.type(SolverPanel::kMethodSeed, "5");
+    panel.click(SolverPanel::kByStochastic);
+    Picture solved;
+    ASSERT_TRUE(wait_until([&] {
+        solved = window.shoot();
+        return difference(links, solved).mean > 0.0;
+    }));
+    EXPECT_LT(difference(links, solved).mean, 5.0);
+    display().hand("key l sleep 0.3");
+    EXPECT_EQ(window.shoot().rgb, links.rgb);
+    display().hand("key l sleep 0.3");
+    EXPECT_EQ(window.shoot().rgb, solved.rgb);
+    const Json state = window.close();
+    EXPECT_EQ(state["solved"]["method"], "stochastic");
+    EXPECT_EQ(state["solved"]["options"]["seed"], 5);
+    EXPECT_EQ(state["solved"]["shown"], true);
+    EXPECT_EQ(state["solved"]["stopped"], false);
+}
+
+TEST_F(ViewWindowSolver, AnEditEndsWhatIsBeingSolved)
+{
+    Window window(display(), "pick \"short block\"\nwait\nstate ready.json\n", {}, "128");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const SolverPanel panel(display());
+    panel.click(SolverPanel::kMethod);
+    panel.click(SolverPanel::kGather);
+    panel.click(SolverPanel::kByGather);
+    display().hand("sleep 1 mousemove 799 599 key r sleep 0.5");
+    const Json state = window.close();
+    EXPECT_EQ(state["solved"], nullptr);
+    EXPECT_GT(state["light"]["links_traced_again"], 0);  // they followed
+}
+
+TEST_F(ViewWindowSolver, WhatIsBeingSolvedCanBeStopped)
+{
+    // All of its hemicubes would take minutes.
+    Window window(display(), "wait\nstate ready.json\n", {}, "256");
+    ASSERT_TRUE(window.is_there());
+    ASSERT_TRUE(window.has_written("ready.json"));
+    const SolverPanel panel(display());
+    const Picture links = window.shoot();
+    panel.click(SolverPanel::kMethod);
+    panel.click(SolverPanel::kGather);
+    EXPECT_TRUE(wait_until([&] {
+        panel.click(SolverPanel::kByGather);
+        display().hand("sleep 2");
+        panel.click(SolverPanel::kStop);
+        return difference(links, window.shoot()).mean > 1.0;
+    }));
+    const Json solved = window.close()["solved"];
+    EXPECT_EQ(solved["method"], "gather");
+    EXPECT_EQ(solved["stopped"], true);
+}
+
+}  // namespace
+}  // namespace lumel::test
