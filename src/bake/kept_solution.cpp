@@ -44,7 +44,10 @@ KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOption
 
 SolverState KeptLinksSolver::state() const
 {
-    return {.shots = light_->links().rays(), .iterations = std::uint64_t(light_->sweeps())};
+    return {.shots = light_->links().rays(),
+            .iterations = std::uint64_t(light_->sweeps()),
+            .error = light_->error().all,
+            .dark_error = light_->error().dark};
 }
 
 std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
@@ -56,6 +59,8 @@ std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const Ba
         kept_light_options(options.keep_links, std::get<LinksOptions>(options.solver.method)),
         stages);
     solution->run.finished = true;
+    const SolverState state = solver->state();
+    solution->run.curve = {{state.shots, stages.stage_seconds(), state.error}};
     solution->irradiance = solver->irradiance();
     solution->links = solver->light().kept(setting.prepared.scene.hash);
     solution->solver = std::move(solver);

@@ -1,6 +1,7 @@
 #include "bake/relight_links.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "bake/kept_solution.h"
 #include "bake/outputs.h"
@@ -60,6 +61,18 @@ std::string report_of(const RelightSummary& summary, const KeptLight& light,
     return json_text(json);
 }
 
+/// The light of the scene as it is now, or none if the caller stopped.
+std::optional<std::vector<glm::vec3>> light_unless_stopped(KeptLight& light, const Watch& watch)
+{
+    try {
+        return light.irradiance(watch);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 bool keeps_links(const std::string& folder)
@@ -85,6 +98,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
+    const Watch watch = stages.watch();
     RelightSummary summary;
     for (std::size_t s = 0; s < states.size(); ++s) {
         const double part = 1.0 / double(states.size()), before = part * double(s);
@@ -92,12 +106,17 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
             break;
         const double start = wall_seconds();
         lights.set(states[s].light);
-        const std::vector<glm::vec3> irradiance =
-            light.irradiance([&](double fraction) { stages.progress(before + part * fraction); });
+        const auto irradiance = light_unless_stopped(light, part_of(watch, before, before + part));
+        if (!irradiance)
+            break;
         const double found = wall_seconds();
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+        const Image map = finish_map(world.scene, world.atlas, world.lumels, *irradiance);
         write_map(output, states[s].name, map, baked.record.half, world, stages);
-        summary.states.push_back({states[s].name, found - start, wall_seconds() - found});
+        summary.states.push_back({.name = states[s].name,
+                                  .light = found - start,
+                                  .files = wall_seconds() - found,
+                                  .error = light.error().all,
+                                  .dark_error = light.error().dark});
     }
     stages.end();
     output.commit();

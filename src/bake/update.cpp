@@ -129,6 +129,8 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, KeptLinks& kept
     row.links = kept.rays * std::uint64_t(edit.now.lumels.lumels.size());
     baked.shots = state.shots;
     baked.iterations = state.iterations;
+    baked.error = state.error;
+    baked.dark_error = state.dark_error;
     kept = solver.light().kept(edit.now.scene.hash);
     return solver.irradiance();
 }

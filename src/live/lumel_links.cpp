@@ -28,8 +28,9 @@ namespace {
 constexpr std::size_t kGrain = 256, kFollowed = 64;
 /// Lumels between two looks at the watch.
 constexpr std::size_t kStep = 16384;
-/// Random numbers of a ray: places within its cells of directions and of starts.
-constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3;
+/// Random numbers of a ray: places within its cells of directions and of starts; of four of them,
+/// which quarters they are of.
+constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
 
 float to_unit(std::uint32_t key, std::uint32_t what)
 {
@@ -271,6 +272,22 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     const float share = std::numbers::pi_v<float> / float(rays());
     sky_light_[i] = share * (sums[0] + sums[1]);
     white_sky_light_[i] = share * sums[0];
+}
+
+/// What one ray brings from the sky, if it meets it, as if it were all [lx].
+glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
+{
+    if (place_.scene.sky.empty())
+        return glm::vec3(0.0f);
+    return std::numbers::pi_v<float> * place_.sources.rest_of_sky(direction(lumel, ray));
+}
+
+std::uint32_t LumelLinks::quarter_of(std::size_t lumel, std::uint32_t ray) const
+{
+    const std::uint32_t u = ray % side_, v = ray / side_;
+    const std::uint32_t own = PathSamples::hash(seed_, std::uint32_t(lumel));
+    const std::uint32_t four = PathSamples::hash(own, v / 2 * side_ + u / 2);
+    return 2 * half_of(ray) + ((u ^ (PathSamples::hash(four, kQuarter) >> half_of(ray))) & 1u);
 }
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::size_t first, std::size_t last)
