@@ -33,7 +33,8 @@ struct Retraced {
 struct LinkChanges;
 
 /// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
-/// over (sin² θ, φ). A ray depends on its lumel and its number alone, so that it can be made again.
+/// over (sin² θ, φ). A ray depends on the place of its lumel in the atlas and on its number alone,
+/// so that it can be made again.
 class LumelLinks {
 public:
     /// Traces all of them. What is given must outlive it. side: a power of two.
@@ -104,6 +105,7 @@ private:
     Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
     void find_sky(const Rays& rays, std::size_t lumel);
     glm::vec3 sky_by(std::size_t lumel, std::uint32_t ray) const;
+    std::uint32_t key_of(std::size_t lumel) const;
     std::uint32_t quarter_of(std::size_t lumel, std::uint32_t ray) const;
 
     const LivePlace place_;

@@ -196,7 +196,7 @@ TEST(KeepLinks, UpdateOfAThingMovedToWhereABakeHasItIsThatBake)
     EXPECT_TRUE(bytes_of(folder + "/scene.lumellinks") == links);
 }
 
-TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesIsANewSolution)
+TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
 {
     const Box box;
     const std::string folder = box.bake("out");
@@ -208,14 +208,22 @@ TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesIsANewSolution)
                 return;
             }
     };
+    std::vector<int> widths;
     for (const Edit& edit : {without, kAsItIs}) {
         const Json row = update(box, folder, edit);
-        EXPECT_EQ(row["rays"], row["links"]);  // other instances, other numbers
+        const Json sizes = Json::parse(bytes_of(folder + "/report.json"))["sizes"];
+        EXPECT_GT(row["rays"], 0);
+        if (sizes["atlas_width"] == std::stoi(kSide))
+            EXPECT_LT(3 * row["rays"].get<double>(), row["links"].get<double>());
+        else
+            EXPECT_EQ(row["rays"], row["links"]);  // the map grew: places are rounded otherwise
+        widths.push_back(sizes["atlas_width"]);
         const Outcome again = box.relight(folder, {{"states", {{{"name", "same"}}}}});
         ASSERT_EQ(again.code, 0) << again.err;
         EXPECT_EQ(Json::parse(again.out)["links"]["traced_again"], 0);
         expect_equal(folder + "/states/same.exr", folder + "/lightmap.exr");
     }
+    EXPECT_EQ(widths.front(), std::stoi(kSide));
 }
 
 TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)
