@@ -86,19 +86,22 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
 {
     Baked baked = read(folder);
     const std::vector<NamedState> states = read_states(states_path);
-    Prepared world(std::move(baked.scene), [&](const Scene& scene, const RayScene&, const Watch&) {
-        return atlas_of(baked.links, scene, baked.record.pages);
-    });
+    const Watch watch = stages.watch();
+    Prepared world(
+        std::move(baked.scene),
+        [&](const Scene& scene, const RayScene&, const Watch&) {
+            return atlas_of(baked.links, scene, baked.record.pages);
+        },
+        {}, watch);
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });
     KeptLight light(
         world.scene, world.atlas, world.lumels,
         kept_light_options(baked.links.rays, std::get<LinksOptions>(baked.record.solver.method)),
-        &baked.links, stages.watch());
+        &baked.links, watch);
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
-    const Watch watch = stages.watch();
     RelightSummary summary;
     for (std::size_t s = 0; s < states.size(); ++s) {
         const double part = 1.0 / double(states.size()), before = part * double(s);
@@ -119,7 +122,8 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
                                   .dark_error = light.error().dark});
     }
     stages.end();
-    output.commit();
+    if (!summary.states.empty())
+        output.commit();
     summary.seconds = stages.seconds();
     summary.interrupted = stages.stopped();
     summary.report = report_of(summary, light, lights, baked);

@@ -123,5 +123,17 @@ TEST(KeptRelight, StopsWithinAStateAndKeepsThoseBefore)
     EXPECT_LT(last, 1.0);
 }
 
+TEST(KeptRelight, ThatIsStoppedInItsFirstStateLeavesNoFolder)
+{
+    const Kept kept;
+    const std::string states = kept.folder / "states.json";
+    std::ofstream(states) << R"({"states": [{"name": "one"}]})";
+    const RelightSummary summary = relight(kept.path(), states, {}, [](const BakeProgress& now) {
+        return !(now.stage == "states" && now.fraction > 0.0);
+    });
+    EXPECT_TRUE(summary.interrupted);
+    EXPECT_FALSE(std::filesystem::exists(kept.path() + "/states"));
+}
+
 }  // namespace
 }  // namespace lumel
