@@ -16,9 +16,14 @@ std::string table_of(const std::string& folder, const RelightSummary& summary)
     std::size_t width = 5;
     for (const StateRow& row : summary.states)
         width = std::max(width, row.name.size());
-    std::string table = fmt::format("{:<{}}  light [s]  files [s]\n", "state", width);
-    for (const StateRow& row : summary.states)
-        table += fmt::format("{:<{}}  {:>9.4f}  {:>9.4f}\n", row.name, width, row.light, row.files);
+    const bool stated = std::any_of(summary.states.begin(), summary.states.end(),
+                                    [](const StateRow& row) { return row.error >= 0.0; });
+    std::string table = fmt::format("{:<{}}  light [s]  files [s]{}\n", "state", width,
+                                    stated ? "  estimated error [%]" : "");
+    for (const StateRow& row : summary.states) {
+        table += fmt::format("{:<{}}  {:>9.4f}  {:>9.4f}", row.name, width, row.light, row.files);
+        table += stated ? fmt::format("  {:>19.2f}\n", 100.0 * row.error) : "\n";
+    }
     return table + fmt::format("{}/states: {} states in {:.1f} s", folder, summary.states.size(),
                                summary.seconds);
 }

@@ -11,7 +11,6 @@
 #include "bake/lighting.h"
 #include "bake/memory_plan.h"
 #include "bake/outputs.h"
-#include "bake/probe_nodes.h"
 #include "bake/probes.h"
 #include "bake/sources.h"
 #include "lights/direct_light.h"
@@ -39,9 +38,10 @@ bool has_sources(const Prepared& prepared)
                        [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
 }
 
-/// All but light probes.
+/// All but light probes. output: made when the scene has been read.
 BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
-                       BakeOptions options, const ProgressFunction& progress)
+                       BakeOptions options, std::optional<OutputFolder>& output,
+                       const ProgressFunction& progress)
 {
     options.atlas = atlas_that_fits(options);
     const MethodInfo& method = method_of(options.solver.method);
@@ -57,7 +57,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     stages.begin("reading");
     Scene scene = read_scene(scene_path, method.materials, options.lights);
     // What can fail before the long work should.
-    OutputFolder output(folder);
+    output.emplace(folder);
     std::optional<OutputFolder> dump;
     if (!options.dump.empty())
         dump.emplace(options.dump, "dump");
@@ -110,16 +110,29 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                           .form_factors = solution->form_factors,
                           .lamps = std::move(solution->lamps),
                           .directional = std::move(directional)};
-    output.outdate(kMatrixFile);
-    output.outdate(kLinksFile);
+    output->outdate(kMatrixFile);
+    output->outdate(kLinksFile);
     if (!stopped)
-        output.outdate(kCheckpointFile);
+        output->outdate(kCheckpointFile);
     if (solution->relightable)
-        write_relightable(output.path(kMatrixFile), *solution->relightable);
+        write_relightable(output->path(kMatrixFile), *solution->relightable);
     if (solution->links)
-        write_links(output.path(kLinksFile), std::move(*solution->links));
-    return write_bake(output, options, setting.prepared, device, *solution->solver,
+        write_links(output->path(kLinksFile), std::move(*solution->links));
+    return write_bake(*output, options, setting.prepared, device, *solution->solver,
                       solution->irradiance, results, stages);
+}
+
+/// False if the caller has wanted to stop.
+bool has_probes(const OutputFolder& written, double spacing, const ProgressFunction& progress)
+{
+    try {
+        add_probes(written, spacing, progress);
+        return true;
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        return false;
+    }
 }
 
 }  // namespace
@@ -127,12 +140,12 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress)
 {
-    const BakeSummary summary = bake_light(scene_path, folder, options, progress);
-    if (options.probe_spacing > 0.0 && !summary.interrupted) {
-        ProbesOptions grid;
-        grid.spacing = options.probe_spacing;
-        write_probe_nodes(folder, probes(folder, grid, progress));
-    }
+    std::optional<OutputFolder> output;
+    BakeSummary summary = bake_light(scene_path, folder, options, output, progress);
+    // A map that is done stays where its probes are stopped.
+    if (options.probe_spacing > 0.0 && !summary.interrupted)
+        summary.interrupted = !has_probes(*output, options.probe_spacing, progress);
+    output->commit();
     return summary;
 }
 

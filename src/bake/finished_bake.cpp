@@ -3,19 +3,25 @@
 #include <filesystem>
 #include <utility>
 
-#include "output/work_folder.h"
 #include "record/light_settings.h"
 #include "solve/methods.h"
 #include "update/edited_scene.h"
 
 namespace lumel {
 
-FinishedBake::FinishedBake(const std::string& folder) : FinishedBake(read(folder)) {}
+FinishedBake::FinishedBake(const std::string& folder) : FinishedBake(read_locked(folder)) {}
+
+FinishedBake::FinishedBake(const OutputFolder& written) : FinishedBake(read(written.path({}))) {}
+
+FinishedBake::Files FinishedBake::read_locked(const std::string& folder)
+{
+    const ResultsLock as_it_is(folder);
+    return read(folder);
+}
 
 FinishedBake::Files FinishedBake::read(const std::string& folder)
 {
     const std::filesystem::path path(folder);
-    const ResultsLock as_it_is(folder);
     BakeRecord record = read_bake_record(folder);
     check_whole(folder, record);
     check_light_files(record.lights);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "output/folder.h"
 #include "prepare/prepare.h"
 #include "record/bake_record.h"
 #include "update/solution_file.h"
@@ -15,6 +16,8 @@ struct FinishedBake {
     /// Reads what lumel bake wrote into a folder, all of one bake whatever is written there
     /// meanwhile. Throws Error{input} for a bake of a part of the light.
     explicit FinishedBake(const std::string& folder);
+    /// The same of what a bake has written and not yet committed.
+    explicit FinishedBake(const OutputFolder& written);
     FinishedBake(const FinishedBake&) = delete;
     FinishedBake& operator=(const FinishedBake&) = delete;
 
@@ -25,6 +28,7 @@ private:
         Scene scene;
     };
     static Files read(const std::string& folder);
+    static Files read_locked(const std::string& folder);
     explicit FinishedBake(Files files);
 
 public:

@@ -33,6 +33,25 @@ KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& link
     return options;
 }
 
+KeptLinks links_for(const EditedScene& edit, const KeptLinks& before)
+{
+    const Lumels &then = edit.before.lumels, &now = edit.now.lumels;
+    // A larger atlas rounds places otherwise.
+    if (then.width != now.width || then.lumels.size() != before.lumels.size())
+        return {};
+    const std::vector<std::uint32_t> places = lumels_by_side(now);
+    Renumbering numbers{.instances = edit.matches.after,
+                        .lumels_now = now.lumels.size(),
+                        .instances_now = edit.now.scene.instances.size()};
+    for (const Lumel& lumel : then.lumels) {
+        const std::uint32_t j = places[2 * lumel.texel + (lumel.flags & kLumelBack ? 1 : 0)];
+        const bool is_same =
+            j != kNoLumel && now.lumels[j].instance == edit.matches.after[lumel.instance];
+        numbers.lumels.push_back(is_same ? j : Renumbering::kNotThere);
+    }
+    return renumbered(before, numbers);
+}
+
 KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOptions& options,
                                  Stages& stages, const KeptLinks* kept)
 {
@@ -44,7 +63,10 @@ KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOption
 
 SolverState KeptLinksSolver::state() const
 {
-    return {.shots = light_->links().rays(), .iterations = std::uint64_t(light_->sweeps())};
+    return {.shots = light_->links().rays(),
+            .iterations = std::uint64_t(light_->sweeps()),
+            .error = light_->error().all,
+            .dark_error = light_->error().dark};
 }
 
 std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
@@ -56,6 +78,8 @@ std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const Ba
         kept_light_options(options.keep_links, std::get<LinksOptions>(options.solver.method)),
         stages);
     solution->run.finished = true;
+    const SolverState state = solver->state();
+    solution->run.curve = {{state.shots, stages.stage_seconds(), state.error}};
     solution->irradiance = solver->irradiance();
     solution->links = solver->light().kept(setting.prepared.scene.hash);
     solution->solver = std::move(solver);

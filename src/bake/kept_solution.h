@@ -7,6 +7,7 @@
 #include "bake/lighting.h"
 #include "live/kept_light.h"
 #include "solve/solver.h"
+#include "update/edited_scene.h"
 
 namespace lumel {
 
@@ -15,6 +16,9 @@ void check_keep_links(const BakeOptions& options);
 
 /// How `rays` of each lumel are traced and lit for the options of links.
 KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links);
+
+/// Links of the scene before an edit, for the scene now.
+KeptLinks links_for(const EditedScene& edit, const KeptLinks& before);
 
 /// Light over kept links, as a method that has run.
 class KeptLinksSolver final : public Solver {

@@ -198,7 +198,6 @@ BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const P
     facts.preview = preview_row(written, prepared.scene);
     const Json report = to_json(facts);
     write_json(folder.path(kReportFile), report);
-    folder.commit();
     return {.shots = results.shots,
             .error = results.error,
             .dark_error = results.dark_error,

@@ -58,7 +58,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const std::vector<glm::vec3>& irradiance,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
 
-/// Writes all files of `lumel bake`, whole or not at all. irradiance [N] [lx].
+/// Writes all files of `lumel bake`; to commit them is left to the caller. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,

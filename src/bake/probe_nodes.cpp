@@ -1,14 +1,12 @@
 #include "bake/probe_nodes.h"
 
 #include <cstring>
-#include <filesystem>
 #include <span>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "gltf/baked_probes.h"
 #include "gltf/container.h"
-#include "output/folder.h"
 #include "json/json_file.h"
 #include "json/json_view.h"
 
@@ -55,23 +53,21 @@ Bytes with_json(const Bytes& file, const Json& json, std::size_t old_size)
 
 }  // namespace
 
-void write_probe_nodes(const std::string& folder, const ProbesSummary& probes)
+void write_probe_nodes(const OutputFolder& written, const std::vector<ProbeRow>& rows)
 {
     Json nodes = Json::array();
-    for (const ProbeRow& row : probes.rows)
+    for (const ProbeRow& row : rows)
         nodes.push_back(node_of(row));
-    OutputFolder output(folder);
     for (const char* name : {kSceneFile, "scene-baked.glb"}) {
-        const std::string path = (std::filesystem::path(folder) / name).string();
-        const Bytes file = read_file(path, path);
-        const GlbChunks chunks = split_glb(path, file);
-        Json json = parse_json(path, file.data() + chunks.json_offset, chunks.json_size);
+        const std::string path = written.path(name);
+        const Bytes file = read_file(path, name);
+        const GlbChunks chunks = split_glb(name, file);
+        Json json = parse_json(name, file.data() + chunks.json_offset, chunks.json_size);
         drop_light_probes(json);
         add_light_probes(json, nodes);
         const Bytes changed = with_json(file, json, chunks.json_size);
-        write_bytes(output.path(name), std::as_bytes(std::span(changed)));
+        write_bytes(path, std::as_bytes(std::span(changed)));
     }
-    output.commit();
 }
 
 }  // namespace lumel

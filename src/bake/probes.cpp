@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "bake/finished_bake.h"
+#include "bake/probe_nodes.h"
 #include "bake/stages.h"
 #include "core/files.h"
 #include "core/parallel.h"
@@ -111,6 +112,22 @@ std::string report_of(const FinishedBake& bake, const ProbesSummary& summary)
     return json_text(json);
 }
 
+/// All but its file. scene: the path of the bake's.
+ProbesSummary found(const FinishedBake& bake, const std::string& scene,
+                    const ProbesOptions& options, Stages& stages)
+{
+    ProbesSummary summary;
+    find_places(scene, options, bake.prepared, summary);
+    stages.begin("rays");
+    read_all(bake, options, summary.rows, stages);
+    summary.inside =
+        std::size_t(std::count_if(summary.rows.begin(), summary.rows.end(),
+                                  [](const ProbeRow& row) { return row.light.inside; }));
+    stages.begin("writing");
+    summary.report = report_of(bake, summary);
+    return summary;
+}
+
 }  // namespace
 
 Json coefficients_of(const ProbeLight& light)
@@ -134,25 +151,28 @@ void check_probe_spacing(double spacing, const Prepared& prepared)
     }
 }
 
+void add_probes(const OutputFolder& written, double spacing, const ProgressFunction& progress)
+{
+    Stages stages(progress);
+    stages.begin("reading");
+    ProbesOptions grid;
+    grid.spacing = spacing;
+    const ProbesSummary summary =
+        found(FinishedBake(written), written.path(kSceneFile), grid, stages);
+    write_probe_nodes(written, summary.rows);
+    write_text(written.path(kProbesFile), summary.report);
+    stages.end();
+}
+
 ProbesSummary probes(const std::string& folder, const ProbesOptions& options,
                      const ProgressFunction& progress)
 {
     Stages stages(progress);
     stages.begin("reading");
     const std::filesystem::path path(folder);
-    const FinishedBake bake(folder);
-    ProbesSummary summary;
+    ProbesSummary summary =
+        found(FinishedBake(folder), (path / kSceneFile).string(), options, stages);
     summary.file = options.file.empty() ? (path / kProbesFile).string() : options.file;
-    find_places((path / kSceneFile).string(), options, bake.prepared, summary);
-
-    stages.begin("rays");
-    read_all(bake, options, summary.rows, stages);
-    summary.inside =
-        std::size_t(std::count_if(summary.rows.begin(), summary.rows.end(),
-                                  [](const ProbeRow& row) { return row.light.inside; }));
-
-    stages.begin("writing");
-    summary.report = report_of(bake, summary);
     OutputFile output(summary.file);
     write_text(output.path(), summary.report);
     output.commit();

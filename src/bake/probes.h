@@ -11,6 +11,7 @@
 #include "bake/bake.h"
 #include "measure/light_probe.h"
 #include "measure/probe_grid.h"
+#include "output/folder.h"
 #include "prepare/prepare.h"
 #include "scene/probe_places.h"
 #include "json/json_file.h"
@@ -35,7 +36,7 @@ struct ProbesSummary {
     std::vector<ProbeRow> rows;  ///< those of the grid first
     std::optional<ProbeGrid> grid;
     std::size_t inside = 0;  ///< probes inside of things
-    std::string file;        ///< that was written
+    std::string file;        ///< that was written, or is to be
     std::string report;      ///< JSON: what it holds
 };
 
@@ -44,6 +45,12 @@ Json coefficients_of(const ProbeLight& light);
 
 /// Throws Error{input} if a grid over this scene would have too many probes.
 void check_probe_spacing(double spacing, const Prepared& prepared);
+
+/// Finds the light at probes of a bake that is written and not yet committed, and writes
+/// kProbesFile and the probes into scene.glb and scene-baked.glb beside it. The first is that of
+/// the function below. Throws Error, of kind `stopped` if the caller wanted to stop: then
+/// what the bake wrote is as it was.
+void add_probes(const OutputFolder& written, double spacing, const ProgressFunction& progress);
 
 /// Finds the light at probes in a folder that lumel bake wrote. Throws Error.
 ProbesSummary probes(const std::string& folder, const ProbesOptions& options,

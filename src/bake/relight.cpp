@@ -108,11 +108,16 @@ std::string report_of(const RelightSummary& summary, const RelightSession& sessi
 Json json_of(const std::vector<StateRow>& states)
 {
     Json json = Json::array();
-    for (const StateRow& row : states)
-        json.push_back({{"name", row.name},
-                        {"light_seconds", row.light},
-                        {"files_seconds", row.files},
-                        {"files", {row.name + ".exr", row.name + ".png"}}});
+    for (const StateRow& row : states) {
+        Json& state = json.emplace_back(Json{{"name", row.name},
+                                             {"light_seconds", row.light},
+                                             {"files_seconds", row.files},
+                                             {"files", {row.name + ".exr", row.name + ".png"}}});
+        if (row.error >= 0.0)
+            state["estimated_error"] = row.error;
+        if (row.dark_error >= 0.0)
+            state["estimated_dark_error"] = row.dark_error;
+    }
     return json;
 }
 

@@ -18,6 +18,7 @@ struct StateRow {
     std::string name;
     double light = 0.0;  ///< to find its light; states found together share it alike
     double files = 0.0;  ///< to finish its map and to write it
+    double error = -1.0, dark_error = -1.0;  ///< of its map, as of SolverState; < 0: not known
 };
 
 /// As a report has them.

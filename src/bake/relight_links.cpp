@@ -1,6 +1,7 @@
 #include "bake/relight_links.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "bake/kept_solution.h"
 #include "bake/outputs.h"
@@ -60,6 +61,18 @@ std::string report_of(const RelightSummary& summary, const KeptLight& light,
     return json_text(json);
 }
 
+/// The light of the scene as it is now, or none if the caller stopped.
+std::optional<std::vector<glm::vec3>> light_unless_stopped(KeptLight& light, const Watch& watch)
+{
+    try {
+        return light.irradiance(watch);
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        return std::nullopt;
+    }
+}
+
 }  // namespace
 
 bool keeps_links(const std::string& folder)
@@ -73,15 +86,19 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
 {
     Baked baked = read(folder);
     const std::vector<NamedState> states = read_states(states_path);
-    Prepared world(std::move(baked.scene), [&](const Scene& scene, const RayScene&, const Watch&) {
-        return atlas_of(baked.links, scene, baked.record.pages);
-    });
+    const Watch watch = stages.watch();
+    Prepared world(
+        std::move(baked.scene),
+        [&](const Scene& scene, const RayScene&, const Watch&) {
+            return atlas_of(baked.links, scene, baked.record.pages);
+        },
+        {}, watch);
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });
     KeptLight light(
         world.scene, world.atlas, world.lumels,
         kept_light_options(baked.links.rays, std::get<LinksOptions>(baked.record.solver.method)),
-        &baked.links, stages.watch());
+        &baked.links, watch);
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
@@ -92,15 +109,21 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
             break;
         const double start = wall_seconds();
         lights.set(states[s].light);
-        const std::vector<glm::vec3> irradiance =
-            light.irradiance([&](double fraction) { stages.progress(before + part * fraction); });
+        const auto irradiance = light_unless_stopped(light, part_of(watch, before, before + part));
+        if (!irradiance)
+            break;
         const double found = wall_seconds();
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
+        const Image map = finish_map(world.scene, world.atlas, world.lumels, *irradiance);
         write_map(output, states[s].name, map, baked.record.half, world, stages);
-        summary.states.push_back({states[s].name, found - start, wall_seconds() - found});
+        summary.states.push_back({.name = states[s].name,
+                                  .light = found - start,
+                                  .files = wall_seconds() - found,
+                                  .error = light.error().all,
+                                  .dark_error = light.error().dark});
     }
     stages.end();
-    output.commit();
+    if (!summary.states.empty())
+        output.commit();
     summary.seconds = stages.seconds();
     summary.interrupted = stages.stopped();
     summary.report = report_of(summary, light, lights, baked);

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "bake/kept_solution.h"
 #include "bake/lighting.h"
@@ -123,12 +124,15 @@ std::vector<glm::vec3> light_over_links(const EditedScene& edit, KeptLinks& kept
                                         UpdateRow& row, Stages& stages)
 {
     const auto& links = std::get<LinksOptions>(baked.solver.method);
-    KeptLinksSolver solver(edit.now, kept_light_options(baked.keep_links, links), stages, &kept);
+    const KeptLinks mine = links_for(edit, std::exchange(kept, {}));
+    KeptLinksSolver solver(edit.now, kept_light_options(baked.keep_links, links), stages, &mine);
     const SolverState state = solver.state();
     row.rays = solver.light().links().traced().all();
-    row.links = kept.rays * std::uint64_t(edit.now.lumels.lumels.size());
+    row.links = baked.keep_links * std::uint64_t(edit.now.lumels.lumels.size());
     baked.shots = state.shots;
     baked.iterations = state.iterations;
+    baked.error = state.error;
+    baked.dark_error = state.dark_error;
     kept = solver.light().kept(edit.now.scene.hash);
     return solver.irradiance();
 }

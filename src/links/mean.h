@@ -24,8 +24,12 @@ class SquaredError {
 public:
     void add(const Mean& mean, std::size_t lumel)
     {
-        const double wrong = double(mean.wrong[lumel]);
-        noise_ += double(mean.noise[lumel]);
+        add(double(mean.noise[lumel]), double(mean.wrong[lumel]));
+    }
+    /// A lumel's, as Mean has them.
+    void add(double noise, double wrong)
+    {
+        noise_ += noise;
         wrong_ += wrong;
         squares_ += wrong * wrong;
     }

@@ -111,11 +111,13 @@ void GroupedLight::find(Group& group, const Watch& watch)
 {
     const std::size_t lumels = place_.lumels.lumels.size();
     group.light.resize(lumels);
+    if (options_.halves)
+        group.off.resize(lumels);
     parallel_steps(
         lumels, kStep, kGrain,
         [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
-                group.light[i] = light_of(group, i);
+                find_at(group, i);
         },
         [&](std::size_t done) {
             tell(watch, double(done) / double(lumels));
@@ -135,7 +137,7 @@ std::uint64_t GroupedLight::follow(std::uint32_t thing, const Box& before, std::
             std::uint64_t count = 0;
             for (std::size_t i = first + from; i < first + to; ++i)
                 if (moved || place_.thing_of(i) == thing || may_cross(group, i, before, now)) {
-                    group.light[i] = light_of(group, i);
+                    find_at(group, i);
                     ++count;
                 }
             found += count;
@@ -184,27 +186,34 @@ bool GroupedLight::may_cross(std::uint32_t source, std::size_t i, const Box& box
     return box.may_lie_between(Box{from, from}.grown(reach), origin.box.grown(place_.lift));
 }
 
-glm::vec3 GroupedLight::light_of(const Group& group, std::size_t i) const
+void GroupedLight::find_at(Group& group, std::size_t i) const
 {
-    glm::vec3 sum(0.0f);
+    const Found found = light_of(group, i);
+    group.light[i] = found.light;
+    if (options_.halves)
+        group.off[i] = found.off;
+}
+
+GroupedLight::Found GroupedLight::light_of(const Group& group, std::size_t i) const
+{
+    Found sum;
     if (place_.lumels.lumels[i].flags & kLumelBuried)
         return sum;
     for (const std::uint32_t s : group.senders)
-        sum += group.is_shared() ? senders_[s].factor * light_of(senders_[s], i)
-                                 : light_of(senders_[s], i);
+        sum.add(light_of(senders_[s], i), group.is_shared() ? senders_[s].factor : glm::vec3(1.0f));
     return sum;
 }
 
-glm::vec3 GroupedLight::light_of(const Sender& sender, std::size_t i) const
+GroupedLight::Found GroupedLight::light_of(const Sender& sender, std::size_t i) const
 {
     const std::uint32_t own =
         PathSamples::hash(PathSamples::hash(options_.seed, std::uint32_t(i)),
                           PathSamples::hash(std::uint32_t(sender.part), sender.index));
     if (sender.sources.size() > kMostAlone)
         return by_many(sender, own, i);
-    glm::vec3 sum(0.0f);
+    Found sum;
     for (std::uint32_t n = 0; n < sender.sources.size(); ++n)
-        sum += by_one(sender.sources[n], PathSamples::hash(own, n), i);
+        sum.add(by_one(sender.sources[n], PathSamples::hash(own, n), i), glm::vec3(1.0f));
     return sum;
 }
 
@@ -224,32 +233,40 @@ glm::vec3 GroupedLight::passing(const RayStart& start, const SourceSample& sampl
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 
-/// A few rays, and many where these see a part of the source.
-glm::vec3 GroupedLight::by_one(std::uint32_t source, std::uint32_t stream, std::size_t i) const
+/// A few rays, and many where these see a part of the source. The first half of either number is as
+/// well spread as the second.
+GroupedLight::Found GroupedLight::by_one(std::uint32_t source, std::uint32_t stream,
+                                         std::size_t i) const
 {
-    FoundLight found;
+    FoundLight found, half;
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
         if (k == options_.few_rays && (found.free == 0 || found.hidden == 0))
             break;
+        if (2 * k == options_.few_rays || 2 * k == options_.many_rays)
+            half = found;
         const PathSamples samples(stream, k);
         const RayStart start = start_of(i, k);
         const SourceSample sample =
             place_.sources.sample(source, start, samples.stratified(kSourcePair));
         found.add(sample, passing(start, sample, samples.bits(kSourcePair)));
     }
-    return found.light();
+    const glm::vec3 light = found.light();
+    return {light, half.light() - light};
 }
 
 /// Each ray goes to a source that is chosen by what it may send.
-glm::vec3 GroupedLight::by_many(const Sender& sender, std::uint32_t stream, std::size_t i) const
+GroupedLight::Found GroupedLight::by_many(const Sender& sender, std::uint32_t stream,
+                                          std::size_t i) const
 {
     std::vector<float> running(sender.sources.size());
     float total = 0.0f;
     for (std::size_t n = 0; n < running.size(); ++n)
         running[n] = total += place_.sources.guess(sender.sources[n], place_.world[i].centre,
                                                    place_.lumels.lumels[i].size);
-    glm::vec3 sum(0.0f);
+    glm::vec3 sum(0.0f), half(0.0f);
     for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
+        if (2 * k == options_.many_rays)
+            half = sum;
         const PathSamples samples(stream, k);
         const RayStart start = start_of(i, k);
         const float mark = samples.stratified(kChoicePair).x * total;
@@ -263,7 +280,8 @@ glm::vec3 GroupedLight::by_many(const Sender& sender, std::uint32_t stream, std:
         sum +=
             passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
     }
-    return sum / float(options_.many_rays);
+    const glm::vec3 light = sum / float(options_.many_rays);
+    return {light, half / (0.5f * float(options_.many_rays)) - light};
 }
 
 const std::vector<glm::vec3>& GroupedLight::sum()
@@ -281,11 +299,20 @@ const std::vector<glm::vec3>& GroupedLight::sum()
     return sum_;
 }
 
+std::vector<glm::vec3> GroupedLight::off() const
+{
+    std::vector<glm::vec3> sum(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    for (const Group& group : groups_)
+        for (std::size_t i = 0; i < group.off.size(); ++i)
+            sum[i] += group.off[i];
+    return sum;
+}
+
 std::uint64_t GroupedLight::bytes() const
 {
     std::uint64_t bytes = sum_.size() * sizeof(glm::vec3);
     for (const Group& group : groups_)
-        bytes += group.light.size() * sizeof(glm::vec3);
+        bytes += (group.light.size() + group.off.size()) * sizeof(glm::vec3);
     return bytes;
 }
 

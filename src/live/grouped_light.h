@@ -19,6 +19,7 @@ struct GroupedLightOptions {
     /// found again.
     std::uint64_t most_bytes = std::uint64_t(1) << 30;
     std::uint32_t seed = 0;
+    bool halves = false;  ///< keeps what half of the rays tell otherwise, see off()
 };
 
 /// The light that each lamp, each emissive material and the bright part of the sky send to each
@@ -43,6 +44,9 @@ public:
 
     /// Σ over groups [N] [lx].
     const std::vector<glm::vec3>& sum();
+    /// What the first half of the rays found less what all of them did, Σ over groups by the
+    /// factors that they had when they were found [N] [lx]; only with options.halves.
+    std::vector<glm::vec3> off() const;
     std::size_t groups() const { return groups_.size(); }
     std::uint64_t bytes() const;
 
@@ -57,18 +61,31 @@ private:
         std::vector<std::uint32_t> senders;
         std::vector<glm::vec3>
             light;  ///< [N] [lx] of the one sender by factor 1, of several by theirs
+        std::vector<glm::vec3> off;  ///< [N] [lx] of it, see off()
 
         bool is_shared() const { return senders.size() > 1; }
+    };
+
+    /// Light of a lumel [lx], and by how much that of half of the rays differs.
+    struct Found {
+        glm::vec3 light{0.0f}, off{0.0f};
+
+        void add(const Found& other, const glm::vec3& factor)
+        {
+            light += factor * other.light;
+            off += factor * other.off;
+        }
     };
 
     void list_senders();
     void add_groups();
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
     void find(Group& group, const Watch& watch = {});
-    glm::vec3 light_of(const Group& group, std::size_t lumel) const;
-    glm::vec3 light_of(const Sender& sender, std::size_t lumel) const;
-    glm::vec3 by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
-    glm::vec3 by_many(const Sender& sender, std::uint32_t stream, std::size_t lumel) const;
+    void find_at(Group& group, std::size_t lumel) const;
+    Found light_of(const Group& group, std::size_t lumel) const;
+    Found light_of(const Sender& sender, std::size_t lumel) const;
+    Found by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
+    Found by_many(const Sender& sender, std::uint32_t stream, std::size_t lumel) const;
     RayStart start_of(std::size_t lumel, std::uint32_t ray) const;
     glm::vec3 passing(const RayStart& start, const SourceSample& sample, std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;

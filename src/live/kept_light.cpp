@@ -8,8 +8,10 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task.
-constexpr std::size_t kGrain = 4096;
+/// Lumels worth a task, and those of a sweep between two looks at the watch.
+constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
+/// Parts of the time, about: direct light of all, sweeps of what follows, weights of what follows.
+constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace
 
@@ -56,55 +58,67 @@ void KeptLight::find_sources()
 std::vector<glm::vec3> KeptLight::irradiance(const Watch& watch)
 {
     find_sources();
-    constexpr double kDirect = 0.8;  // of the time, about
-    GroupedLight light(place(), options_.light, part_of(watch, 0.0, kDirect));
-    std::vector<glm::vec3> direct = light.sum(), sky;
-    if (!scene_.sky.empty()) {
-        sky = links_.sky_light();
-        for (std::size_t i = 0; i < direct.size(); ++i)
-            direct[i] += sky[i];
+    std::vector<glm::vec3> off;
+    const std::vector<glm::vec3> lamps = light_of_lamps(off, part_of(watch, 0.0, kDirect));
+    std::vector<glm::vec3> direct = lamps, albedo;
+    const std::vector<glm::vec3>& sky = links_.sky_light();
+    for (std::size_t i = 0; i < direct.size(); ++i) {
+        direct[i] += sky[i];
+        albedo.push_back(lumels_.lumels[i].albedo);
     }
-    std::vector<glm::vec3> albedo;
-    for (const Lumel& lumel : lumels_.lumels)
-        albedo.push_back(lumel.albedo);
     sweeps_.emplace(links_);
     sweeps_->begin(direct, albedo);
-    settle();
-    tell(watch, 1.0);
+    const Watch after = part_of(watch, kDirect, 1.0);
+    settle(part_of(after, 0.0, kSweeps));
+    const Watch rest = part_of(after, kSweeps, 1.0);
+    std::optional<ShownFilter> filter;
     if (options_.filter)
-        return filtered(sky);
-    std::vector<glm::vec3> result(lumels_.lumels.size());
-    for (std::size_t i = 0; i < result.size(); ++i)
-        result[i] = sweeps_->irradiance(i);
-    return result;
-}
-
-/// Sweeps until at rest.
-void KeptLight::settle()
-{
-    SweepChange before;
-    for (bool rests = false; !rests && sweeps_->sweeps() < kMostSweeps;) {
-        while (!sweeps_->step(lumels_.lumels.size())) {
-        }
-        const SweepChange now = sweeps_->change();
-        rests = std::max(still_to_come(now.all, before.all),
-                         still_to_come(now.dark, before.dark)) <= options_.residual;
-        before = now;
-    }
-}
-
-std::vector<glm::vec3> KeptLight::filtered(const std::vector<glm::vec3>& sky)
-{
-    ShownFilter filter(place(), links_);
-    filter.begin(*sweeps_, glm::vec3(1.0f));
-    while (!filter.step()) {
-    }
+        make_weights(filter.emplace(place(), links_), part_of(rest, 0.0, kWeights));
     std::vector<glm::vec3> result(lumels_.lumels.size());
     parallel_for(result.size(), kGrain, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
-            result[i] = filter.irradiance(*sweeps_, sky, i);
+            result[i] = filter ? filter->irradiance(*sweeps_, sky, i) : sweeps_->irradiance(i);
     });
+    error_ = error_of({links_, *sweeps_, lumels_.lumels, lamps, off, albedo, result},
+                      filter ? &*filter : nullptr, part_of(rest, kWeights, 1.0));
+    tell(watch, 1.0);
     return result;
+}
+
+/// What lamps, emissive surfaces and the bright part of the sky send [N] [lx]; off: as of
+/// GroupedLight.
+std::vector<glm::vec3> KeptLight::light_of_lamps(std::vector<glm::vec3>& off, const Watch& watch)
+{
+    GroupedLightOptions options = options_.light;
+    options.halves = true;
+    GroupedLight light(place(), options, watch);
+    off = light.off();
+    return light.sum();
+}
+
+/// Sweeps until at rest.
+void KeptLight::settle(const Watch& watch)
+{
+    SweepChange before;
+    for (bool rests = false; !rests && sweeps_->sweeps() < kMostSweeps;) {
+        if (!sweeps_->step(kStep)) {
+            tell(watch, 0.0);
+            continue;
+        }
+        const SweepChange now = sweeps_->change();
+        const double left =
+            std::max(still_to_come(now.all, before.all), still_to_come(now.dark, before.dark));
+        rests = left <= options_.residual;
+        before = now;
+        tell(watch, rests ? 1.0 : 0.0);
+    }
+}
+
+void KeptLight::make_weights(ShownFilter& filter, const Watch& watch)
+{
+    filter.begin(*sweeps_, glm::vec3(1.0f));
+    while (!filter.step())
+        tell(watch, 0.0);
 }
 
 KeptLinks KeptLight::kept(const std::string& hash) const

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "live/grouped_light.h"
+#include "live/kept_error.h"
 #include "live/lumel_links.h"
 #include "live/lumel_sweeps.h"
 #include "live/shown_filter.h"
@@ -37,6 +38,8 @@ public:
     /// Finds the light of the scene as it is now: H [N] [lx].
     std::vector<glm::vec3> irradiance(const Watch& watch = {});
 
+    /// Of the last light.
+    const KeptError& error() const { return error_; }
     const LumelLinks& links() const { return links_; }
     int sweeps() const { return sweeps_ ? sweeps_->sweeps() : 0; }  ///< of the last light
     /// For a later run. hash: Scene::hash.
@@ -45,8 +48,9 @@ public:
 private:
     LivePlace place() const;
     void find_sources();
-    void settle();
-    std::vector<glm::vec3> filtered(const std::vector<glm::vec3>& sky);
+    std::vector<glm::vec3> light_of_lamps(std::vector<glm::vec3>& off, const Watch& watch);
+    void settle(const Watch& watch);
+    void make_weights(ShownFilter& filter, const Watch& watch);
 
     const Scene& scene_;
     const Atlas& atlas_;
@@ -59,6 +63,7 @@ private:
     std::optional<LightSources> sources_;
     LumelLinks links_;
     std::optional<LumelSweeps> sweeps_;
+    KeptError error_;
 };
 
 /// The scene itself. Throws Error{input} if it has coloured glass.

@@ -13,6 +13,24 @@ namespace {
                 "has other surfaces than those whose links were kept; bake the scene again");
 }
 
+/// [ends of kept] What each end of a link is now.
+std::vector<std::uint32_t> ends_now(const KeptLinks& kept, const Renumbering& now,
+                                    std::uint32_t gone)
+{
+    constexpr std::uint32_t kFixed = 2;  // the sky, and nowhere
+    std::vector<std::uint32_t> ends = now.lumels;
+    for (std::uint32_t e = 0; e < kFixed; ++e)
+        ends.push_back(std::uint32_t(now.lumels_now) + e);
+    for (const std::uint32_t instance : now.instances)
+        ends.push_back(instance == Renumbering::kNotThere
+                           ? gone
+                           : std::uint32_t(now.lumels_now) + kFixed + instance);
+    for (std::size_t i = 0; i < kept.lumels.size(); ++i)
+        if (ends[i] == Renumbering::kNotThere)
+            ends[i] = gone;
+    return ends;
+}
+
 }  // namespace
 
 std::uint32_t side_of_rays(std::uint32_t rays)
@@ -21,6 +39,29 @@ std::uint32_t side_of_rays(std::uint32_t rays)
         throw Error(ErrorKind::input, std::to_string(rays) + " rays",
                     "are no grid: a lumel has 4, 16, 64 or 256");
     return 1u << (std::countr_zero(rays) / 2);
+}
+
+KeptLinks renumbered(const KeptLinks& kept, const Renumbering& now)
+{
+    KeptLinks result{.scene_hash = kept.scene_hash,
+                     .rays = kept.rays,
+                     .seed = kept.seed,
+                     .lift = kept.lift,
+                     .lumels = std::vector<std::uint64_t>(now.lumels_now, 0),
+                     .instances = std::vector<std::uint64_t>(now.instances_now, 0)};
+    const std::vector<std::uint32_t> ends = ends_now(kept, now, std::uint32_t(result.gone()));
+    result.links.assign(now.lumels_now * kept.rays, std::uint32_t(result.gone()));
+    for (std::size_t i = 0; i < now.instances.size(); ++i)
+        if (now.instances[i] != Renumbering::kNotThere)
+            result.instances[now.instances[i]] = kept.instances[i];
+    for (std::size_t i = 0; i < now.lumels.size(); ++i)
+        if (const std::size_t j = now.lumels[i]; j != Renumbering::kNotThere) {
+            result.lumels[j] = kept.lumels[i];
+            for (std::size_t k = 0; k < kept.rays; ++k)
+                result.links[j * kept.rays + k] = ends[kept.links[i * kept.rays + k]];
+        }
+    result.side = kept.side;
+    return result;
 }
 
 void keep_places(const Atlas& atlas, KeptLinks& kept)

@@ -43,6 +43,8 @@ struct KeptLinks {
 
     /// Where links end: at lumels, in the sky, nowhere, or lost on an instance.
     std::uint64_t ends() const { return lumels.size() + 2 + instances.size(); }
+    /// What a link that was renumbered ended on is no longer there. No file has such links.
+    std::uint64_t gone() const { return ends(); }
 };
 
 /// Are so many rays of a lumel a grid that Lumel keeps?
@@ -53,6 +55,20 @@ constexpr bool is_grid(std::uint32_t rays)
 
 /// Side of the grid of a lumel's rays. Throws Error{input} unless there are 4, 16, 64 or 256.
 std::uint32_t side_of_rays(std::uint32_t rays);
+
+/// What lumels and instances that were kept are now: by their number then. kNotThere: gone.
+struct Renumbering {
+    static constexpr std::uint32_t kNotThere = ~0u;
+
+    std::vector<std::uint32_t> lumels;     ///< [N]
+    std::vector<std::uint32_t> instances;  ///< [I]
+    std::size_t lumels_now = 0, instances_now = 0;
+};
+
+/// The same links between lumels and instances that have other numbers now. Those that are new
+/// have a print of 0, as if they had changed; links that ended on what is gone end in gone().
+/// Places are left out.
+KeptLinks renumbered(const KeptLinks& kept, const Renumbering& now);
 
 /// Takes over the places of an atlas.
 void keep_places(const Atlas& atlas, KeptLinks& kept);

@@ -83,8 +83,8 @@ std::vector<std::uint64_t> lumel_prints(const WorldLumels& world, const Lumels& 
             const Lumel& lumel = lumels.lumels[i];
             const auto pieces = world.pieces(world[i]);
             Fingerprint print;
-            print.add(lumel.instance);
-            print.add(lumel.texel);
+            print.add(lumel.texel % std::uint32_t(lumels.width));
+            print.add(lumel.texel / std::uint32_t(lumels.width));
             print.add(lumel.flags);
             print.add(world[i].centre);
             print.add(world[i].normal);
@@ -122,7 +122,8 @@ LinkChanges changes_since(const KeptLinks& kept, const LivePlace& place, std::ui
     const std::vector<std::uint64_t> instances = instance_prints(place.scene);
     const std::size_t lost = lumels.size() + 2;  // lost on an instance
     changes.starts.resize(lumels.size());
-    changes.ends.resize(kept.ends());
+    changes.ends.resize(kept.gone() + 1);
+    changes.ends[kept.gone()] = 1;
     for (std::uint32_t i = 0; i < instances.size(); ++i)
         if (instances[i] != kept.instances[i]) {
             changes.ends[lost + i] = 1;

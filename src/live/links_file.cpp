@@ -31,7 +31,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;       // 1: rays by the number of a lumel
 constexpr std::uint32_t kMostSide = 65536;  ///< of an atlas [texels]
 constexpr std::uint32_t kWord = 64;         ///< [bits]
 

@@ -28,8 +28,9 @@ namespace {
 constexpr std::size_t kGrain = 256, kFollowed = 64;
 /// Lumels between two looks at the watch.
 constexpr std::size_t kStep = 16384;
-/// Random numbers of a ray: places within its cells of directions and of starts.
-constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3;
+/// Random numbers of a ray: places within its cells of directions and of starts; of four of them,
+/// which quarters they are of.
+constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
 
 float to_unit(std::uint32_t key, std::uint32_t what)
 {
@@ -44,7 +45,7 @@ public:
     Rays(const LumelLinks& links, std::size_t lumel)
         : links_(links),
           lumel_(lumel),
-          own_(PathSamples::hash(links.seed_, std::uint32_t(lumel))),
+          own_(links.key_of(lumel)),
           frame_(frame_about(links.place_.world[lumel].normal))
     {
     }
@@ -123,7 +124,7 @@ void LumelLinks::trace_all(const Watch& watch)
 /// Traces what has changed. What light the sky brings is left to find_sky().
 void LumelLinks::take_over(const KeptLinks& kept, const LinkChanges& changes, const Watch& watch)
 {
-    links_ = kept.links;
+    links_ = kept.links;  // of which some may be KeptLinks::gone()
     std::mutex adding;
     parallel_steps(
         lumels_, kStep, kFollowed,
@@ -280,6 +281,31 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     const float share = std::numbers::pi_v<float> / float(rays());
     sky_light_[i] = share * (sums[0] + sums[1]);
     white_sky_light_[i] = share * sums[0];
+}
+
+/// What one ray brings from the sky, if it meets it, as if it were all [lx].
+glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
+{
+    if (place_.scene.sky.empty())
+        return glm::vec3(0.0f);
+    return std::numbers::pi_v<float> * place_.sources.rest_of_sky(direction(lumel, ray));
+}
+
+/// Of the random numbers of a lumel. Its number may be another once things appear or vanish.
+std::uint32_t LumelLinks::key_of(std::size_t i) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    const auto width = std::uint32_t(place_.lumels.width);
+    return PathSamples::hash(
+        PathSamples::hash(PathSamples::hash(seed_, lumel.texel % width), lumel.texel / width),
+        lumel.flags & kLumelBack ? 1u : 0u);
+}
+
+std::uint32_t LumelLinks::quarter_of(std::size_t lumel, std::uint32_t ray) const
+{
+    const std::uint32_t u = ray % side_, v = ray / side_;
+    const std::uint32_t four = PathSamples::hash(key_of(lumel), v / 2 * side_ + u / 2);
+    return 2 * half_of(ray) + ((u ^ (PathSamples::hash(four, kQuarter) >> half_of(ray))) & 1u);
 }
 
 Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> lumels)

@@ -1,6 +1,7 @@
 #pragma once
 // The lumel that each ray from a lumel meets, kept while things move.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,7 +33,8 @@ struct Retraced {
 struct LinkChanges;
 
 /// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
-/// over (sin² θ, φ). A ray depends on its lumel and its number alone, so that it can be made again.
+/// over (sin² θ, φ). A ray depends on the place of its lumel in the atlas and on its number alone,
+/// so that it can be made again.
 class LumelLinks {
 public:
     /// Traces all of them. What is given must outlive it. side: a power of two.
@@ -80,6 +82,11 @@ public:
     const std::vector<glm::vec3>& white_sky_light() const { return white_sky_light_; }
     /// Of rays whose cells lie on the white (0) and on the black fields (1) of a board.
     std::uint32_t half_of(std::uint32_t ray) const { return (ray % side_ + ray / side_) % 2; }
+    /// What the rays of each quarter bring, each as if it were all [lx], where ends send `sent`:
+    /// 0 and 1 are the white half, 2 and 3 the black one. Each has one of every four cells beside
+    /// each other, by chance, so that quarters differ by noise alone.
+    template <class Sent>
+    std::array<glm::vec3, 4> by_quarters(std::size_t lumel, const Sent& sent) const;
 
 private:
     class Rays;
@@ -100,6 +107,9 @@ private:
     void trace(std::size_t lumel);
     Retraced follow(std::size_t lumel, std::uint32_t thing, const Box& box);
     void find_sky(const Rays& rays, std::size_t lumel);
+    glm::vec3 sky_by(std::size_t lumel, std::uint32_t ray) const;
+    std::uint32_t key_of(std::size_t lumel) const;
+    std::uint32_t quarter_of(std::size_t lumel, std::uint32_t ray) const;
 
     const LivePlace place_;
     NearLumels near_;
@@ -109,5 +119,17 @@ private:
     std::vector<std::uint32_t> on_thing_;                 ///< [ends] a thing, or ThingRays::kStays
     std::vector<glm::vec3> sky_light_, white_sky_light_;  ///< [N]
 };
+
+template <class Sent>
+std::array<glm::vec3, 4> LumelLinks::by_quarters(std::size_t lumel, const Sent& sent) const
+{
+    std::array<glm::vec3, 4> light{};
+    const std::span<const std::uint32_t> links = of(lumel);
+    for (std::uint32_t k = 0; k < links.size(); ++k)
+        light[quarter_of(lumel, k)] += links[k] == sky() ? sky_by(lumel, k) : sent(links[k]);
+    for (glm::vec3& quarter : light)
+        quarter *= 4.0f / float(rays());
+    return light;
+}
 
 }  // namespace lumel

@@ -36,6 +36,11 @@ LumelSweeps::LumelSweeps(const LumelLinks& links)
 {
 }
 
+LumelSweeps::LumelSweeps(const LumelSweeps& all, std::uint32_t half) : LumelSweeps(all)
+{
+    half_ = half;
+}
+
 double LumelSweeps::Sums::relative() const
 {
     return light > 0.0 ? std::sqrt(squares * count) / light : 0.0;
@@ -62,16 +67,26 @@ void LumelSweeps::begin(const std::vector<glm::vec3>& direct, const std::vector<
     sweeps_ = 0;
 }
 
-bool LumelSweeps::step(std::size_t lumels)
+glm::vec4 LumelSweeps::arriving(std::size_t i) const
 {
+    const std::span<const std::uint32_t> links = links_.of(i);
     const float share = 1.0f / float(links_.rays());
-    const std::size_t end = std::min(next_ + lumels, direct_.size());
-    for (; next_ < end; ++next_) {
-        const std::span<const std::uint32_t> links = links_.of(next_);
-        glm::vec4 sum(0.0f);
+    glm::vec4 sum(0.0f);
+    if (half_ == kAll) {
         for (std::size_t k = 0; k < links.size(); k += 2)
             sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs wait less for each other
-        received_[next_] = share * sum;
+        return share * sum;
+    }
+    for (std::uint32_t k = 0; k < links.size(); k += 2)  // one of each pair is of either half
+        sum += sent_[links[links_.half_of(k) == half_ ? k : k + 1]];
+    return 2.0f * share * sum;
+}
+
+bool LumelSweeps::step(std::size_t lumels)
+{
+    const std::size_t end = std::min(next_ + lumels, direct_.size());
+    for (; next_ < end; ++next_) {
+        received_[next_] = arriving(next_);
         const glm::vec4 now = albedo_[next_] * (direct_[next_] + received_[next_]);
         const double light = all_channels(now), change = light - all_channels(sent_[next_]);
         sent_[next_] = now;

@@ -28,6 +28,9 @@ class LumelSweeps {
 public:
     /// The links must outlive it.
     explicit LumelSweeps(const LumelLinks& links);
+    /// Of the rays whose cells lie on the white (0) or on the black fields (1) of a board alone, as
+    /// if they were all; to begin from the light of all of them.
+    LumelSweeps(const LumelSweeps& all, std::uint32_t half);
 
     /// D [N] [lx] or ρ [N] are others now: begins from X as it is.
     void begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo);
@@ -50,6 +53,8 @@ public:
     std::uint64_t bytes() const;
 
 private:
+    static constexpr std::uint32_t kAll = ~0u;
+
     /// Of light that lumels send, all channels together.
     struct Sums {
         double light = 0.0, squares = 0.0, count = 0.0;
@@ -63,7 +68,10 @@ private:
         double relative() const;
     };
 
+    glm::vec4 arriving(std::size_t lumel) const;
+
     const LumelLinks& links_;
+    std::uint32_t half_ = kAll;
     // Padded, so that each is one aligned load.
     std::vector<glm::vec4> direct_, albedo_, received_;  ///< [N]
     std::vector<glm::vec4> sent_;                        ///< [ends] B

@@ -73,13 +73,19 @@ ShownFilter::ShownFilter(const LivePlace& place, const LumelLinks& links)
 
 void ShownFilter::begin(const LumelSweeps& sweeps, const glm::vec3& sky)
 {
+    const std::vector<glm::vec3> dark(places_.size(), glm::vec3(0.0f));
+    begin({dark, dark});
     sweeps_ = &sweeps;
     sky_ = sky;
     stage_ = Stage::halves;
+}
+
+void ShownFilter::begin(std::array<std::vector<glm::vec3>, 2> halves)
+{
+    stage_ = Stage::nearest;
     next_ = 0;
     const std::size_t count = places_.size();
-    for (std::vector<glm::vec3>& half : halves_)
-        half.assign(count, glm::vec3(0.0f));
+    halves_ = std::move(halves);
     nearest_.assign(count, 0.0f);
     noise_.assign(count, 0.0f);
     steps_.assign(count, 0);
@@ -98,7 +104,9 @@ bool ShownFilter::step()
     };
     bool ended = true;
     if (stage_ == Stage::halves)
-        ended = do_lumels([&](std::size_t i) { find_half(i); });
+        ended = do_lumels([&](std::size_t i) { find_halves(i); });
+    else if (stage_ == Stage::nearest)
+        ended = do_lumels([&](std::size_t i) { find_nearest(i); });
     else if (stage_ == Stage::steps)
         ended = do_lumels([&](std::size_t i) { steps_[i] = steps_of(i); });
     else if (stage_ == Stage::noise)
@@ -144,23 +152,28 @@ std::uint32_t ShownFilter::lumel_at(int x, int y, int side) const
 }
 
 /// Light of the rays whose cells lie on the white and on the black fields of a board, each as if it
-/// were all; and how near they end [m], at least.
-void ShownFilter::find_half(std::size_t i)
+/// were all.
+void ShownFilter::find_halves(std::size_t i)
 {
     const std::span<const std::uint32_t> links = links_.of(i);
-    const glm::vec3& centre = place_.world[i].centre;
     glm::vec4 sums[2] = {glm::vec4(0.0f), glm::vec4(0.0f)};
-    float nearest = std::numeric_limits<float>::max();
-    for (std::uint32_t k = 0; k < links.size(); ++k) {
+    for (std::uint32_t k = 0; k < links.size(); ++k)
         sums[links_.half_of(k)] += sweeps_->sent(links[k]);
-        if (links[k] < links_.sky())
-            nearest = std::min(nearest, glm::distance(centre, place_.world[links[k]].centre) -
-                                            place_.world[links[k]].size);
-    }
     const float share = 2.0f / float(links.size());
     const glm::vec3 sky = links_.sky_light()[i], white = links_.white_sky_light()[i];
     halves_[0][i] = share * glm::vec3(sums[0]) + sky_ * 2.0f * white;
     halves_[1][i] = share * glm::vec3(sums[1]) + sky_ * 2.0f * (sky - white);
+}
+
+/// How near the rays of a lumel end [m], at least.
+void ShownFilter::find_nearest(std::size_t i)
+{
+    const glm::vec3& centre = place_.world[i].centre;
+    float nearest = std::numeric_limits<float>::max();
+    for (const std::uint32_t link : links_.of(i))
+        if (link < links_.sky())
+            nearest = std::min(nearest, glm::distance(centre, place_.world[link].centre) -
+                                            place_.world[link].size);
     nearest_[i] = std::max(nearest, 0.0f);
 }
 
@@ -266,19 +279,30 @@ float ShownFilter::noise_left(std::uint32_t i, const Tile& of) const
     return mean > 0.0f ? std::sqrt(variance / kChannels) / mean : 0.0f;
 }
 
-/// Light by rays as it is shown. There must be weights.
-glm::vec3 ShownFilter::filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
-                                std::size_t i) const
+/// There must be weights.
+template <class Light>
+glm::vec3 ShownFilter::mixed(const Light& light, std::size_t i) const
 {
     const Place place = places_[i];
     const Tile& tile = tiles_[place.tile];
-    glm::vec3 sum = by_rays(sweeps, sky, i);
+    glm::vec3 sum = light(i);
     float weights = 1.0f;
     for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
-        sum += tile.weights[w].weight * by_rays(sweeps, sky, tile.weights[w].lumel);
+        sum += tile.weights[w].weight * light(tile.weights[w].lumel);
         weights += tile.weights[w].weight;
     }
     return sum / weights;
+}
+
+glm::vec3 ShownFilter::filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                                std::size_t i) const
+{
+    return mixed([&](std::size_t j) { return by_rays(sweeps, sky, j); }, i);
+}
+
+glm::vec3 ShownFilter::filtered(std::span<const glm::vec3> light, std::size_t i) const
+{
+    return mixed([&](std::size_t j) { return light[j]; }, i);
 }
 
 glm::vec3 ShownFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,

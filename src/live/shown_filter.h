@@ -25,6 +25,8 @@ public:
     /// Light by rays is that of the links and sweeps now, and of the sky, times a factor: makes all
     /// weights anew in the steps that follow.
     void begin(const LumelSweeps& sweeps, const glm::vec3& sky);
+    /// The same for light of which these are independent halves [2][N] [lx].
+    void begin(std::array<std::vector<glm::vec3>, 2> halves);
     /// A piece of that. True when all is done.
     bool step();
 
@@ -32,9 +34,14 @@ public:
     /// what of its light the sweeps began with [N] [lx]; empty: none.
     glm::vec3 irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                          std::size_t lumel) const;
-    /// Of that light, by its size: the root of the mean square over channels of what is expected to
-    /// be wrong, for the noise of rays alone. 1 of lumels that have no weights yet, 0
-    /// of buried ones, which no one sees.
+    /// The part of it that rays bring.
+    glm::vec3 filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                       std::size_t lumel) const;
+    /// Any light [N] by the weights.
+    glm::vec3 filtered(std::span<const glm::vec3> light, std::size_t lumel) const;
+    /// Of the light that is shown, by its size: the root of the mean square over channels of what
+    /// is expected to be wrong, for the noise of rays alone. 1 of lumels that have no weights yet,
+    /// 0 of buried ones, which no one sees.
     float noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel) const;
     std::uint64_t bytes() const;
 
@@ -57,12 +64,13 @@ private:
     float nearest_of(std::size_t lumel) const;
     std::uint8_t steps_of(std::size_t lumel) const;
     bool may_step(std::size_t i, std::size_t j) const;
-    void find_half(std::size_t lumel);
+    void find_halves(std::size_t lumel);
+    void find_nearest(std::size_t lumel);
     void fill(const Tile& of, FilterTile& tile) const;
     void find_noise(FilterTile& tile);
     void weigh(Tile& of, FilterTile& tile);
-    glm::vec3 filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
-                       std::size_t lumel) const;
+    template <class Light>
+    glm::vec3 mixed(const Light& light, std::size_t lumel) const;
     float noise_left(std::uint32_t lumel, const Tile& of) const;
     template <class Work>
     bool do_tiles(const Work& work);
@@ -75,7 +83,7 @@ private:
     std::vector<Tile> tiles_;
     std::vector<Place> places_;      ///< [N]
     std::vector<float> noise_left_;  ///< [N] of light by rays when weights were made, by its size
-    enum class Stage { halves, steps, noise, weights, done } stage_ = Stage::done;
+    enum class Stage { halves, nearest, steps, noise, weights, done } stage_ = Stage::done;
     std::size_t next_ = 0;  ///< lumel or tile of the stage
     // Light by rays from every other direction, and by the others: empty when done.
     std::array<std::vector<glm::vec3>, 2> halves_;  ///< [N] [lx]

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
+#include "../support/temporary_folder.h"
+#include "bake/bake.h"
 #include "measure/light_probe.h"
 #include "paper_house.h"
 #include "reference/averages.h"
@@ -180,6 +183,25 @@ TEST(Probes, InsideOfABlockAreRefusedWhetherItsMaterialIsDoubleSidedOrNot)
         EXPECT_FALSE(probe.read({1.4f, 0.95f, 1.4f}, 2).inside);
         EXPECT_FALSE(probe.read({0.02f, 0.02f, 0.02f}, 3).inside);
     }
+}
+
+TEST(Probes, OfABakeThatAreStoppedLeaveTheBakeWithoutThem)
+{
+    const test::TemporaryFolder folder;
+    BakeOptions options;
+    options.atlas.size = 16;
+    options.preview_width = 0;
+    options.probe_spacing = 0.05;
+    options.solver.max_shots = 24;
+    bool is_done = false;
+    const BakeSummary summary = bake(support::scene_path("cornell-box"), folder / "out", options,
+                                     [&](const BakeProgress& now) {
+                                         is_done = is_done || now.stage == "writing";
+                                         return !(is_done && now.stage == "rays");
+                                     });
+    EXPECT_TRUE(summary.interrupted);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out/lightmap.exr"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "out/probes.json"));
 }
 
 }  // namespace

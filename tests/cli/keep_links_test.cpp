@@ -99,7 +99,10 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
     const Box box;
     const std::string folder = box.bake("out");
     EXPECT_TRUE(std::filesystem::exists(folder + "/scene.lumellinks"));
-    EXPECT_EQ(Json::parse(bytes_of(folder + "/report.json"))["solution"]["shots"], 16);
+    const Json baked = Json::parse(bytes_of(folder + "/report.json"))["solution"];
+    EXPECT_EQ(baked["shots"], 16);
+    EXPECT_EQ(baked["convergence"].size(), 1u);
+    EXPECT_EQ(baked["convergence"][0]["error"], baked["estimated_error"]);
     const Outcome outcome = box.relight(
         folder, {{"states",
                   {{{"name", "as baked"}},
@@ -119,9 +122,19 @@ TEST(KeepLinks, RelightIsANewBakeOfTheChangedScene)
         scene["extensions"]["KHR_lights_punctual"]["lights"][0]["color"] = {0.5, 0.75, 1.0};
     });
     expect_equal(folder + "/states/lamps.exr", lamps + "/lightmap.exr");
+    const auto expect_error = [&](std::size_t state, const std::string& bake) {
+        const Json solution = Json::parse(bytes_of(bake + "/report.json"))["solution"];
+        for (const char* error : {"estimated_error", "estimated_dark_error"}) {
+            EXPECT_GT(solution[error], 0.0);
+            EXPECT_EQ(report["states"][state][error], solution[error]) << bake;
+        }
+    };
+    expect_error(0, folder);
+    expect_error(1, lamps);
     const std::string sky =
         box.bake("sky", kAsItIs, {"--sky-rotation", "90", "--sky-scale", "0.5"});
     expect_equal(folder + "/states/sky.exr", sky + "/lightmap.exr");
+    expect_error(2, sky);
 }
 
 /// The report's row of an update.
@@ -148,6 +161,11 @@ TEST(KeepLinks, UpdateOfPaintAndLampsIsANewBakeOfTheEditedScene)
     const std::string fresh = box.bake("fresh", edit);
     expect_equal(folder + "/lightmap.exr", fresh + "/lightmap.exr");
     EXPECT_TRUE(bytes_of(folder + "/scene.lumellinks") == bytes_of(fresh + "/scene.lumellinks"));
+    const auto error = [](const std::string& bake) {
+        return Json::parse(bytes_of(bake + "/report.json"))["solution"]["estimated_error"];
+    };
+    EXPECT_EQ(error(folder), error(fresh));
+    EXPECT_NE(row["error_before"], error(fresh));
 
     // What was updated is lit anew as what was baked.
     const Outcome again = box.relight(folder, {{"states", {{{"name", "same"}}}}});
@@ -178,7 +196,7 @@ TEST(KeepLinks, UpdateOfAThingMovedToWhereABakeHasItIsThatBake)
     EXPECT_TRUE(bytes_of(folder + "/scene.lumellinks") == links);
 }
 
-TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesIsANewSolution)
+TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesTracesFewLinksAndCanBeLitAnew)
 {
     const Box box;
     const std::string folder = box.bake("out");
@@ -190,14 +208,22 @@ TEST(KeepLinks, UpdateOfAThingThatAppearsOrGoesIsANewSolution)
                 return;
             }
     };
+    std::vector<int> widths;
     for (const Edit& edit : {without, kAsItIs}) {
         const Json row = update(box, folder, edit);
-        EXPECT_EQ(row["rays"], row["links"]);  // other instances, other numbers
+        const Json sizes = Json::parse(bytes_of(folder + "/report.json"))["sizes"];
+        EXPECT_GT(row["rays"], 0);
+        if (sizes["atlas_width"] == std::stoi(kSide))
+            EXPECT_LT(3 * row["rays"].get<double>(), row["links"].get<double>());
+        else
+            EXPECT_EQ(row["rays"], row["links"]);  // the map grew: places are rounded otherwise
+        widths.push_back(sizes["atlas_width"]);
         const Outcome again = box.relight(folder, {{"states", {{{"name", "same"}}}}});
         ASSERT_EQ(again.code, 0) << again.err;
         EXPECT_EQ(Json::parse(again.out)["links"]["traced_again"], 0);
         expect_equal(folder + "/states/same.exr", folder + "/lightmap.exr");
     }
+    EXPECT_EQ(widths.front(), std::stoi(kSide));
 }
 
 TEST(KeepLinks, RefusesWhatItCannotKeepOrLight)

@@ -69,7 +69,8 @@ TEST(Kills, AtAnyMomentLeaveAllOldOrAllNewAndNothingForTheNextRun)
     const Workplace place;
     const auto bake = [&](int seed, double kill_after) {
         return run_lumel({"bake", own_scene("cornell-box.gltf"), place.path("out"), "--size", "16",
-                          "--shots", "24", "--preview-width", "32", "--seed", std::to_string(seed)},
+                          "--shots", "24", "--preview-width", "32", "--probes", "0.1", "--seed",
+                          std::to_string(seed)},
                          {.kill_after = kill_after});
     };
     ASSERT_EQ(bake(1, 0.0).code, 0);
