@@ -44,6 +44,7 @@ void Solving::follow(ViewSession& session, Desk& desk)
     if (begins && !aside_) {
         SolverOptions options{.method = desk.method.options()};
         options.target_error = double(desk.error) / kPercent;
+        desk.message.clear();
         begin(session, options);
     }
     if (aside_ && (stops || aside_->edits() != session.edits()))

@@ -316,7 +316,7 @@ Image ViewWindow::draw(double wait, bool read)
             show_legend(*session_);
         show_help(desk_);
     }
-    show_line(desk_.message, desk_);
+    show_line(desk_.message.empty() ? desk_.solving : desk_.message, desk_);
     return screen_.end(read);
 }
 
