@@ -35,6 +35,8 @@ constexpr int kMeanSide = 6;
 /// A sky's parts that are brighter than this many times its mean are seen for, if they send more
 /// than this share of its light.
 constexpr double kBright = 8.0, kBrightShare = 0.03;
+/// Unit normals that are this close [rad] differ by rounding alone, in the file or since.
+constexpr float kSameNormal = 1e-4f;
 /// Half an angle [rad] or a ratio of radius to distance below which a source's shape is small.
 constexpr float kSmallAngle = 0.02f;
 
@@ -415,7 +417,8 @@ SourceSample LightSources::from_polygons(const Source& source, const RayStart& s
 /// Form factors know the interpolated normal only: is all that it may see above the surface too?
 bool LightSources::is_above_surface(const Source& source, const RayStart& start) const
 {
-    if (start.geometric == start.normal)
+    const glm::vec3 apart = start.geometric - start.normal;
+    if (glm::dot(apart, apart) < kSameNormal * kSameNormal)
         return true;
     const auto above = [&](const glm::vec3& corner) {
         return glm::dot(start.geometric, corner - start.position) >= 0.0f;

@@ -232,6 +232,59 @@ TEST(LiveLinks, SendersThatShareAGroupAreDimmedTheSame)
     EXPECT_LT(farthest(shared.direct(), apart.direct()), 1e-5);
 }
 
+/// Cosines at both ends by the square of the distance, over a quad of one triangle pair [sr].
+double seen_by_cosine(const glm::vec3& place, const glm::vec3& normal, const glm::vec3& corner,
+                      const glm::vec3& u, const glm::vec3& v)
+{
+    constexpr int kPoints = 64;  // along each side
+    const glm::vec3 across = glm::cross(u, v);
+    double sum = 0.0;
+    for (int k = 0; k < kPoints * kPoints; ++k) {
+        const glm::vec2 at = (glm::vec2(k % kPoints, k / kPoints) + 0.5f) / float(kPoints);
+        const glm::vec3 way = corner + at.x * u + at.y * v - place;
+        const double squared = glm::dot(way, way);
+        sum += std::max(double(glm::dot(normal, way)), 0.0) *
+               std::abs(double(glm::dot(across, way))) / (squared * squared);
+    }
+    return sum / double(kPoints * kPoints);
+}
+
+TEST(LiveLinks, AFaceThatSeesAPartOfALampAboveItsHorizonHasItsLightWithoutNoise)
+{
+    LiveLinks live(lay_out(read("cornell-box.gltf"), {.size = 2 * kSide}, {}), options_for({}));
+    const Lights direct = live.direct();
+    const Scene& scene = live.scene();
+    const Primitive& lamp =
+        scene.meshes[std::size_t(scene.instances[find_instance(scene, kLight)].mesh)].primitives[0];
+    ASSERT_EQ(lamp.positions.size(), 4u);
+    glm::vec3 low = lamp.positions[0], high = low;
+    for (const glm::vec3& corner : lamp.positions) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    const std::uint32_t block = find_instance(scene, "tall block");
+    const RayScene rays(scene);
+    const WorldLumels world(scene, rays, live.lumels());
+    double light = 0.0, form = 0.0;
+    std::vector<glm::dvec2> pairs;
+    for (std::size_t i = 0; i < direct.size(); ++i) {
+        // The face towards the camera, above all that could stand before it.
+        if (live.lumels().lumels[i].instance != block || !(world[i].normal.z < -0.9f) ||
+            world[i].centre.y < 0.2f || world[i].centre.y > 0.31f)
+            continue;
+        const double seen = seen_by_cosine(world[i].centre, world[i].normal, low,
+                                           glm::vec3(high.x - low.x, 0.0f, 0.0f),
+                                           glm::vec3(0.0f, 0.0f, high.z - low.z));
+        pairs.emplace_back(double(direct[i].g), seen);
+        light += pairs.back().x;
+        form += seen;
+    }
+    ASSERT_GT(pairs.size(), 30u);
+    ASSERT_GT(form, 0.0);
+    for (const glm::dvec2& pair : pairs)
+        EXPECT_NEAR(pair.x / light, pair.y / form, 0.05 / double(pairs.size()));
+}
+
 TEST(LiveLinks, BudgetEndsACallAndLaterCallsFinish)
 {
     LiveLinks live(laid_out(read("two-rooms.gltf"), {}), options_for({}));
