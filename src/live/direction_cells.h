@@ -33,6 +33,8 @@ inline DirectionCells cells_towards(const glm::vec3& centre, const glm::mat3& ha
 {
     // Far above the rounding of angles and squares of sines, far below a cell.
     constexpr float kRounding = 1e-4f, kPi = std::numbers::pi_v<float>;
+    if (centre.z + std::abs(half[0].z) + std::abs(half[1].z) + std::abs(half[2].z) < 0.0f)
+        return {};
     const float away = glm::length(glm::vec2(centre));
     const glm::vec2 along = away > 0.0f ? glm::vec2(centre) / away : glm::vec2(0.0f);
     const auto turn = [](const glm::vec2& a, const glm::vec2& b) { return a.x * b.y - a.y * b.x; };
@@ -50,8 +52,6 @@ inline DirectionCells cells_towards(const glm::vec3& centre, const glm::mat3& ha
         right = turn(right, aside) < 0.0f ? aside : right;
         left = turn(left, aside) > 0.0f ? aside : left;
     }
-    if (highest < 0.0f)
-        return {};
     const bool around = !(nearest > 0.0f);  // the axis may be inside
     const float low = around ? 0.0f : nearest * nearest / (nearest * nearest + highest * highest);
     if (!(lowest > 0.0f))

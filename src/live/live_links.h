@@ -183,10 +183,11 @@ private:
     std::vector<glm::mat4> motions_;    ///< [things] from where they were given
     std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
     std::vector<Following> following_;
-    bool edited_ = true;     ///< since the last sweep
-    bool swept_ = true;      ///< wholly, since the last edit
-    bool weighing_ = false;  ///< light is at rest, but not the filter's weights
-    SweepChange before_;     ///< of the sweep before the last
+    std::uint64_t unseen_ = 0;  ///< links traced again since the last sweep began
+    bool edited_ = true;        ///< since the last sweep
+    bool swept_ = true;         ///< wholly, since the last edit
+    bool weighing_ = false;     ///< light is at rest, but not the filter's weights
+    SweepChange before_;        ///< of the sweep before the last
     LiveLinksState state_;
 };
 
