@@ -22,7 +22,8 @@ std::string table_of(const std::string& folder, const RelightSummary& summary)
                                     stated ? "  estimated error [%]" : "");
     for (const StateRow& row : summary.states) {
         table += fmt::format("{:<{}}  {:>9.4f}  {:>9.4f}", row.name, width, row.light, row.files);
-        table += stated ? fmt::format("  {:>19.2f}\n", 100.0 * row.error) : "\n";
+        const std::string error = row.error >= 0.0 ? fmt::format("{:.2f}", 100.0 * row.error) : "–";
+        table += stated ? fmt::format("  {:>19}\n", error) : "\n";
     }
     return table + fmt::format("{}/states: {} states in {:.1f} s", folder, summary.states.size(),
                                summary.seconds);

@@ -36,8 +36,9 @@ KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& link
 KeptLinks links_for(const EditedScene& edit, const KeptLinks& before)
 {
     const Lumels &then = edit.before.lumels, &now = edit.now.lumels;
-    // A larger atlas rounds places otherwise.
-    if (then.width != now.width || then.lumels.size() != before.lumels.size())
+    // A larger atlas rounds places otherwise; and a file may be of another scene.
+    if (then.width != now.width || then.lumels.size() != before.lumels.size() ||
+        edit.before.scene.instances.size() != before.instances.size())
         return {};
     const std::vector<std::uint32_t> places = lumels_by_side(now);
     Renumbering numbers{.instances = edit.matches.after,

@@ -43,6 +43,7 @@ FollowOrder follow_order(const WorldLumels& world, std::span<const std::uint32_t
         shells[shell_of(i)].push_back(std::uint32_t(i));
     FollowOrder order;
     order.lumels.reserve(world.size());
+    order.near = shells[0].size() + shells[kOwn].size();
     for (const std::vector<std::uint32_t>& shell : shells)
         if (!shell.empty()) {
             order.lumels.insert(order.lumels.end(), shell.begin(), shell.end());

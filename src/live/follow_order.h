@@ -15,6 +15,7 @@ namespace lumel {
 struct FollowOrder {
     std::vector<std::uint32_t> lumels;  ///< [N], those of a shell in their own order
     std::vector<std::size_t> ends;      ///< [shells] in `lumels`; no shell is empty
+    std::size_t near = 0;               ///< in `lumels`: end of those on the thing
 
     /// Where the shell ends that the lumel at `place` of the order is in.
     std::size_t end_after(std::size_t place) const;

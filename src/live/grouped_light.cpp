@@ -28,7 +28,8 @@ GroupedLight::GroupedLight(const LivePlace& place, const GroupedLightOptions& op
       options_(options)
 {
     list_senders();
-    const std::uint64_t of_one = place.lumels.lumels.size() * sizeof(glm::vec3);
+    const std::uint64_t of_one =
+        place.lumels.lumels.size() * sizeof(glm::vec3) * (options.halves ? 2 : 1);
     const std::size_t fit = std::max<std::size_t>(std::size_t(options.most_bytes / of_one), 1);
     groups_.resize(std::min(fit, senders_.size()));
     for (std::uint32_t s = 0; s < senders_.size(); ++s)
@@ -60,7 +61,7 @@ void GroupedLight::add_groups()
         grouped += group.senders.size();
     for (std::size_t s = grouped; s < senders_.size(); ++s) {
         if (!is_full)
-            groups_.emplace_back().light.resize(place_.lumels.lumels.size());
+            make_room(groups_.emplace_back());
         groups_.back().senders.push_back(std::uint32_t(s));
     }
 }
@@ -107,12 +108,17 @@ void GroupedLight::find_again(LightSources::Part part, std::uint32_t index)
         find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
 }
 
+void GroupedLight::make_room(Group& group) const
+{
+    group.light.resize(place_.lumels.lumels.size());
+    if (options_.halves)
+        group.off.resize(group.light.size());
+}
+
 void GroupedLight::find(Group& group, const Watch& watch)
 {
     const std::size_t lumels = place_.lumels.lumels.size();
-    group.light.resize(lumels);
-    if (options_.halves)
-        group.off.resize(lumels);
+    make_room(group);
     parallel_steps(
         lumels, kStep, kGrain,
         [&](std::size_t first, std::size_t last) {

@@ -44,8 +44,8 @@ public:
 
     /// Σ over groups [N] [lx].
     const std::vector<glm::vec3>& sum();
-    /// What the first half of the rays found less what all of them did, Σ over groups by the
-    /// factors that they had when they were found [N] [lx]; only with options.halves.
+    /// What the first half of the rays found less what all of them did, Σ over groups [N] [lx], as
+    /// if all factors were 1, but of groups that senders share; only with options.halves.
     std::vector<glm::vec3> off() const;
     std::size_t groups() const { return groups_.size(); }
     std::uint64_t bytes() const;
@@ -79,6 +79,7 @@ private:
 
     void list_senders();
     void add_groups();
+    void make_room(Group& group) const;
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
     void find(Group& group, const Watch& watch = {});
     void find_at(Group& group, std::size_t lumel) const;

@@ -344,11 +344,19 @@ void LiveLinks::follow_direct(Following& one)
     edited_ |= with_direct() == nullptr;
 }
 
+/// Do the lumels around a thing, and on it, not know of its move yet? They do before things move
+/// on, so that what never stops is followed by these.
+bool LiveLinks::has_near_to_follow(const Following& one)
+{
+    return one.links < one.order.near;
+}
+
 /// A piece of the links that have changed. What a shell of lumels found is shown where that is
 /// much.
 void LiveLinks::follow_links()
 {
-    Following& one = following_.front();
+    const auto next = std::find_if(following_.begin(), following_.end(), has_near_to_follow);
+    Following& one = next != following_.end() ? *next : following_.front();
     const std::size_t end = std::min(one.links + kPiece, one.order.end_after(one.links));
     const Retraced found =
         links_.follow(one.thing, std::span(one.order.lumels).subspan(one.links, end - one.links));
@@ -359,7 +367,7 @@ void LiveLinks::follow_links()
     edited_ |= one.order.ends_at(end) && double(unseen_) > kWorthASweep * all;
     if (end < one.order.lumels.size())
         return;
-    following_.erase(following_.begin());
+    following_.erase(following_.begin() + (&one - following_.data()));
     edited_ |= following_.empty();
 }
 
@@ -388,13 +396,6 @@ void LiveLinks::begin()
     edited_ = false;
 }
 
-/// Do the nearest lumels know of all moves? So things that never stop are followed by these.
-bool LiveLinks::has_followed_near() const
-{
-    return std::all_of(following_.begin(), following_.end(),
-                       [](const Following& one) { return one.links >= one.order.end_after(0); });
-}
-
 /// A part of what there is to do. What is found is shown before things move on, and their links
 /// follow for a while before they do.
 void LiveLinks::work()
@@ -403,7 +404,8 @@ void LiveLinks::work()
         follow_direct(*one);
     else if (edited_ || !swept_)
         sweep();
-    else if (is_requested() && has_followed_near())
+    else if (is_requested() &&
+             std::none_of(following_.begin(), following_.end(), has_near_to_follow))
         put_requested();
     else if (!following_.empty())
         follow_links();

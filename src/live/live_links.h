@@ -154,7 +154,7 @@ private:
     void put_requested();
     void place_sky(double angle);
     bool is_under_way() const;
-    bool has_followed_near() const;
+    static bool has_near_to_follow(const Following& one);
     Following* with_direct();
     void follow_direct(Following& one);
     void follow_links();

@@ -106,6 +106,18 @@ TEST(KeptUpdate, OfThingsInAnotherOrderTracesNone)
     EXPECT_EQ(over.links().traced().all(), 0u);
 }
 
+TEST(KeptUpdate, UsesNoLinksOfAnotherNumberOfInstances)
+{
+    const Kept kept;
+    const EditedScene edit = kept.edited(box());
+    for (const std::size_t count : {std::size_t(0), edit.before.scene.instances.size() - 1,
+                                    edit.before.scene.instances.size() + 1}) {
+        KeptLinks forged = kept.links;
+        forged.instances.resize(count);
+        EXPECT_TRUE(links_for(edit, forged).links.empty());
+    }
+}
+
 TEST(KeptRelight, StopsWithinAStateAndKeepsThoseBefore)
 {
     const Kept kept;
