@@ -76,7 +76,7 @@ void ViewSession::take_edits(const ViewSession& before)
     mode_ = before.mode_;
     scale_ = before.scale_;
     error_scale_ = before.error_scale_;
-    probe_spacing_ = before.probe_spacing_;
+    set_probes(before.probe_spacing_);
 }
 
 /// Lamps, sun, sky and time.

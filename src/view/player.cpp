@@ -118,12 +118,24 @@ bool ScriptPlayer::solve(const ScriptCommand& command)
     if (!solving_->has_ended(kLook))
         return false;
     const std::unique_ptr<SolveAside> ended = std::move(solving_);
-    SolvedLight light = ended->take();
-    for (const std::string& warning : light.warnings)
-        log_warning(warning);
-    if (!session_->take_solved(std::move(light), ended->edits()))
-        log_warning("the scene was changed while it was solved: the light of links is shown");
+    try {
+        SolvedLight light = ended->take();
+        for (const std::string& warning : light.warnings)
+            log_warning(warning);
+        if (!session_->take_solved(std::move(light), ended->edits()))
+            log_warning("the scene was changed while it was solved: the light of links is shown");
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        log_warning(error.what());
+    }
     return true;
+}
+
+void ScriptPlayer::stop_solving()
+{
+    if (solving_)
+        solving_->stop();
 }
 
 /// True if it is a command that writes a file.

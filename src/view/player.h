@@ -22,7 +22,10 @@ public:
 
     bool done() const { return next_ == script_.size(); }
     const SolveAside* solving() const { return solving_.get(); }  ///< null: nothing is solved now
-    bool has_quit() const { return quit_; }                       ///< by its own word
+    /// What is being solved ends with the light that there is then; without any, the script goes
+    /// on.
+    void stop_solving();
+    bool has_quit() const { return quit_; }  ///< by its own word
     /// Does what stands before the next frame of light, and lets light follow for it; or all that
     /// is left. While a method solves, it is a step to wait a moment for it. Throws Error; of a
     /// command that cannot be done with "script:line".

@@ -15,10 +15,9 @@ constexpr std::uint32_t kRays = 256;  ///< of a probe at least, and towards sour
 
 void ViewSession::set_probes(double spacing)
 {
-    if (spacing > 0.0)
-        ball_places(shown_, rays(), spacing);  // or it throws
+    ball_places_ = spacing > 0.0 ? ball_places(shown_, rays(), spacing) : std::vector<glm::vec3>();
     probe_spacing_ = spacing;
-    seen().has_balls = false;
+    by_links_.has_balls = by_solver_.has_balls = false;
     balls_.clear();
 }
 
@@ -27,7 +26,7 @@ const std::vector<ProbeBall>& ViewSession::probe_balls()
 {
     const bool solved = shows_solved();
     const bool known = seen().has_balls && balls_of_solved_ == solved;
-    if (known || !(probe_spacing_ > 0.0) || !(solved || live_.state().at_rest || balls_.empty()))
+    if (known || !(probe_spacing_ > 0.0) || !(solved || live_.state().at_rest))
         return balls_;
     const StandingScene standing = this->standing(shown_.model);
     Lumels lumels = solved ? lumels_of_solved() : live_.lumels();
@@ -35,7 +34,7 @@ const std::vector<ProbeBall>& ViewSession::probe_balls()
         lumels.lumels[i].albedo = live_.albedo()[i];
     const LightProbe probe(standing.scene, rays(), drawn_, lumels, irradiance(),
                            {.samples = kRays, .seed = options_.seed});
-    balls_ = find_balls(probe, ball_places(shown_, rays(), probe_spacing_));
+    balls_ = find_balls(probe, ball_places_);
     balls_of_solved_ = solved;
     seen().has_balls = true;
     return balls_;

@@ -417,7 +417,7 @@ ScriptCommand solve_command(const SolverOptions& solver)
 
 std::string place_of(const std::string& place, int line)
 {
-    return fmt::format("{}:{}", place, line);
+    return line == 0 ? "--solver" : fmt::format("{}:{}", place, line);
 }
 
 std::vector<ScriptCommand> read_script(std::string_view text, const std::string& place)

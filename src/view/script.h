@@ -73,7 +73,7 @@ std::span<const CommandForm> command_forms();
 
 struct ScriptCommand {
     const CommandForm* form;
-    int line;                     ///< from 1
+    int line;                     ///< from 1; 0: of --solver
     std::string text;             ///< the word
     std::vector<double> numbers;  ///< empty where the word stands for them
     SolverOptions solver = {};    ///< of Word::method
@@ -86,7 +86,7 @@ std::vector<ScriptCommand> read_script(std::string_view text, const std::string&
 /// The command that solves by a method, as the line 0 of a script.
 ScriptCommand solve_command(const SolverOptions& solver);
 
-/// A line of the script, as messages name it.
+/// A line of the script, as messages name it; line 0 is --solver.
 std::string place_of(const std::string& place, int line);
 
 }  // namespace lumel

@@ -141,10 +141,11 @@ public:
     void set_mode(ViewMode mode) { mode_ = mode; }
 
     /// Shows light probes as balls, over a grid of that spacing [m] and where the file names them,
-    /// in ViewMode::lit and irradiance. 0: none. Throws Error{input} if there would be too many.
+    /// in ViewMode::lit and irradiance. 0: none. They stay there, whatever moves. Throws
+    /// Error{input} if there would be too many.
     void set_probes(double spacing);
     double probe_spacing() const { return probe_spacing_; }
-    /// Of the light that is shown, when it was last at rest.
+    /// Of the light that is shown, when it was last at rest; none before its first rest.
     const std::vector<ProbeBall>& probe_balls();
 
     /// The scene as it stands, its materials as that model reads them. Throws Error.
@@ -272,7 +273,8 @@ private:
     std::optional<SolvedLight> solved_;  ///< of the scene as it stands
     bool shows_solved_ = false;
     Seen by_links_, by_solver_;
-    double probe_spacing_ = 0.0;  ///< [m], 0: none are shown
+    double probe_spacing_ = 0.0;          ///< [m], 0: none are shown
+    std::vector<glm::vec3> ball_places_;  ///< of that spacing
     std::vector<ProbeBall> balls_;
     bool balls_of_solved_ = false;
     // Made when they are asked for.

@@ -1,5 +1,7 @@
 #include "view/solved.h"
 
+#include <exception>
+
 #include <fmt/format.h>
 
 #include "atlas/sides.h"
@@ -133,6 +135,10 @@ SolvedLight SolveAside::take()
         if (error.kind() != ErrorKind::stopped)
             throw;
         throw Error(ErrorKind::stopped, "", "solving was stopped before there was any light");
+    } catch (const std::exception& error) {  // no memory, for one: what is shown goes on
+        throw Error(ErrorKind::device, "",
+                    fmt::format("solving by {} failed: {}; a smaller atlas needs less memory",
+                                method_of(options_.method).id, error.what()));
     }
 }
 

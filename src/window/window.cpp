@@ -73,6 +73,7 @@ private:
     void shoot();
     void save();
     void solve_anew();
+    void solve_first();
     void end_script();
     bool is_busy() const;
 
@@ -373,10 +374,24 @@ void ViewWindow::act()
             save();
         if (solves)
             solve_anew();
-        if (player_)
+        if (player_) {
+            if (std::exchange(desk_.stop, false))
+                player_->stop_solving();
+            desk_.solve_by = false;  // the script has its own order
             note_progress(player_->solving(), desk_);
-        else
+        } else {
             solving_.follow(*session_, desk_);
+        }
+    } catch (const Error& error) {
+        desk_.message = error.what();
+    }
+}
+
+/// By the method of the options. Links go on if it cannot begin.
+void ViewWindow::solve_first()
+{
+    try {
+        solving_.begin(*session_, *options_.solver);
     } catch (const Error& error) {
         desk_.message = error.what();
     }
@@ -387,7 +402,7 @@ ViewSummary ViewWindow::show()
     wait_for_light();
     stages_->begin("showing");
     if (script_.empty() && options_.solver)
-        solving_.begin(*session_, *options_.solver);
+        solve_first();
     if (!script_.empty())
         player_.emplace(std::move(script_), run_->script, *session_, *output_, run_->folder,
                         [this] { return seen(); });

@@ -1,5 +1,6 @@
 // Light probes that lumel view shows.
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -104,6 +105,26 @@ TEST(ViewProbes, FollowTheLight)
         for (int x = 0; x < picture.width; ++x)
             red += picture.at(x, y)[0] > picture.at(x, y)[1];
     EXPECT_EQ(red, 0);
+}
+
+TEST(ViewProbes, StayWhereTheyWereAskedFor)
+{
+    // A grid over all that there is after the move would have far more than may be shown.
+    const Played played(own_scene("cornell-box.gltf"),
+                        "probes 0.18\nstate early.json\nwait\nstate a.json\npick \"short block\"\n"
+                        "move 100,100,0\nwait\nstate b.json\n");
+    const auto places = [&](const char* name) {
+        std::vector<Json> all;
+        const Json state = played.state(name);
+        for (const Json& probe : state["probes"]["probes"])
+            all.push_back(probe["position"]);
+        return all;
+    };
+    EXPECT_TRUE(places("early.json").empty());  // no light was at rest yet
+    const std::vector<Json> before = places("a.json"), after = places("b.json");
+    EXPECT_GT(before.size(), 8u);
+    for (const Json& place : before)
+        EXPECT_NE(std::find(after.begin(), after.end(), place), after.end()) << place;
 }
 
 TEST(ViewProbes, TooManyAreOneSentence)

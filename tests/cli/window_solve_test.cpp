@@ -27,6 +27,17 @@ public:
         display_->hand(fmt::format("sleep 0.2 type --delay 50 {}", text));
         display_->hand("sleep 0.2 key Return sleep 0.3");
     }
+    /// What the panel shows where that button is while a method solves.
+    Picture stop_button() const
+    {
+        const Picture seen = display_->seen(520, kStop + 5);
+        Picture button{30, 10, {}};
+        for (int y = kStop - 5; y < kStop + 5; ++y)
+            for (int x = 250; x < 280; ++x)
+                for (const int channel : seen.at(x, y))
+                    button.rgb.push_back(static_cast<unsigned char>(channel));
+        return button;
+    }
 
     // Heights [pixels].
     static constexpr int kRays = 109, k16Rays = 151, kAtlas = 132, kSeed = 155, kAnew = 178,
@@ -111,8 +122,10 @@ TEST_F(ViewWindowSolver, AnEditEndsWhatIsBeingSolved)
     const SolverPanel panel(display());
     panel.click(SolverPanel::kMethod);
     panel.click(SolverPanel::kGather);
+    const Picture before = panel.stop_button();
     panel.click(SolverPanel::kByGather);
-    display().hand("sleep 1 mousemove 799 599 key r sleep 0.5");
+    ASSERT_TRUE(wait_until([&] { return panel.stop_button().rgb != before.rgb; }));
+    display().hand("mousemove 799 599 key r sleep 0.5");
     const Json state = window.close();
     EXPECT_EQ(state["solved"], nullptr);
     EXPECT_GT(state["light"]["links_traced_again"], 0);  // they followed
