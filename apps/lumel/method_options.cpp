@@ -41,7 +41,7 @@ bool is_omitted(const std::vector<OmittedOption>& omitted, std::string_view opti
 }
 
 /// "links|stochastic|…"
-std::string names_of_methods(const std::vector<std::string_view>& ids)
+std::string listed(const std::vector<std::string_view>& ids)
 {
     std::string list;
     for (const std::string_view id : ids)
@@ -78,7 +78,7 @@ void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::strin
     const std::vector<std::string_view> ids = some.empty() ? all_methods() : some;
     app.option_defaults()->group(kMethodGroup);
     CLI::Option* solver = app.add_option("--solver", given.id, "Method, see lumel methods")
-                              ->type_name(names_of_methods(ids))
+                              ->type_name(listed(ids))
                               ->capture_default_str();
     if (!some.empty())
         solver->check(CLI::IsMember(std::vector<std::string>(ids.begin(), ids.end())));
@@ -112,6 +112,11 @@ void add_one_method(CLI::App& app, GivenMethod& given)
     const MethodInfo& method = method_of(given.id);
     for (const OptionInfo& option : method.options)
         add(app, given, option, default_of(method, option.name));
+}
+
+std::string names_of_methods()
+{
+    return listed(all_methods());
 }
 
 }  // namespace lumel

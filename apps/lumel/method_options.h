@@ -1,6 +1,7 @@
 #pragma once
 // The options of methods on the command line, as the table of methods describes them.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,9 @@ void add_methods(CLI::App& app, GivenMethod& given, const std::vector<std::strin
 
 /// Throws Error{input} if a value was given for an option that is omitted.
 void refuse_omitted(const GivenMethod& given, const std::vector<OmittedOption>& omitted);
+
+/// All methods: "links|stochastic|…"
+std::string names_of_methods();
 
 /// The options of the one method that `given` names.
 void add_one_method(CLI::App& app, GivenMethod& given);

@@ -7,6 +7,7 @@
 
 #include "command.h"
 #include "core/error.h"
+#include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
 #include "solve/methods.h"
@@ -48,15 +49,6 @@ void add_session_options(CLI::App& app, ViewArguments& view)
         ->type_name("MS")
         ->capture_default_str()
         ->check(positive());
-}
-
-/// "links|stochastic|..."
-std::string names_of_methods()
-{
-    std::string names;
-    for (const MethodInfo& method : methods())
-        names += (names.empty() ? "" : "|") + std::string(method.id);
-    return names;
 }
 
 void add_method_options(CLI::App& app, SessionOptions& options)

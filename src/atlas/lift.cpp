@@ -362,10 +362,8 @@ std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels)
 {
     std::vector<std::uint32_t> lumel_of(2 * std::size_t(lumels.width) * std::size_t(lumels.height),
                                         kNoLumel);
-    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
-        const Lumel& lumel = lumels.lumels[i];
-        lumel_of[2 * std::size_t(lumel.texel) + (is_back(lumel) ? 1 : 0)] = std::uint32_t(i);
-    }
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i)
+        lumel_of[place_by_side(lumels.lumels[i])] = std::uint32_t(i);
     return lumel_of;
 }
 

@@ -2,6 +2,7 @@
 // Where the map has the two sides of double-sided surfaces. Solvers know both sides of a lumel by
 // one texel, that of the front (Lumel::texel); the map may show the back in texels of its own.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -13,6 +14,17 @@ namespace lumel {
 inline bool is_back(const Lumel& lumel)
 {
     return (lumel.flags & kLumelBack) != 0;
+}
+
+/// Where lumels_by_side() has the lumel of a texel and side.
+inline std::size_t place_by_side(std::size_t texel, bool back)
+{
+    return 2 * texel + (back ? 1 : 0);
+}
+
+inline std::size_t place_by_side(const Lumel& lumel)
+{
+    return place_by_side(lumel.texel, is_back(lumel));
 }
 
 /// True if the map shows the back of a chart in texels of its own. back_shift: an atlas'.

@@ -122,19 +122,6 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                       solution->irradiance, results, stages);
 }
 
-/// False if the caller has wanted to stop.
-bool has_probes(const OutputFolder& written, double spacing, const ProgressFunction& progress)
-{
-    try {
-        add_probes(written, spacing, progress);
-        return true;
-    } catch (const Error& error) {
-        if (error.kind() != ErrorKind::stopped)
-            throw;
-        return false;
-    }
-}
-
 }  // namespace
 
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
@@ -144,7 +131,8 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
     BakeSummary summary = bake_light(scene_path, folder, options, output, progress);
     // A map that is done stays where its probes are stopped.
     if (options.probe_spacing > 0.0 && !summary.interrupted)
-        summary.interrupted = !has_probes(*output, options.probe_spacing, progress);
+        summary.interrupted =
+            !unless_stopped([&] { add_probes(*output, options.probe_spacing, progress); });
     output->commit();
     return summary;
 }

@@ -1,5 +1,6 @@
 #include "bake/kept_solution.h"
 
+#include "atlas/sides.h"
 #include "core/error.h"
 
 namespace lumel {
@@ -45,7 +46,7 @@ KeptLinks links_for(const EditedScene& edit, const KeptLinks& before)
                         .lumels_now = now.lumels.size(),
                         .instances_now = edit.now.scene.instances.size()};
     for (const Lumel& lumel : then.lumels) {
-        const std::uint32_t j = places[2 * lumel.texel + (lumel.flags & kLumelBack ? 1 : 0)];
+        const std::uint32_t j = places[place_by_side(lumel)];
         const bool is_same =
             j != kNoLumel && now.lumels[j].instance == edit.matches.after[lumel.instance];
         numbers.lumels.push_back(is_same ? j : Renumbering::kNotThere);

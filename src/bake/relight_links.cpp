@@ -61,18 +61,6 @@ std::string report_of(const RelightSummary& summary, const KeptLight& light,
     return json_text(json);
 }
 
-/// The light of the scene as it is now, or none if the caller stopped.
-std::optional<std::vector<glm::vec3>> light_unless_stopped(KeptLight& light, const Watch& watch)
-{
-    try {
-        return light.irradiance(watch);
-    } catch (const Error& error) {
-        if (error.kind() != ErrorKind::stopped)
-            throw;
-        return std::nullopt;
-    }
-}
-
 }  // namespace
 
 bool keeps_links(const std::string& folder)
@@ -109,11 +97,12 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
             break;
         const double start = wall_seconds();
         lights.set(states[s].light);
-        const auto irradiance = light_unless_stopped(light, part_of(watch, before, before + part));
-        if (!irradiance)
+        std::vector<glm::vec3> irradiance;
+        if (!unless_stopped(
+                [&] { irradiance = light.irradiance(part_of(watch, before, before + part)); }))
             break;
         const double found = wall_seconds();
-        const Image map = finish_map(world.scene, world.atlas, world.lumels, *irradiance);
+        const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);
         write_map(output, states[s].name, map, baked.record.half, world, stages);
         summary.states.push_back({.name = states[s].name,
                                   .light = found - start,

@@ -21,6 +21,18 @@ std::string memory_text(std::uint64_t bytes)
                                 : fmt::format("{:.1f} MiB", kibibytes / kibibyte);
 }
 
+bool unless_stopped(const std::function<void()>& work)
+{
+    try {
+        work();
+        return true;
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        return false;
+    }
+}
+
 Stages::Stages(const ProgressFunction& progress)
     : progress_(&progress),
       start_(wall_seconds()),

@@ -1,6 +1,7 @@
 #pragma once
 // Names, times and progress of a bake's stages.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ std::string memory_text(std::uint64_t bytes);
 
 /// Throws the Error{stopped} of work that ended before there was a result.
 [[noreturn]] void throw_stopped();
+
+/// Does work that a watch may stop. False if the caller has stopped it.
+bool unless_stopped(const std::function<void()>& work);
 
 /// Follows a bake from stage to stage, and tells the progress function about it.
 class Stages {

@@ -33,20 +33,10 @@ constexpr double kHalves = 0.4;
 struct Half {
     LumelSweeps sweeps;
     std::vector<glm::vec3> sky;  ///< [N] [lx]
-    SweepChange before;
     bool rests = false;
 
     /// A part of a sweep.
-    void step()
-    {
-        if (rests || !sweeps.step(kStep))
-            return;
-        const SweepChange now = sweeps.change();
-        rests = std::max(still_to_come(now.all, before.all),
-                         still_to_come(now.dark, before.dark)) <= kResidual ||
-                sweeps.sweeps() >= kMostSweeps;
-        before = now;
-    }
+    void step() { rests = rests || (sweeps.step(kStep) && sweeps.rests(kResidual)); }
     /// What rays bring [lx].
     glm::vec3 by_rays(std::size_t i, const ShownFilter* filter) const
     {

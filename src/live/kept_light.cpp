@@ -99,17 +99,8 @@ std::vector<glm::vec3> KeptLight::light_of_lamps(std::vector<glm::vec3>& off, co
 /// Sweeps until at rest.
 void KeptLight::settle(const Watch& watch)
 {
-    SweepChange before;
-    for (bool rests = false; !rests && sweeps_->sweeps() < kMostSweeps;) {
-        if (!sweeps_->step(kStep)) {
-            tell(watch, 0.0);
-            continue;
-        }
-        const SweepChange now = sweeps_->change();
-        const double left =
-            std::max(still_to_come(now.all, before.all), still_to_come(now.dark, before.dark));
-        rests = left <= options_.residual;
-        before = now;
+    for (bool rests = false; !rests;) {
+        rests = sweeps_->step(kStep) && sweeps_->rests(options_.residual);
         tell(watch, rests ? 1.0 : 0.0);
     }
 }

@@ -388,7 +388,6 @@ void LiveLinks::begin()
             light *= sky_factor_;
     }
     sweeps_.begin(direct(), paint_.albedo());
-    before_ = {};
     weighing_ = false;
     swept_ = false;
     unseen_ = 0;
@@ -454,13 +453,11 @@ LiveLinksState LiveLinks::advance(double budget_ms)
 /// After a whole sweep.
 bool LiveLinks::is_at_rest()
 {
-    const SweepChange& now = sweeps_.change();
-    state_.residual = still_to_come(now.all, before_.all);
-    state_.dark_residual = still_to_come(now.dark, before_.dark);
+    const StillToCome now = sweeps_.still_to_come();
+    state_.residual = now.all;
+    state_.dark_residual = now.dark;
     state_.sweeps = sweeps_.sweeps();
-    before_ = now;
-    return std::max(state_.residual, state_.dark_residual) <= options_.residual ||
-           state_.sweeps >= kMostSweeps;
+    return sweeps_.rests(options_.residual);
 }
 
 LiveLinksState LiveLinks::settle()

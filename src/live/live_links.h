@@ -187,7 +187,6 @@ private:
     bool edited_ = true;        ///< since the last sweep
     bool swept_ = true;         ///< wholly, since the last edit
     bool weighing_ = false;     ///< light is at rest, but not the filter's weights
-    SweepChange before_;        ///< of the sweep before the last
     LiveLinksState state_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lumel {
 namespace {
@@ -17,15 +18,15 @@ double all_channels(const glm::vec4& light)
     return double(light.x + light.y + light.z);
 }
 
-}  // namespace
-
 /// Changes that shrink by a factor q leave q / (1 - q) of the last to come; all, where one sweep
 /// does not tell yet.
-double still_to_come(double change, double before)
+double still_to_come_after(double change, double before)
 {
     const double factor = before > 0.0 ? std::min(change / before, kSlowest) : kSlowest;
     return std::min(change * factor / (1.0 - factor), 1.0);
 }
+
+}  // namespace
 
 LumelSweeps::LumelSweeps(const LumelLinks& links)
     : links_(links),
@@ -62,7 +63,7 @@ void LumelSweeps::begin(const std::vector<glm::vec3>& direct, const std::vector<
     }
     mean_ /= double(std::max<std::size_t>(direct_.size(), 1));
     all_ = dark_ = {};
-    change_ = {};
+    change_ = before_ = {};
     next_ = 0;
     sweeps_ = 0;
 }
@@ -96,12 +97,24 @@ bool LumelSweeps::step(std::size_t lumels)
     }
     if (next_ < direct_.size())
         return false;
-    change_ = {all_.relative(), dark_.relative()};
+    before_ = std::exchange(change_, {all_.relative(), dark_.relative()});
     mean_ = all_.light / std::max(all_.count, 1.0);
     all_ = dark_ = {};
     next_ = 0;
     ++sweeps_;
     return true;
+}
+
+StillToCome LumelSweeps::still_to_come() const
+{
+    return {still_to_come_after(change_.all, before_.all),
+            still_to_come_after(change_.dark, before_.dark)};
+}
+
+bool LumelSweeps::rests(double residual) const
+{
+    const StillToCome now = still_to_come();
+    return std::max(now.all, now.dark) <= residual || sweeps_ >= kMostSweeps;
 }
 
 std::uint64_t LumelSweeps::bytes() const

@@ -19,8 +19,11 @@ struct SweepChange {
 /// Sweeps after which light counts as at rest as it is.
 inline constexpr int kMostSweeps = 20000;
 
-/// Light still to come after two sweeps that changed so much, as far as they tell: 0…1.
-double still_to_come(double change, double before);
+/// Light still to come, as far as the last two sweeps tell: of all lumels by their mean, and of
+/// dark ones by theirs: 0…1.
+struct StillToCome {
+    double all = 1.0, dark = 1.0;
+};
 
 /// Solves H = D + X, X_i = 1/n Σ_k B[link_ik], B = ρ H by forward Gauss-Seidel sweeps in place:
 /// links that end in no lumel find B = 0. One thread, so that the same edits give the same bytes.
@@ -37,8 +40,9 @@ public:
     /// Sweeps on, over `lumels` of them at most. True where a sweep ends.
     bool step(std::size_t lumels);
 
-    /// Of the last whole sweep.
-    const SweepChange& change() const { return change_; }
+    StillToCome still_to_come() const;
+    /// Is no more than that to come, of all and of dark ones, or has it taken too long?
+    bool rests(double residual) const;
     /// Sweeps since begin().
     int sweeps() const { return sweeps_; }
     /// At a lumel [lx].
@@ -78,7 +82,7 @@ private:
     std::size_t next_ = 0;                               ///< lumel of this sweep
     double mean_ = 0.0;                                  ///< B of all channels together
     Sums all_, dark_;                                    ///< of this sweep so far
-    SweepChange change_;
+    SweepChange change_, before_;                        ///< of the last two sweeps
     int sweeps_ = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "atlas/sides.h"
 #include "core/error.h"
 #include "core/frame.h"
 
@@ -109,8 +110,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> joins_of(const Lumels& lume
     const std::vector<std::uint32_t> at = lumels_by_side(lumels);
     for (std::uint32_t i = 0; i < around.joined_right.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];
-        const std::size_t here =
-            2 * std::size_t(lumel.texel) + ((lumel.flags & kLumelBack) ? 1 : 0);
+        const std::size_t here = place_by_side(lumel);
         if (around.joined_right[i])
             joins.emplace_back(i, at[here + 2]);
         if (around.joined_below[i])

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "atlas/sides.h"
 #include "nearfield/buried.h"
 #include "scene/scene_hash.h"
 #include "shooting/lumel_arrays.h"
@@ -64,7 +65,7 @@ std::vector<std::uint32_t> same_lumels(const EditedScene& edit)
         const auto texel = texel_before(lumel, now.width, before.width);
         if (edit.matches.before[lumel.instance] == kNoInstance || !texel)
             continue;
-        const std::uint32_t j = places[2 * *texel + (lumel.flags & kLumelBack ? 1 : 0)];
+        const std::uint32_t j = places[place_by_side(*texel, is_back(lumel))];
         if (j != kNoLumel && !is_buried(before.lumels[j]))
             same.back() = j;
     }

@@ -21,13 +21,12 @@ namespace {
 void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
             const std::vector<glm::vec3>& irradiance)
 {
-    constexpr std::size_t kSides = 2;
     const std::vector<std::uint32_t> at = lumels_by_side(own);
     light.irradiance.assign(own.lumels.size(), glm::vec3(0.0f));
     light.buried.assign(own.lumels.size(), 0);
     for (std::size_t i = 0; i < irradiance.size(); ++i) {
         const Lumel& lumel = solved.lumels[i];
-        const std::uint32_t found = at[kSides * lumel.texel + (is_back(lumel) ? 1 : 0)];
+        const std::uint32_t found = at[place_by_side(lumel)];
         if (found == kNoLumel)
             continue;
         light.irradiance[found] = irradiance[i];
