@@ -1,7 +1,7 @@
 #pragma once
 // The same surfaces in more triangles.
 
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel::bench {
 

@@ -6,10 +6,10 @@
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/core/error.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
-#include "core/error.h"
-#include "live/live_links.h"
+#include "links/live/live_links.h"
 
 namespace lumel::bench {
 namespace {
@@ -52,7 +52,7 @@ glm::mat4 shifted(const Scene& scene, const std::string& lamp, float extent, int
 }
 
 /// Makes an edit for the n-th time; returns what moves have found again.
-Moved make(LiveLinks& live, const Edit& edit, const ThingRays& rays, std::size_t thing, int n)
+Moved make(LiveLinks& live, const Edit& edit, const DynamicRayScene& rays, std::size_t thing, int n)
 {
     const float wave = float(n + 1) / float(kTimes);
     if (edit.what == "dim")
@@ -194,7 +194,7 @@ void time_edits(const Settings& settings)
     std::vector<std::vector<std::uint32_t>> instances;
     for (const std::string& name : options.things)
         instances.push_back({find_instance(scene.scene, name)});
-    const ThingRays rays(scene.scene, instances);
+    const DynamicRayScene rays(scene.scene, instances);
     std::size_t thing = 0;
     for (const Edit& edit : edits) {
         std::vector<Cost> costs;

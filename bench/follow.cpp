@@ -9,12 +9,12 @@
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/core/error.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
-#include "core/error.h"
 #include "gpu/device.h"
-#include "live/live_links.h"
-#include "live/live_scene.h"
+#include "links/live/live_links.h"
+#include "methods/redistribution/live_scene.h"
 
 namespace lumel::bench {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "bench/stopwatch.h"
-#include "solve/solver.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -3,7 +3,7 @@
 //
 // The light of a lumel is H = D + X, D direct and X reflected. In every pass it sends a few rays to
 // points on the light sources and as many spread by the cosine. The first, and those of the second
-// that meet a source, estimate D (reference/lights.cpp). Where a ray of the second kind meets a
+// that meet a source, estimate D (truth/lights.cpp). Where a ray of the second kind meets a
 // lumel j,
 //
 //     X ≈ ρ H_j,
@@ -20,7 +20,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/parallel.h"
+#include "base/core/parallel.h"
 
 namespace lumel::bench {
 namespace {
@@ -34,9 +34,9 @@ constexpr std::uint32_t kRays = 4;
 /// later passes find most of that.
 constexpr double kLeft = 0.002;
 /// For scenes that absorb next to nothing.
-constexpr std::uint32_t kMostWarmUp = 64;
+constexpr std::uint32_t kMaxWarmUp = 64;
 /// Surfaces that a ray goes on from because no lumel is where it met them.
-constexpr int kMostSteps = 8;
+constexpr int kMaxSteps = 8;
 /// Fewest lumels worth a task.
 constexpr std::size_t kLumelsPerTask = 64;
 
@@ -53,9 +53,9 @@ std::uint32_t warm_up_of(const Lumels& lumels)
     if (!(reflected > kLeft))
         return 1;
     if (!(reflected < 1.0))
-        return kMostWarmUp;
+        return kMaxWarmUp;
     return std::uint32_t(
-        std::min(std::ceil(std::log(kLeft) / std::log(reflected)), double(kMostWarmUp)));
+        std::min(std::ceil(std::log(kLeft) / std::log(reflected)), double(kMaxWarmUp)));
 }
 
 }  // namespace
@@ -63,8 +63,8 @@ std::uint32_t warm_up_of(const Lumels& lumels)
 IteratedGather::IteratedGather(const Prepared& place, SampleRule rule, std::uint32_t seed)
     : place_(place),
       surfaces_(place.scene),
-      lights_(place.scene, place.rays, surfaces_, place.rays.lift()),
-      starts_(place.scene, place.lumels, rule, place.rays.lift()),
+      lights_(place.scene, place.rays, surfaces_, place.rays.ray_offset()),
+      starts_(place.scene, place.lumels, rule, place.rays.ray_offset()),
       hits_(place.scene, place.atlas, place.lumels),
       seed_(seed),
       warm_up_(warm_up_of(place.lumels))
@@ -78,13 +78,13 @@ bool IteratedGather::is_open(std::uint32_t lumel) const
     return lumel != HitLumels::kNone && !(place_.lumels.lumels[lumel].flags & kLumelBuried);
 }
 
-/// Looks for light sources and along one direction. Where that ends at a surface without a lumel,
-/// as at the border of a chart, it looks on from there.
+/// Samples the light sources and one direction. Where that ends at a surface without a
+/// lumel, as at the border of a chart, it looks on from there.
 IteratedGather::Seen IteratedGather::look(PathVertex vertex, const PathSamples& path) const
 {
     Seen seen;
     glm::vec3 weight(1.0f);
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         const BounceSamples samples(path, step);
         glm::vec3& light = step == 0 ? seen.direct : seen.bounced;
         light += weight * lights_.sought(vertex, samples);
@@ -111,9 +111,9 @@ IteratedGather::Seen IteratedGather::look(PathVertex vertex, const PathSamples& 
             seen.bounced += weight * present_[j];
             return seen;
         }
-        const float lift = place_.rays.lift();
-        vertex = {vertex.position + direction * std::max(0.0f, hit.distance - lift) +
-                      lift * shading.geometric,
+        const float ray_offset = place_.rays.ray_offset();
+        vertex = {vertex.position + direction * std::max(0.0f, hit.distance - ray_offset) +
+                      ray_offset * shading.geometric,
                   shading.geometric, Brdf(shading.normal)};
     }
     return seen;

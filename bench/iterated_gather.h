@@ -6,12 +6,12 @@
 
 #include <glm/glm.hpp>
 
-#include "nearfield/hit_lumels.h"
-#include "paths/samples.h"
-#include "paths/surfaces.h"
-#include "prepare/prepare.h"
-#include "reference/lights.h"
-#include "reference/lumel_starts.h"
+#include "atlas/near/hit_lumels.h"
+#include "atlas/prepare/prepare.h"
+#include "rays/paths/samples.h"
+#include "rays/paths/surfaces.h"
+#include "truth/lights.h"
+#include "truth/lumel_starts.h"
 
 namespace lumel::bench {
 

@@ -7,9 +7,9 @@
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "atlas/near/moving_near_field.h"
 #include "bench/modes.h"
 #include "bench/stopwatch.h"
-#include "nearfield/moving_near_field.h"
 
 namespace lumel::bench {
 namespace {

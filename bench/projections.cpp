@@ -12,7 +12,7 @@
 
 #include "bench/cut.h"
 #include "bench/stopwatch.h"
-#include "visibility/probe.h"
+#include "raster/eyes/probe.h"
 
 namespace lumel::bench {
 namespace {

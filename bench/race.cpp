@@ -8,15 +8,15 @@
 
 #include <fmt/core.h>
 
-#include "bake/lighting.h"
-#include "bake/setting.h"
 #include "bench/iterated_gather.h"
 #include "bench/scores.h"
 #include "bench/stopwatch.h"
 #include "bench/truth.h"
-#include "reference/reference.h"
-#include "shooting/lumel_arrays.h"
-#include "solve/solver.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/setting.h"
+#include "solve/shooting/lumel_arrays.h"
+#include "solve/solver/solver.h"
+#include "truth/reference.h"
 
 namespace lumel::bench {
 namespace {

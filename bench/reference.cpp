@@ -4,9 +4,9 @@
 
 #include <fmt/core.h>
 
-#include "finish/finish.h"
-#include "images/image_files.h"
-#include "reference/reference.h"
+#include "atlas/finish/finish.h"
+#include "base/images/image_files.h"
+#include "truth/reference.h"
 
 namespace lumel::bench {
 

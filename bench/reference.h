@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "base/core/image.h"
 #include "bench/settings.h"
-#include "core/image.h"
 
 namespace lumel::bench {
 

@@ -5,11 +5,11 @@
 #include <fmt/core.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "atlas/finish/finish.h"
+#include "base/images/image_files.h"
 #include "bench/modes.h"
-#include "finish/finish.h"
-#include "images/image_files.h"
-#include "preview/preview.h"
-#include "solve/solver.h"
+#include "results/preview/preview.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {

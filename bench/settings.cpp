@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace lumel::bench {
 namespace {

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "lights/direct_light.h"
-#include "prepare/prepare.h"
-#include "solve/methods.h"
+#include "atlas/prepare/prepare.h"
+#include "methods/methods.h"
+#include "raster/shadow_maps/direct_light.h"
 
 namespace lumel::bench {
 

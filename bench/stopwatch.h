@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/usage.h"
+#include "base/core/usage.h"
 
 namespace lumel::bench {
 

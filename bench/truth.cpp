@@ -10,10 +10,10 @@
 
 #include <fmt/core.h>
 
+#include "base/core/error.h"
+#include "base/images/image_files.h"
 #include "bench/iterated_gather.h"
-#include "core/error.h"
-#include "images/image_files.h"
-#include "reference/reference.h"
+#include "truth/reference.h"
 
 namespace lumel::bench {
 namespace {

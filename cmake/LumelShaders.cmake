@@ -2,10 +2,10 @@
 #
 # lumel_kernels(<target> <file.comp> …): compute shaders. Each gets a header beside its own path in
 # the include tree:
-#     #include "solve/stochastic.receive.comp.h"      lumel::shaders::StochasticReceive
+#     #include "methods/stochastic/stochastic.receive.comp.h"      lumel::shaders::StochasticReceive
 #
 # lumel_raster(<target> <name> <file.vert> … <file.frag>): the stages of a raster pass, first to last:
-#     #include "visibility/hemicube.raster.h"         lumel::shaders::Hemicube
+#     #include "raster/eyes/hemicube.raster.h"         lumel::shaders::Hemicube
 #
 # gpu/shader.h says what the headers hold. Shaders give no binding numbers: the compiler numbers what
 # main() reaches in the order of declaration, and the header has the numbers.
@@ -129,5 +129,6 @@ function(lumel_raster target name)
         lumel_spirv(${target} ${shader})
     endforeach()
     lumel_shader_path(${name} path)
+    get_filename_component(name ${name} NAME)
     lumel_shader_header(${target} ${path}.raster.h ${name} ${ARGN})
 endfunction()

@@ -2,33 +2,37 @@
 set(LUMEL_ROOM_TABLE ${PROJECT_SOURCE_DIR}/src/rooms.txt)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${LUMEL_ROOM_TABLE})
 
-# lumel_rooms(<result>): the rooms of src.
-function(lumel_rooms result)
-    file(STRINGS ${LUMEL_ROOM_TABLE} rooms REGEX "^src/[a-z]+:")
-    list(TRANSFORM rooms REPLACE "^src/([a-z]+):.*" "\\1")
-    set(${result} ${rooms} PARENT_SCOPE)
+# lumel_wings(<result>): the wings of src, the folders that the rooms lie in, ground floor first.
+function(lumel_wings result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} wings REGEX "^src/")
+    list(TRANSFORM wings REPLACE "^src/([a-z]+)[/:].*" "\\1")
+    list(REMOVE_DUPLICATES wings)
+    set(${result} ${wings} PARENT_SCOPE)
 endfunction()
 
-# lumel_uses(<room> <result>): what the room or a file of it may use.
-function(lumel_uses room result)
-    file(STRINGS ${LUMEL_ROOM_TABLE} uses REGEX "^src/${room}[/:]")
+# lumel_uses(<wing> <result>): the wings that its rooms use, and lumel for the public interface.
+function(lumel_uses wing result)
+    file(STRINGS ${LUMEL_ROOM_TABLE} uses REGEX "^src/${wing}[/:]")
     list(TRANSFORM uses REPLACE "^[^:]*: *" "")
     list(JOIN uses " " uses)
     separate_arguments(uses)
+    list(TRANSFORM uses REPLACE "/.*" "")
+    list(REMOVE_DUPLICATES uses)
+    list(REMOVE_ITEM uses ${wing})
     set(${result} ${uses} PARENT_SCOPE)
 endfunction()
 
-# lumel_room(<name> SOURCES … SYSTEM <library> …): one folder of src as one static library.
-function(lumel_room name)
-    cmake_parse_arguments(ROOM "" "" "SOURCES;SYSTEM" ${ARGN})
-    add_library(lumel_${name} STATIC ${ROOM_SOURCES})
+# lumel_wing(<name> SOURCES … SYSTEM <library> …): the rooms of one wing of src as one static library.
+function(lumel_wing name)
+    cmake_parse_arguments(WING "" "" "SOURCES;SYSTEM" ${ARGN})
+    add_library(lumel_${name} STATIC ${WING_SOURCES})
     lumel_flags(lumel_${name})
     lumel_uses(${name} used)
     list(TRANSFORM used PREPEND lumel_)
-    target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${ROOM_SYSTEM})
+    target_link_libraries(lumel_${name} PUBLIC ${used} PRIVATE ${WING_SYSTEM})
 endfunction()
 
-# lumel_test(<name> [LABEL <label>] SOURCES … USES <room> … [PARTS "<part> <label> <filter>" …]
+# lumel_test(<name> [LABEL <label>] SOURCES … USES <wing> … [PARTS "<part> <label> <filter>" …]
 #            [UNDER <command> <argument> …]):
 # one GoogleTest program under tests/ and what ctest runs of it. A part is the tests of a filter
 # (that of --gtest_filter) in a process of their own; what no part has is one more, of the program's name.

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "readers.h"
 
 namespace lumel::fuzz {

@@ -1,9 +1,9 @@
 #include <sstream>
 
-#include "core/state_bytes.h"
-#include "links/tracer.h"
+#include "base/core/state_bytes.h"
+#include "links/trace/tracer.h"
 #include "readers.h"
-#include "record/report.h"
+#include "results/record/report.h"
 
 namespace lumel::fuzz {
 
@@ -15,7 +15,7 @@ void read_checkpoint(Input input)
     std::string version, scene;
     double seconds = 0.0;
     std::vector<ConvergencePoint> curve;
-    Gathered gathered(0);
+    LinkSet gathered(0);
     std::map<std::string, double> times;
     reader(version, scene, seconds, curve, gathered, times);
     reader.finish();

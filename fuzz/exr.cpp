@@ -1,4 +1,4 @@
-#include "images/image_files.h"
+#include "base/images/image_files.h"
 #include "memory_file.h"
 
 namespace lumel::fuzz {

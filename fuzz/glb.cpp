@@ -2,11 +2,11 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "memory_file.h"
-#include "scene/animation.h"
-#include "scene/probe_places.h"
-#include "scene/scene.h"
+#include "scene/load/probe_places.h"
+#include "scene/values/animation.h"
+#include "scene/values/scene.h"
 
 namespace lumel::fuzz {
 namespace {

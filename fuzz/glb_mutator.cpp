@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/error.h"
-#include "gltf/container.h"
+#include "base/core/error.h"
 #include "mutate.h"
+#include "scene/gltf/container.h"
 
 namespace lumel::fuzz {
 namespace {

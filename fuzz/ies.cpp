@@ -1,4 +1,4 @@
-#include "scene/ies.h"
+#include "scene/load/ies.h"
 #include "readers.h"
 
 namespace lumel::fuzz {

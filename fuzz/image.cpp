@@ -1,5 +1,5 @@
 #include "readers.h"
-#include "scene/gltf_image.h"
+#include "scene/load/gltf_image.h"
 
 namespace lumel::fuzz {
 

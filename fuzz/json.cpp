@@ -1,10 +1,10 @@
 // Readers of JSON beside glTF.
 
-#include "bake/states_file.h"
+#include "base/json/json_file.h"
+#include "jobs/relight/states_file.h"
 #include "memory_file.h"
-#include "record/bake_record.h"
-#include "record/solver_settings.h"
-#include "json/json_file.h"
+#include "results/record/bake_record.h"
+#include "results/record/solver_settings.h"
 
 namespace lumel::fuzz {
 

@@ -1,5 +1,5 @@
 #include "memory_file.h"
-#include "relight/matrix_file.h"
+#include "methods/matrix/matrix_file.h"
 
 namespace lumel::fuzz {
 

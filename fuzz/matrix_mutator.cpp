@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/fingerprint.h"
+#include "base/core/fingerprint.h"
 #include "mutate.h"
 
 namespace {

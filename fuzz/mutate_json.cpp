@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <string>
 
+#include "base/json/json_view.h"
 #include "mutate.h"
-#include "json/json_view.h"
 
 namespace lumel::fuzz {
 namespace {

@@ -1,13 +1,13 @@
 // A scene is read and written again with a lightmap, as at the end of a bake.
 
-#include "../tests/output/hand_atlas.h"
+#include "../tests/results/files/hand_atlas.h"
 #include "memory_file.h"
-#include "output/gltf_write.h"
+#include "results/files/gltf_write.h"
 
 namespace lumel::fuzz {
 namespace {
 
-constexpr std::size_t kMostCorners = 3000;  // what takes longer finds no more
+constexpr std::size_t kMaxCorners = 3000;  // what takes longer finds no more
 
 std::size_t corners_of(const Scene& scene)
 {
@@ -24,7 +24,7 @@ void rewrite_glb(Input input)
 {
     const MemoryFile file(input), written({});
     const Scene scene = read_gltf(file.path());
-    if (corners_of(scene) > kMostCorners)
+    if (corners_of(scene) > kMaxCorners)
         return;
     Atlas atlas = test::corner_atlas(scene, 16);
     atlas.back_shift.assign(atlas.chart_count, glm::ivec2(1, 2));

@@ -1,4 +1,4 @@
-#include "view/script.h"
+#include "viewer/session/script.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "jobs/edit/solution_file.h"
 #include "memory_file.h"
-#include "update/solution_file.h"
 
 namespace lumel::fuzz {
 

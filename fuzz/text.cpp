@@ -1,11 +1,11 @@
 #include <cmath>
 #include <string>
 
-#include "core/number.h"
+#include "base/core/number.h"
 #include "option_values.h"
 #include "readers.h"
-#include "scene/light_options.h"
-#include "scene/sun.h"
+#include "scene/sky/light_options.h"
+#include "scene/sky/sun.h"
 
 namespace lumel::fuzz {
 namespace {

@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "manual.h"
 #include "shared_options.h"
 #include "suggestion.h"

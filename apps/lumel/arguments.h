@@ -5,16 +5,16 @@
 #include <string>
 #include <variant>
 
-#include "bake/bake.h"
-#include "bake/measure.h"
-#include "bake/play.h"
-#include "bake/probes.h"
-#include "bake/reference.h"
-#include "bake/relight.h"
-#include "bake/render.h"
-#include "bake/update.h"
-#include "bake/why.h"
-#include "view/view.h"
+#include "jobs/bake/reference.h"
+#include "jobs/inspect/measure.h"
+#include "jobs/inspect/probes.h"
+#include "jobs/inspect/why.h"
+#include "jobs/play/play.h"
+#include "jobs/relight/relight.h"
+#include "jobs/render/render.h"
+#include "jobs/solve/bake_options.h"
+#include "jobs/update/update.h"
+#include "viewer/session/view.h"
 
 namespace lumel {
 

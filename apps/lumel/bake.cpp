@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "long_work.h"
-#include "page/page.h"
-#include "solve/methods.h"
+#include "methods/methods.h"
+#include "results/page/page.h"
 
 namespace lumel {
 

@@ -4,9 +4,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
-#include "live/kept_light.h"
+#include "links/live/link_relighter.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -14,7 +14,7 @@
 namespace lumel {
 namespace {
 
-constexpr double kMostCheckpointSeconds = 86'400.0;  // a day
+constexpr double kMaxCheckpointSeconds = 86'400.0;  // a day
 
 void add_resume_options(CLI::App& app, BakeOptions& options)
 {
@@ -26,7 +26,7 @@ void add_resume_options(CLI::App& app, BakeOptions& options)
                    "Time between two checkpoints that --resume goes on from; 0: none (only links)")
         ->type_name("SECONDS")
         ->capture_default_str()
-        ->check(between(0.0, kMostCheckpointSeconds));
+        ->check(between(0.0, kMaxCheckpointSeconds));
 }
 
 /// Links that are to be kept.

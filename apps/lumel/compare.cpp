@@ -4,10 +4,10 @@
 
 #include <fmt/core.h>
 
+#include "base/images/image_files.h"
+#include "base/json/json_file.h"
 #include "commands.h"
-#include "images/image_files.h"
-#include "reference/metrics.h"
-#include "json/json_file.h"
+#include "truth/metrics.h"
 
 namespace lumel {
 namespace {

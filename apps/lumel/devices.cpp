@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
+#include "base/core/error.h"
+#include "base/json/json_file.h"
 #include "commands.h"
-#include "core/error.h"
 #include "gpu/device.h"
-#include "json/json_file.h"
 
 namespace lumel {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <fmt/core.h>
 
+#include "base/core/log.h"
+#include "base/core/usage.h"
 #include "commands.h"
-#include "core/log.h"
-#include "core/usage.h"
 #include "interrupt.h"
 #include "progress_bar.h"
 

@@ -6,8 +6,8 @@
 #include <new>
 #include <string>
 
+#include "base/core/error.h"
 #include "commands.h"
-#include "core/error.h"
 #include "interrupt.h"
 
 namespace {

@@ -8,7 +8,7 @@
 
 #include "commands.h"
 #include "listing.h"
-#include "solve/methods.h"
+#include "methods/methods.h"
 
 namespace lumel {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/core.h>
 
 #include "listing.h"
-#include "solve/methods.h"
+#include "methods/methods.h"
 
 namespace lumel {
 namespace {

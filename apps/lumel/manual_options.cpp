@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "command.h"
 #include "completion.h"
-#include "core/error.h"
 #include "listing.h"
 #include "man_page.h"
 #include "manual.h"

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kPlacesGroup = "Where to measure";
 constexpr const char* kFilesGroup = "Files";
-constexpr int kLeastSamples = 64, kMostSamples = 1 << 24;
+constexpr int kMinSamples = 64, kMaxSamples = 1 << 24;
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -80,7 +80,7 @@ void add_places(CLI::App& app, MeasureOptions& options)
                    "Rays of a point over its hemisphere, and as many towards lights")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(kLeastSamples, kMostSamples));
+        ->check(whole(kMinSamples, kMaxSamples));
 }
 
 void add_files(CLI::App& app, MeasureOptions& options)

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace lumel {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solve/methods.h"
+#include "methods/methods.h"
 
 namespace CLI {
 class App;

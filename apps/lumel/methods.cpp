@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "solve/methods.h"
+#include "methods/methods.h"
 
 namespace lumel {
 

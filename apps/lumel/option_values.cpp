@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/number.h"
+#include "base/core/number.h"
 
 namespace lumel {
 namespace {
@@ -83,13 +83,13 @@ CLI::Validator between(double low, double high)
 std::optional<std::uint64_t> bytes_of(const std::string& text)
 {
     constexpr double kMebibyte = 1024.0 * 1024.0, kGibibyte = 1024.0 * kMebibyte;
-    constexpr double kMost = 1024.0 * 1024.0 * kGibibyte;
+    constexpr double kMax = 1024.0 * 1024.0 * kGibibyte;
     const char unit = text.empty() ? ' ' : text.back();
     if (unit != 'M' && unit != 'G')
         return {};
     const auto number = number_of(std::string_view(text).substr(0, text.size() - 1));
     const double bytes = number.value_or(0.0) * (unit == 'M' ? kMebibyte : kGibibyte);
-    if (!(bytes >= 1.0 && bytes <= kMost))
+    if (!(bytes >= 1.0 && bytes <= kMax))
         return {};
     return std::uint64_t(bytes);
 }

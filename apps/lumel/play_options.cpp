@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "method_options.h"
 #include "option_values.h"
 #include "shared_options.h"
@@ -20,10 +20,10 @@ const std::vector<OmittedOption> kOmitted = {{"scheme"}, {"sampling", "links"}, 
 
 constexpr const char* kAnimationGroup = "Animation";
 
-constexpr int kMostFrames = 100'000;
-constexpr int kMostAnimations = 1'000'000;
-constexpr double kLeastLeak = 1e-4, kMostLeak = 0.5;
-constexpr double kMostFps = 1000.0;  // pictures a second
+constexpr int kMaxFrames = 100'000;
+constexpr int kMaxAnimations = 1'000'000;
+constexpr double kMinLeak = 1e-4, kMaxLeak = 0.5;
+constexpr double kMaxFps = 1000.0;  // pictures a second
 
 const Choices<Redistribution> kRedistributions = {{"incremental", Redistribution::incremental},
                                                   {"cross", Redistribution::cross}};
@@ -37,15 +37,15 @@ void add_play_options(CLI::App& app, PlayOptions& options)
     app.add_option("--frames", options.frames, "Number of frames")
         ->type_name("N")
         ->default_str("the animation's length")
-        ->check(whole(1, kMostFrames));
+        ->check(whole(1, kMaxFrames));
     app.add_option("--fps", options.fps, "Frames per second of the animation")
         ->type_name("N")
         ->capture_default_str()
-        ->check(between(1.0 / kMostFps, kMostFps));
+        ->check(between(1.0 / kMaxFps, kMaxFps));
     app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(0, kMostAnimations));
+        ->check(whole(0, kMaxAnimations));
     add_choice(app, "--redistribution", options.redistribution, kRedistributions,
                "With --solver progressive, how light follows a move: incremental shoots again past "
                "the old and the new position, "
@@ -56,7 +56,7 @@ void add_play_options(CLI::App& app, PlayOptions& options)
                    "replaces: more follows faster and is noisier")
         ->type_name("F")
         ->capture_default_str()
-        ->check(between(kLeastLeak, kMostLeak));
+        ->check(between(kMinLeak, kMaxLeak));
     app.add_option("--links", options.link_rays,
                    "With --solver links, rays that each lumel keeps: 4, 16, 64 or 256")
         ->type_name("N")

@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kPlacesGroup = "Where to put light probes";
 constexpr const char* kFilesGroup = "Files";
-constexpr int kLeastSamples = 64, kMostSamples = 1 << 20;
+constexpr int kMinSamples = 64, kMaxSamples = 1 << 20;
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -70,7 +70,7 @@ void add_places(CLI::App& app, ProbesOptions& options)
            "times as many where their noise is above 0.5 %")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(kLeastSamples, kMostSamples));
+        ->check(whole(kMinSamples, kMaxSamples));
 }
 
 }  // namespace

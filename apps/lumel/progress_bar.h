@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "bake/bake.h"
+#include "jobs/solve/bake_options.h"
 
 namespace lumel {
 

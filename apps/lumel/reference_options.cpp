@@ -35,7 +35,7 @@ Command reference_command(CLI::App& program)
     command.add_option("--spp", reference.reference.samples_per_lumel, "Paths per lumel")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(1, kMostPaths));
+        ->check(whole(1, kMaxPaths));
     command.add_option("--seed", reference.reference.seed, "Random seed")
         ->type_name("N")
         ->capture_default_str()

@@ -12,12 +12,12 @@
 namespace lumel {
 namespace {
 
-constexpr int kMostPlaces = 256;
-constexpr int kMostRays = 4096;
-constexpr int kMostFrames = 100'000;
-constexpr int kMostAnimations = 1'000'000;
-constexpr double kMostFps = 1000.0;   // pictures a second
-constexpr double kMostKept = 1000.0;  // frames
+constexpr int kMaxPlaces = 256;
+constexpr int kMaxRays = 4096;
+constexpr int kMaxFrames = 100'000;
+constexpr int kMaxAnimations = 1'000'000;
+constexpr double kMaxFps = 1000.0;   // pictures a second
+constexpr double kMaxKept = 1000.0;  // frames
 
 void add_film_options(CLI::App& app, FilmOptions& film)
 {
@@ -27,23 +27,23 @@ void add_film_options(CLI::App& app, FilmOptions& film)
                        "Make so many pictures of the scene's animation, each of which goes on from "
                        "the light of the one before")
             ->type_name("N")
-            ->check(whole(1, kMostFrames));
+            ->check(whole(1, kMaxFrames));
     app.add_option("--fps", film.fps, "Frames per second of the animation")
         ->type_name("N")
         ->capture_default_str()
-        ->check(between(1.0 / kMostFps, kMostFps))
+        ->check(between(1.0 / kMaxFps, kMaxFps))
         ->needs(frames);
     app.add_option("--animation", film.animation, "Animation of the file by its number, from 0")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(0, kMostAnimations))
+        ->check(whole(0, kMaxAnimations))
         ->needs(frames);
     app.add_option("--keep", film.kept,
                    "What a frame keeps of the average of the one before, in terms of that one's "
                    "iterations; more is less noise and light that lags behind")
         ->type_name("F")
         ->capture_default_str()
-        ->check(between(0.0, kMostKept))
+        ->check(between(0.0, kMaxKept))
         ->needs(frames);
     app.add_flag("--fresh", film.fresh, "Solve each frame from nothing")->needs(frames);
 }
@@ -73,23 +73,23 @@ Command render_command(CLI::App& program)
     command.add_option("--places", options.sets, "Sample points in each pixel")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(1, kMostPlaces));
+        ->check(whole(1, kMaxPlaces));
     command
         .add_option("--eye-shots", options.shots,
                     "Shooters for glossy reflections in view, after those of the solution")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(0, kMostShots));
+        ->check(whole(0, kMaxShots));
     CLI::Option* lobe_rays =
         command.add_option("--lobe-rays", options.rays, "Rays along the lobe at each sample point")
             ->type_name("N")
             ->capture_default_str()
-            ->check(whole(0, kMostRays));
+            ->check(whole(0, kMaxRays));
     command
         .add_option("--paths", options.paths,
                     "Trace this many paths per pixel on the processor instead, to compare with")
         ->type_name("N")
-        ->check(whole(1, kMostPaths));
+        ->check(whole(1, kMaxPaths));
     add_film_options(command, options.film);
     add_light_options(command, options.bake.lights);
     add_sky_directions_option(command, options.bake);

@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 
 #include "commands.h"
-#include "page/page.h"
-#include "record/bake_record.h"
+#include "results/page/page.h"
+#include "results/record/bake_record.h"
 
 namespace lumel {
 

@@ -6,18 +6,18 @@
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
-#include "core/error.h"
-#include "core/number.h"
+#include "base/core/error.h"
+#include "base/core/number.h"
 #include "option_values.h"
 
 namespace lumel {
 namespace {
 
 constexpr int kLargestGutter = 64;
-constexpr double kMostTexelsPerMetre = 1e6;
-constexpr int kMostCameras = 1'000'000;
-constexpr int kMostDirections = 1'000'000;
-constexpr double kMostDegrees = 36000.0;   // a turn that still has decimals as float
+constexpr double kMaxTexelsPerMetre = 1e6;
+constexpr int kMaxCameras = 1'000'000;
+constexpr int kMaxDirections = 1'000'000;
+constexpr double kMaxDegrees = 36000.0;    // a turn that still has decimals as float
 constexpr double kLargestSunAngle = 45.0;  // half a disc [degrees]
 
 const Choices<Directional> kDirectional = {{"sh1", Directional::sh1}, {"sh2", Directional::sh2}};
@@ -36,7 +36,7 @@ DensityRule density_rule(const std::string& text)
 {
     const std::size_t equals = text.rfind('=');
     const auto density = number_of(equals == text.npos ? std::string() : text.substr(equals + 1));
-    if (equals == 0 || !density || !(*density > 0.0) || *density > kMostTexelsPerMetre)
+    if (equals == 0 || !density || !(*density > 0.0) || *density > kMaxTexelsPerMetre)
         throw Error(
             ErrorKind::input, "",
             fmt::format("--density: '{}' is not of the form NAME=N with a positive number", text));
@@ -76,7 +76,7 @@ void add_atlas_options(CLI::App& app, AtlasOptions& atlas)
            "is too small for the density, or to fill where only --size is given")
         ->type_name("N")
         ->default_str("1")
-        ->check(whole(1, kMostPages));
+        ->check(whole(1, kMaxPages));
     app.add_option("--max-size", atlas.max_size,
                    "Largest side of the atlas; the density is lowered to fit")
         ->type_name("N")
@@ -115,7 +115,7 @@ void add_light_options(CLI::App& app, LightOptions& lights)
            "Rotate the sky and --sun about +y, counter-clockwise as seen from above")
         ->type_name("DEGREES")
         ->default_str("0")
-        ->check(between(-kMostDegrees, kMostDegrees));
+        ->check(between(-kMaxDegrees, kMaxDegrees));
     app.add_option_function<std::string>(
            "--sun", [&lights](const std::string& text) { set_sun(lights, text); },
            "Sun, with a clear sky unless there is a --sky: AZIMUTH,ELEVATION in degrees, the "
@@ -171,7 +171,7 @@ void add_stop_options(CLI::App& app, SolverOptions& solver)
     auto* shots = app.add_option("--shots", solver.max_shots,
                                  "Stop after this many shooters; of links: rays of each lumel")
                       ->type_name("N")
-                      ->check(whole(1, kMostShots));
+                      ->check(whole(1, kMaxShots));
     auto* time = app.add_option("--time", solver.max_seconds,
                                 "Stop solving when this time has passed since the start of the "
                                 "command; the results are then "
@@ -203,7 +203,7 @@ void add_sky_directions_option(CLI::App& app, BakeOptions& options)
                    "Directions from which the light of the sky is gathered (not by links)")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(2, kMostDirections));
+        ->check(whole(2, kMaxDirections));
 }
 
 void add_keep_lights_option(CLI::App& app, bool& keep_lights)
@@ -296,7 +296,7 @@ void add_picture_options(CLI::App& app, int& camera, int& width)
     app.add_option("--camera", camera, "Camera of the file by its number, from 0")
         ->type_name("N")
         ->default_str("the first, or one that is chosen")
-        ->check(whole(0, kMostCameras));
+        ->check(whole(0, kMaxCameras));
     app.add_option("--width", width, "Width of the picture in pixels")
         ->type_name("N")
         ->capture_default_str()

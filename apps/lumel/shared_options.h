@@ -19,8 +19,8 @@ inline constexpr const char* kPictureGroup = "Pictures";
 inline constexpr const char* kProgramGroup = "Device and messages";
 
 inline constexpr int kLargestAtlas = 16384;  ///< side that common devices offer [texels]
-inline constexpr int kMostShots = 2'000'000'000;
-inline constexpr int kMostPaths = 100'000'000;
+inline constexpr int kMaxShots = 2'000'000'000;
+inline constexpr int kMaxPaths = 100'000'000;
 
 void add_atlas_options(CLI::App& app, AtlasOptions& atlas);
 

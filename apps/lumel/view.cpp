@@ -1,12 +1,12 @@
 // lumel view: a lit scene under the hand.
 
-#include "view/view.h"
+#include "viewer/session/view.h"
 
 #include <fmt/core.h>
 
 #include "commands.h"
 #include "long_work.h"
-#include "window/window.h"
+#include "viewer/window/window.h"
 
 namespace lumel {
 

@@ -5,20 +5,20 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "method_options.h"
+#include "methods/methods.h"
 #include "option_values.h"
 #include "shared_options.h"
-#include "solve/methods.h"
-#include "view/script.h"
+#include "viewer/session/script.h"
 
 namespace lumel {
 namespace {
 
 constexpr const char* kSessionGroup = "Session";
-constexpr int kMostAnimations = 1'000'000;
-constexpr int kMostSeed = 2'147'483'647;
+constexpr int kMaxAnimations = 1'000'000;
+constexpr int kMaxSeed = 2'147'483'647;
 
 /// The commands of a script, for --help: name and meaning with a tab between.
 std::string commands_text()
@@ -75,11 +75,11 @@ void add_method_options(CLI::App& app, SessionOptions& options)
     app.add_option("--seed", options.seed, "Random seed")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(0, kMostSeed));
+        ->check(whole(0, kMaxSeed));
     app.add_option("--animation", options.animation, "Animation of the file by its number, from 0")
         ->type_name("N")
         ->capture_default_str()
-        ->check(whole(0, kMostAnimations));
+        ->check(whole(0, kMaxAnimations));
 }
 
 }  // namespace

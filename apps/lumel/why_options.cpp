@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/core/error.h"
 #include "command.h"
-#include "core/error.h"
 #include "option_values.h"
 #include "shared_options.h"
 
@@ -41,7 +41,7 @@ void add_place_options(CLI::App& app, WhyOptions& options)
     app.add_option("--page", options.page, "Of several pages of the lightmap the one that is meant")
         ->type_name("N")
         ->default_val(options.page)
-        ->check(whole(0, kMostPages - 1));
+        ->check(whole(0, kMaxPages - 1));
     app.callback([&app] {
         if (app.count("--lumel") + app.count("--texel") == 0)
             throw Error(ErrorKind::input, "", "lumel why needs --lumel U,V or --texel X,Y");

@@ -6,19 +6,19 @@
 
 #include <fmt/format.h>
 
-#include "bake/setting.h"
+#include "atlas/finish/finish.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/spread.h"
 #include "bench/stopwatch.h"
-#include "finish/finish.h"
-#include "picture/lobe_rays.h"
-#include "picture/seen.h"
-#include "preview/view.h"
-#include "shooting/lumel_arrays.h"
-#include "solve/glossy.h"
-#include "solve/solver.h"
-#include "solve/stochastic.h"
+#include "jobs/solve/setting.h"
+#include "methods/glossy/glossy.h"
+#include "methods/stochastic/stochastic.h"
+#include "results/picture/lobe_rays.h"
+#include "results/picture/seen.h"
+#include "results/preview/view.h"
+#include "solve/shooting/lumel_arrays.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
+#include "base/core/files.h"
 #include "bench/papers/commands.h"
 #include "bench/papers/page.h"
 #include "bench/stopwatch.h"
-#include "core/error.h"
-#include "core/files.h"
-#include "output/folder.h"
+#include "results/files/folder.h"
 
 namespace lumel::bench {
 namespace {

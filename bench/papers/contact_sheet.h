@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/image.h"
+#include "base/core/image.h"
 
 namespace lumel::bench {
 

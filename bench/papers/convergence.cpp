@@ -7,24 +7,24 @@
 
 #include <fmt/format.h>
 
-#include "bake/render.h"
-#include "bake/setting.h"
+#include "atlas/finish/finish.h"
+#include "base/images/image_files.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
-#include "finish/finish.h"
-#include "images/image_files.h"
-#include "preview/preview.h"
-#include "reference/metrics.h"
-#include "solve/solver.h"
+#include "jobs/render/render.h"
+#include "jobs/solve/setting.h"
+#include "results/preview/preview.h"
+#include "solve/solver/solver.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {
 
 /// Places looked at within a pixel, each by some of the shooters.
-constexpr int kMostSets = 4;
+constexpr int kMaxSets = 4;
 /// Along the lobe at each place; the papers have none.
 constexpr std::uint32_t kRays = 16;
 
@@ -50,7 +50,7 @@ Image glossy_picture(const ConvergenceSettings& settings, SolverOptions options,
     options.max_shots = std::uint64_t(iterations) * std::uint64_t(batch_of(options.method));
     options.target_error = 0.0;
     RenderOptions render_options{.width = settings.width,
-                                 .sets = std::uint32_t(std::min(iterations, kMostSets)),
+                                 .sets = std::uint32_t(std::min(iterations, kMaxSets)),
                                  .shots = is_papers(options.method) ? 0u : options.max_shots,
                                  .rays = kRays};
     render_options.bake.atlas.size = settings.shared.size;

@@ -5,18 +5,18 @@
 
 #include <fmt/format.h>
 
+#include "atlas/finish/finish.h"
+#include "base/images/image_files.h"
 #include "bench/cut.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/landscape.h"
 #include "bench/stopwatch.h"
-#include "finish/finish.h"
-#include "images/image_files.h"
-#include "preview/preview.h"
-#include "reference/metrics.h"
-#include "scene/clear_sky.h"
-#include "solve/solver.h"
+#include "results/preview/preview.h"
+#include "scene/sky/clear_sky.h"
+#include "solve/solver/solver.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {
@@ -77,19 +77,19 @@ Scene scene_of(const Example& example, const std::string& sky_file)
 }
 
 /// What came of the directions.
-struct Gathered {
+struct LinkSet {
     Image map;  ///< irradiance [lx]
     std::uint64_t directions = 0;
     gpu::StageTimes stages;  ///< [ms]
     Stopwatch watch;
 };
 
-Gathered gather(const gpu::Device& device, const Prepared& world, const SolverOptions& options)
+LinkSet gather(const gpu::Device& device, const Prepared& world, const SolverOptions& options)
 {
     const World resident(device, world.scene, world.lumels, &world.atlas);
     const NearField none = no_near_field(world.lumels);
     const auto solver = make_solver({device, &resident, world.lumels, none}, options);
-    Gathered gathered;
+    LinkSet gathered;
     gathered.watch.start();
     solve(*solver, options);
     const std::vector<glm::vec3> irradiance = solver->irradiance();
@@ -114,7 +114,7 @@ SolverOptions options_for(const DirectionsSettings& settings, const Example& exa
 
 /// The same directions with exact layers: what is left is the error of the stochastic ones.
 MapError error_of_layers(const gpu::Device& device, const Prepared& world, SolverOptions options,
-                         const Gathered& stochastic)
+                         const LinkSet& stochastic)
 {
     std::get<DirectionsOptions>(options.method).layers = Layers::list;
     return compare_maps(stochastic.map, gather(device, world, options).map);
@@ -128,8 +128,8 @@ Image picture_of(const gpu::Device& device, const Prepared& world, const Image& 
     return tone_map(picture, kExposure * choose_exposure(picture));
 }
 
-void add_row(Report& report, const Example& example, const Prepared& world,
-             const Gathered& gathered, const MapError& error)
+void add_row(Report& report, const Example& example, const Prepared& world, const LinkSet& gathered,
+             const MapError& error)
 {
     const auto directions = double(gathered.directions);
     const auto ms = [&](const char* stage) {
@@ -155,7 +155,7 @@ std::vector<Image> show(const DirectionsSettings& settings, const gpu::Device& d
     const Prepared world(scene_of(example, settings.sky),
                          AtlasOptions{.size = settings.shared.size * example.finer});
     const SolverOptions options = options_for(settings, example);
-    const Gathered gathered = gather(device, world, options);
+    const LinkSet gathered = gather(device, world, options);
     add_row(report, example, world, gathered, error_of_layers(device, world, options, gathered));
     if (settings.folder.empty())
         return {};

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/core/error.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/moving.h"
-#include "core/error.h"
-#include "reference/metrics.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {

@@ -10,10 +10,10 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
-#include "reference/metrics.h"
-#include "reference/reference.h"
-#include "solve/solver.h"
-#include "transport/patches.h"
+#include "solve/solver/solver.h"
+#include "solve/transport/patches.h"
+#include "truth/metrics.h"
+#include "truth/reference.h"
 
 namespace lumel::bench {
 namespace {
@@ -22,10 +22,10 @@ enum Technique { kGather, kProgressive, kIncremental, kCross, kTechniques };
 constexpr std::array<const char*, kTechniques> kNames{"gather", "progressive", "incremental",
                                                       "cross"};
 constexpr std::uint32_t kReferenceSeed = 99;
-constexpr double kLeastShown = 0.1;  ///< of a part's time [ms]
+constexpr double kMinShown = 0.1;  ///< of a part's time [ms]
 
 /// What one technique did after the last move.
-struct Outcome {
+struct MoveOutcome {
     Update update;
     std::vector<glm::vec3> alone, irradiance;  ///< after redistribution alone; at rest
     std::optional<MapError> alone_from_truth, from_truth;
@@ -38,7 +38,7 @@ struct Results {
     std::size_t still = 0, moving = 0;  ///< lumels
     std::size_t patches = 0, moving_patches = 0;
     std::size_t vertices = 0, triangles = 0;
-    std::array<std::optional<Outcome>, kTechniques> by;
+    std::array<std::optional<MoveOutcome>, kTechniques> by;
 };
 
 /// One scene, the places of its box and how it is laid out.
@@ -83,13 +83,13 @@ void count(const Stage& stage, const Lumels& lumels, Results& results)
 }
 
 /// The solution follows the box from place to place.
-Outcome corrected(const gpu::Device& device, const Stage& stage, Redistribution redistribution)
+MoveOutcome corrected(const gpu::Device& device, const Stage& stage, Redistribution redistribution)
 {
     LiveOptions options = stage.options;
     options.redistribution = redistribution;
     LiveScene live(device, stage.scene, options);
     live.settle();
-    Outcome outcome;
+    MoveOutcome outcome;
     for (std::size_t step = 0; step < stage.places.size(); ++step) {
         Update update = update_after_move(live, stage.box, stage.places[step]);
         outcome.alone = update.alone;
@@ -102,10 +102,10 @@ Outcome corrected(const gpu::Device& device, const Stage& stage, Redistribution 
 }
 
 /// Solved with the box in its last place from the start. Counts the scene too.
-Outcome from_scratch(const gpu::Device& device, const Stage& stage, Results& results)
+MoveOutcome from_scratch(const gpu::Device& device, const Stage& stage, Results& results)
 {
     LiveScene fresh(device, stage.scene, stage.options);
-    Outcome outcome{.update = update_after_move(fresh, stage.box, stage.places.back())};
+    MoveOutcome outcome{.update = update_after_move(fresh, stage.box, stage.places.back())};
     outcome.alone = outcome.irradiance = fresh.irradiance();
     // There is nothing to redistribute.
     outcome.update.alone_ms = outcome.update.whole_ms;
@@ -117,14 +117,14 @@ Outcome from_scratch(const gpu::Device& device, const Stage& stage, Results& res
 }
 
 /// The lumels of `laid_out`, with the box in its last place.
-Outcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Stage& stage)
+MoveOutcome gathered(const gpu::Device& device, const LiveScene& laid_out, const Stage& stage)
 {
     Scene scene = stage.scene;
     scene.instances[stage.box].transform = stage.places.back();
     const SolverOptions options{.method = stage.gather};
     const World world(device, scene, laid_out.lumels(), &laid_out.atlas());
     const auto solver = make_solver({device, &world, laid_out.lumels(), {}}, options);
-    Outcome outcome;
+    MoveOutcome outcome;
     Stopwatch watch;
     watch.start();
     solve(*solver, options);
@@ -221,40 +221,40 @@ void add_errors(Report& report, const std::vector<Results>& all)
         return error ? fixed(error->normalized_rmse, 5) : none();
     };
     add_table(report, "normalized", "Normalized RMSE from the truth at rest ([Hoef13] table 5.1)",
-              all, [&](const Outcome& o) { return normalized(o.from_truth); });
+              all, [&](const MoveOutcome& o) { return normalized(o.from_truth); });
     add_table(report, "normalized-alone",
               "Normalized RMSE from the truth after redistribution alone", all,
-              [&](const Outcome& o) { return normalized(o.alone_from_truth); });
+              [&](const MoveOutcome& o) { return normalized(o.alone_from_truth); });
     add_table(report, "relative", "Relative RMSE from the truth at rest, %", all,
-              [&](const Outcome& o) {
+              [&](const MoveOutcome& o) {
                   return o.from_truth ? fixed(100.0 * o.from_truth->relative_rmse, 3) : none();
               });
     add_table(report, "from-scratch",
               "Relative RMSE from a progressive solution from scratch, at rest, %", all,
-              [](const Outcome& o) { return fixed(100.0 * o.from_scratch, 3); });
+              [](const MoveOutcome& o) { return fixed(100.0 * o.from_scratch, 3); });
     add_table(report, "from-scratch-alone", "The same after redistribution alone, %", all,
-              [](const Outcome& o) { return fixed(100.0 * o.alone_from_scratch, 3); });
+              [](const MoveOutcome& o) { return fixed(100.0 * o.alone_from_scratch, 3); });
 }
 
 void add_times(Report& report, const std::string& suffix, const std::vector<Results>& all)
 {
     add_table(report, "rest-ms" + suffix, "Time of an update until at rest, wall, ms", all,
-              [](const Outcome& o) { return fixed(o.update.whole_ms, 0); });
+              [](const MoveOutcome& o) { return fixed(o.update.whole_ms, 0); });
     add_table(report, "alone-ms" + suffix, "Time of redistribution alone, wall, ms", all,
-              [](const Outcome& o) { return fixed(o.update.alone_ms, 0); });
+              [](const MoveOutcome& o) { return fixed(o.update.alone_ms, 0); });
     add_table(report, "rest-cpu-ms" + suffix, "The same until at rest, processor time, ms", all,
-              [](const Outcome& o) { return fixed(o.update.whole_cpu_ms, 0); });
+              [](const MoveOutcome& o) { return fixed(o.update.whole_cpu_ms, 0); });
     add_table(report, "alone-cpu-ms" + suffix,
               "The same of redistribution alone, processor time, ms", all,
-              [](const Outcome& o) { return fixed(o.update.alone_cpu_ms, 0); });
+              [](const MoveOutcome& o) { return fixed(o.update.alone_cpu_ms, 0); });
     add_table(report, "rest-device-ms" + suffix, "Device time until at rest, ms", all,
-              [](const Outcome& o) { return fixed(sum_of(o.update.stages), 0); });
+              [](const MoveOutcome& o) { return fixed(sum_of(o.update.stages), 0); });
     add_table(report, "alone-device-ms" + suffix, "Device time of redistribution alone, ms", all,
-              [](const Outcome& o) { return fixed(sum_of(o.update.alone_stages), 0); });
+              [](const MoveOutcome& o) { return fixed(sum_of(o.update.alone_stages), 0); });
     add_table(report, "rest-hemicubes" + suffix, "Hemicubes until at rest", all,
-              [](const Outcome& o) -> Cell { return o.update.whole_hemicubes; });
+              [](const MoveOutcome& o) -> Cell { return o.update.whole_hemicubes; });
     add_table(report, "alone-hemicubes" + suffix, "Hemicubes of redistribution alone", all,
-              [](const Outcome& o) -> Cell { return o.update.alone_hemicubes; });
+              [](const MoveOutcome& o) -> Cell { return o.update.alone_hemicubes; });
 }
 
 std::string words_of(double Update::*ms)
@@ -320,7 +320,7 @@ void add_parts(Report& report, const std::string& key, const Results& results, c
         if (!results.by[technique])
             continue;
         for (const auto& [stage, ms] : results.by[technique]->update.*stages)
-            if (ms >= kLeastShown)
+            if (ms >= kMinShown)
                 report.row({kNames[technique], stage, fixed(ms, 1)});
     }
 }

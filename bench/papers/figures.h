@@ -7,7 +7,7 @@
 
 #include "bench/papers/report.h"
 #include "bench/settings.h"
-#include "live/live_scene.h"
+#include "methods/redistribution/live_scene.h"
 
 namespace lumel::bench {
 

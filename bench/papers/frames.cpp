@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "bake/setting.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
-#include "reference/reference.h"
-#include "solve/glossy.h"
+#include "jobs/solve/setting.h"
+#include "methods/glossy/glossy.h"
+#include "truth/reference.h"
 
 namespace lumel::bench {
 namespace {
@@ -25,7 +25,7 @@ struct Frame {
     Frame(const FramesSettings& settings, Scene posed, const std::optional<Atlas>& atlas,
           const SolverOptions& options, const gpu::Device& device)
         : world(std::move(posed),
-                [&](const Scene& scene, const RayScene&, const Watch& watch) {
+                [&](const Scene& scene, const RayScene&, const ProgressCallback& watch) {
                     return atlas ? *atlas
                                  : make_atlas(scene, {.size = settings.shared.size}, watch);
                 }),

@@ -2,8 +2,8 @@
 // What an iteration takes.
 
 #include "gpu/device.h"
-#include "solve/methods.h"
-#include "solve/solver.h"
+#include "methods/methods.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 

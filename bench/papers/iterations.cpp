@@ -8,13 +8,13 @@
 #include "bench/cut.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
-#include "solve/solver.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {
 
 /// Edges are cut into this number of pieces at most.
-constexpr int kMostPieces = 256;
+constexpr int kMaxPieces = 256;
 
 /// The scene without what is in the room: its blocks stay only as lumels.
 Scene without_blocks(Scene scene)
@@ -48,7 +48,7 @@ Scene drawn_with(const Scene& scene, int vertices)
     const Scene kept = whole ? scene : without_blocks(scene);
     const double triangles = double(find_occluders(kept).inner_indices().size()) / 3.0;
     int best = 1;
-    for (int pieces = 1; pieces <= kMostPieces; ++pieces)
+    for (int pieces = 1; pieces <= kMaxPieces; ++pieces)
         if (std::abs(triangles * grid_points(pieces) - vertices) <
             std::abs(triangles * grid_points(best) - vertices))
             best = pieces;

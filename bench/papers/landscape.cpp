@@ -4,7 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/scene_hash.h"
+#include "scene/values/scene_hash.h"
 
 namespace lumel::bench {
 namespace {
@@ -12,21 +12,21 @@ namespace {
 constexpr float kSide = 20.0f;  ///< [m]
 
 /// A train of hills. Each is smaller and runs in another direction than the one before.
-struct Wave {
+struct RayBatch {
     glm::vec2 per_metre;  ///< [rad / m]
     float height, phase;  ///< [m], [rad]
 };
 
-constexpr Wave kWaves[] = {{{0.31f, 0.22f}, 1.1f, 0.4f},   {{-0.27f, 0.53f}, 0.8f, 2.1f},
-                           {{0.83f, -0.41f}, 0.45f, 1.3f}, {{0.62f, 1.17f}, 0.3f, 5.2f},
-                           {{-1.71f, 0.88f}, 0.16f, 3.3f}, {{1.27f, 2.31f}, 0.1f, 0.9f},
-                           {{3.47f, -1.13f}, 0.06f, 4.4f}, {{-2.2f, -4.1f}, 0.04f, 1.8f}};
+constexpr RayBatch kWaves[] = {{{0.31f, 0.22f}, 1.1f, 0.4f},   {{-0.27f, 0.53f}, 0.8f, 2.1f},
+                               {{0.83f, -0.41f}, 0.45f, 1.3f}, {{0.62f, 1.17f}, 0.3f, 5.2f},
+                               {{-1.71f, 0.88f}, 0.16f, 3.3f}, {{1.27f, 2.31f}, 0.1f, 0.9f},
+                               {{3.47f, -1.13f}, 0.06f, 4.4f}, {{-2.2f, -4.1f}, 0.04f, 1.8f}};
 
 /// Height [m], and its slopes along x and z.
 glm::vec3 ground_at(const glm::vec2& at)
 {
     glm::vec3 ground(0.0f);
-    for (const Wave& wave : kWaves) {
+    for (const RayBatch& wave : kWaves) {
         const float angle = glm::dot(wave.per_metre, at) + wave.phase;
         ground += wave.height * glm::vec3(std::sin(angle), wave.per_metre * std::cos(angle));
     }

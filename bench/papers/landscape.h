@@ -1,7 +1,7 @@
 #pragma once
 // Hills.
 
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel::bench {
 

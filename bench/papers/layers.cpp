@@ -11,10 +11,10 @@
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/stopwatch.h"
-#include "paths/samples.h"
-#include "scene/light_options.h"
-#include "solve/slabs.h"
-#include "solve/solver.h"
+#include "methods/directions/slabs.h"
+#include "rays/paths/samples.h"
+#include "scene/sky/light_options.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -6,15 +6,15 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "atlas/near/still_part.h"
 #include "bench/papers/figures.h"
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/moving.h"
 #include "bench/stopwatch.h"
-#include "live/leaky_scene.h"
-#include "live/still_part.h"
-#include "reference/metrics.h"
-#include "scene/light_options.h"
-#include "solve/directions.h"
+#include "methods/directions/directions.h"
+#include "methods/directions/leaky_scene.h"
+#include "scene/sky/light_options.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {
@@ -90,7 +90,7 @@ void follow_a_move(const LeakSettings& settings, const gpu::Device& device, cons
     Scene posed = scene;
     posed.instances[cube].transform = place;
     // In the atlas of the scene as it was, so that lumels are the same.
-    Lumels lumels = lift(posed, live.atlas());
+    Lumels lumels = make_lumels(posed, live.atlas());
     std::vector<char> moves(posed.instances.size());
     moves[cube] = 1;
     mark_buried_by_still(posed, moves, lumels);

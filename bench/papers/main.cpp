@@ -13,9 +13,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "base/core/error.h"
 #include "bench/papers/all.h"
 #include "bench/papers/commands.h"
-#include "core/error.h"
 
 namespace lumel::bench {
 namespace {

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <random>
 
-#include "core/error.h"
-#include "core/parallel.h"
-#include "nearfield/world_lumels.h"
-#include "solve/matrix.h"
+#include "atlas/near/world_lumels.h"
+#include "base/core/error.h"
+#include "base/core/parallel.h"
+#include "methods/matrix/matrix.h"
 
 namespace lumel::bench {
 namespace {
 
 constexpr double kLitShare = 0.25;  // a light in a pillar, or behind a door, is of no use
-constexpr int kMostTries = 100;     // places for each light
+constexpr int kMaxTries = 100;      // places for each light
 constexpr float kMargin = 0.05f;    // of the scene's box: no light within this of its sides
 constexpr std::size_t kLumelsPerTask = 256;
 
@@ -27,8 +27,8 @@ std::vector<glm::vec3> light_of(const Prepared& world, const WorldLumels& lumels
             const glm::vec3 to = lamp - lumel.centre;
             const float square = glm::dot(to, to) + lumel.size * lumel.size;
             const float cosine = glm::dot(to, lumel.normal) / std::sqrt(square);
-            if (cosine > 0.0f && world.rays.sees(lumel.centre + lumel.lift * lumel.normal, lamp,
-                                                 lumel.lift, std::uint32_t(i)))
+            if (cosine > 0.0f && world.rays.sees(lumel.centre + lumel.ray_offset * lumel.normal,
+                                                 lamp, lumel.ray_offset, std::uint32_t(i)))
                 light[i] = glm::vec3(cosine / square);
         }
     });
@@ -50,7 +50,7 @@ std::vector<std::vector<glm::vec3>> light_patches(const Prepared& world,
     std::mt19937 random(1);
     std::uniform_real_distribution<float> inside(kMargin, 1.0f - kMargin);
     std::vector<std::vector<glm::vec3>> lights;
-    for (int tries = 0; int(lights.size()) < count && tries < count * kMostTries; ++tries) {
+    for (int tries = 0; int(lights.size()) < count && tries < count * kMaxTries; ++tries) {
         const float x = inside(random), y = inside(random), z = inside(random);
         const std::vector<glm::vec3> light =
             light_of(world, lumels, low + glm::vec3(x, y, z) * size);
@@ -83,9 +83,9 @@ MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
             .lights = light_patches(world, transport.patches, lights)};
 }
 
-LightError light_error(const MatrixCase& matrix_case, const ColorMatrix& found)
+StateError light_error(const MatrixCase& matrix_case, const ColorMatrix& found)
 {
-    LightError error;
+    StateError error;
     for (const std::vector<glm::vec3>& light : matrix_case.lights) {
         const std::vector<glm::vec3> wanted = multiply(matrix_case.bounces, light);
         const std::vector<glm::vec3> got = multiply(found, light);

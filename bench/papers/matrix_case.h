@@ -2,8 +2,8 @@
 // A scene's form factors, and light to send through them.
 
 #include "bench/papers/figures.h"
-#include "matrix/bounces.h"
-#include "matrix/elements.h"
+#include "solve/matrix/bounces.h"
+#include "solve/matrix/elements.h"
 
 namespace lumel::bench {
 
@@ -23,11 +23,11 @@ MatrixCase make_matrix_case(const gpu::Device& device, const Settings& settings,
                             std::uint32_t patches, int lights);
 
 /// Relative root-mean-square difference over patches by area and channels.
-struct LightError {
+struct StateError {
     double mean = 0.0, worst = 0.0;  ///< of states
 };
 
 /// Of the light that `found` makes of the case's states, against the whole matrix.
-LightError light_error(const MatrixCase& matrix_case, const ColorMatrix& found);
+StateError light_error(const MatrixCase& matrix_case, const ColorMatrix& found);
 
 }  // namespace lumel::bench

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "base/core/usage.h"
 #include "bench/papers/matrix_case.h"
 #include "bench/papers/matrix_pictures.h"
-#include "core/usage.h"
-#include "matrix/compressed.h"
+#include "solve/matrix/compressed.h"
 
 namespace lumel::bench {
 namespace {
@@ -104,7 +104,7 @@ void add_shares(Report& report, const MatrixCase& matrix_case, const std::vector
         const CodedMatrix coded = encode(matrix_case.bounces, options);
         const ColorMatrix decoded = decode(coded);
         const EntryError error = entry_error(decoded, matrix_case.bounces);
-        const LightError light = light_error(matrix_case, decoded);
+        const StateError light = light_error(matrix_case, decoded);
         report.row({fmt::format("{:g}", share), fixed(error.sum, 1), fixed(error.squares, 4),
                     fixed(error.largest, 4), fixed(kPercent * light.mean, 2),
                     fixed(kPercent * light.worst, 2),
@@ -208,7 +208,7 @@ void add_curve(Report& report, const MatrixCase& matrix_case, const std::string&
         const double begin = wall_seconds();
         const CompressedMatrix compressed = form.make();
         const double seconds = wall_seconds() - begin;
-        const LightError error = light_error(matrix_case, whole(compressed));
+        const StateError error = light_error(matrix_case, whole(compressed));
         report.row({form.name, fixed(double(bytes_of(compressed)) / kMebibyte, 2),
                     fixed(naive_bytes(matrix_case) / double(bytes_of(compressed)), 2),
                     fixed(kPercent * error.mean, 3), fixed(kPercent * error.worst, 3),

@@ -6,39 +6,39 @@
 
 #include <fmt/format.h>
 
+#include "atlas/finish/finish.h"
+#include "base/images/image_files.h"
 #include "bench/papers/contact_sheet.h"
 #include "bench/reference.h"
 #include "bench/stopwatch.h"
-#include "finish/finish.h"
-#include "images/image_files.h"
-#include "matrix/coded_matrix.h"
-#include "matrix/log_image.h"
-#include "preview/preview.h"
-#include "reference/metrics.h"
-#include "solve/matrix.h"
-#include "solve/solver.h"
+#include "methods/matrix/matrix.h"
+#include "results/preview/preview.h"
+#include "solve/matrix/coded_matrix.h"
+#include "solve/matrix/log_image.h"
+#include "solve/solver/solver.h"
+#include "truth/metrics.h"
 
 namespace lumel::bench {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr float kWhite = 255.0f;          // the largest code
-constexpr double kPapersOffset = 25.0;    // that the paper adds to logarithms
-constexpr double kBinWidth = 2.5;         // of natural logarithms, a tenth of the offset
-constexpr int kBins = 12;                 // down to −30, where the paper's figure 3 begins
-constexpr std::uint32_t kMostSide = 256;  // of a picture of a matrix [pixels]
-constexpr double kMatrixError = 0.01;     // stated, of direct light, which the matrix is given
-constexpr float kEnlarged = 5.0f;         // differences are, to be seen
+constexpr float kWhite = 255.0f;         // the largest code
+constexpr double kPapersOffset = 25.0;   // that the paper adds to logarithms
+constexpr double kBinWidth = 2.5;        // of natural logarithms, a tenth of the offset
+constexpr int kBins = 12;                // down to −30, where the paper's figure 3 begins
+constexpr std::uint32_t kMaxSide = 256;  // of a picture of a matrix [pixels]
+constexpr double kMatrixError = 0.01;    // stated, of direct light, which the matrix is given
+constexpr float kEnlarged = 5.0f;        // differences are, to be seen
 
 CodingOptions papers_settings(Code code, Reordering order)
 {
     return {.code = code, .offset = float(kPapersOffset), .reordering = order, .mend = false};
 }
 
-/// Means of squares of texels, so that a picture is at most kMostSide wide.
+/// Means of squares of texels, so that a picture is at most kMaxSide wide.
 Image picture_of(const LogImage& image, std::uint32_t rows)
 {
-    const std::uint32_t square = (rows + kMostSide - 1) / kMostSide;
+    const std::uint32_t square = (rows + kMaxSide - 1) / kMaxSide;
     const int side = int(rows / square);
     Image picture(side, side, 4);
     for (int y = 0; y < side; ++y)

@@ -9,13 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "base/core/error.h"
 #include "bench/papers/matrix_case.h"
 #include "bench/papers/matrix_speed.reflect.comp.h"
 #include "bench/papers/matrix_speed.row.comp.h"
 #include "bench/papers/matrix_speed.shared.h"
 #include "bench/stopwatch.h"
-#include "core/error.h"
-#include "matrix/multiply.h"
+#include "solve/matrix/multiply.h"
 
 namespace lumel::bench {
 namespace {

@@ -1,6 +1,6 @@
 #ifndef LUMEL_BENCH_MATRIX_SPEED_SHARED_H
 #define LUMEL_BENCH_MATRIX_SPEED_SHARED_H
-#include "core/shared.h"
+#include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kRowLanes = 64u;

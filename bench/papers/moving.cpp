@@ -2,9 +2,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "atlas/near/still_part.h"
+#include "base/core/usage.h"
 #include "bench/papers/iteration_cost.h"
-#include "core/usage.h"
-#include "live/still_part.h"
 
 namespace lumel::bench {
 

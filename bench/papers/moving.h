@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
-#include "live/live_scene.h"
+#include "base/core/image.h"
+#include "methods/redistribution/live_scene.h"
 
 namespace lumel::bench {
 

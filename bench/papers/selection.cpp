@@ -12,9 +12,9 @@
 #include "bench/papers/iteration_cost.h"
 #include "bench/papers/selection.draw.comp.h"
 #include "bench/stopwatch.h"
-#include "shooting/lumel_arrays.h"
-#include "shooting/power_pyramid.h"
-#include "solve/solver.h"
+#include "solve/shooting/lumel_arrays.h"
+#include "solve/shooting/power_pyramid.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::bench {
 namespace {

@@ -1,6 +1,6 @@
 #version 460
 #include "../bench/papers/selection.shared.h"
-#include "shooting/power_pyramid.glsl"
+#include "solve/shooting/power_pyramid.glsl"
 
 // One draw from a pyramid.
 

@@ -1,6 +1,6 @@
 #ifndef LUMEL_BENCH_SELECTION_SHARED_H
 #define LUMEL_BENCH_SELECTION_SHARED_H
-#include "shooting/power_pyramid.shared.h"
+#include "solve/shooting/power_pyramid.shared.h"
 LUMEL_SHARED_BEGIN
 
 /// Push constants of selection.draw.comp.

@@ -62,7 +62,7 @@ struct SceneImpl;
 struct LiveImpl;
 struct LinksImpl;
 struct RelightImpl;
-struct Relightable;
+struct RelightableBake;
 struct HostDevice;  // lumel/vulkan.h
 
 inline constexpr Mat4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -362,7 +362,7 @@ struct Baked {
     double seconds = 0.0;
     bool interrupted = false;        ///< progress ended it
     std::vector<std::string> notes;  ///< sentences for the user
-    std::shared_ptr<const Relightable> relightable;
+    std::shared_ptr<const RelightableBake> relightable;
 };
 
 /// Lays the scene out and solves for its light. The same map as `lumel bake` writes.

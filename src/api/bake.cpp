@@ -8,12 +8,12 @@
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
-#include "bake/lighting.h"
-#include "bake/sources.h"
-#include "core/log.h"
-#include "finish/finish.h"
-#include "solve/methods.h"
-#include "solve/solver.h"
+#include "atlas/finish/finish.h"
+#include "base/core/log.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/sources.h"
+#include "methods/methods.h"
+#include "solve/solver/solver.h"
 
 namespace lumel::v0 {
 namespace {
@@ -102,7 +102,7 @@ Baked bake_scene(const gpu::Device& device, const lumel::Scene& scene, const Bak
     baked.error = solved.error;
     baked.shots = solved.shots;
     if (solution->relightable)
-        baked.relightable = std::make_shared<Relightable>(Relightable{
+        baked.relightable = std::make_shared<RelightableBake>(RelightableBake{
             std::move(*solution->relightable), prepared.scene, prepared.atlas, prepared.lumels});
     device.check_validation();
     baked.notes = log.messages();

@@ -1,14 +1,14 @@
 #pragma once
 
-#include "atlas/atlas.h"
+#include "atlas/packing/atlas.h"
 #include "lumel/lumel.h"
-#include "relight/relightable.h"
-#include "scene/scene.h"
+#include "methods/matrix/relightable.h"
+#include "scene/values/scene.h"
 
 namespace lumel::v0 {
 
 /// A bake's light with its sources apart, and what its maps are finished with.
-struct Relightable {
+struct RelightableBake {
     lumel::Relightable light;
     lumel::Scene scene;
     Atlas atlas;

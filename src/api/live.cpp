@@ -2,10 +2,10 @@
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
-#include "finish/finish.h"
-#include "live/live_scene.h"
+#include "atlas/finish/finish.h"
 #include "lumel/vulkan.h"
-#include "scene/geometry_checks.h"
+#include "methods/redistribution/live_scene.h"
+#include "scene/values/geometry_checks.h"
 
 namespace lumel::v0 {
 namespace {

@@ -1,4 +1,4 @@
-#include "live/live_links.h"
+#include "links/live/live_links.h"
 
 #include <algorithm>
 #include <chrono>
@@ -7,15 +7,15 @@
 #include "api/scene.h"
 #include "api/translate.h"
 #include "api/values.h"
-#include "core/frame.h"
-#include "finish/finish.h"
-#include "scene/geometry_checks.h"
+#include "atlas/finish/finish.h"
+#include "base/core/frame.h"
+#include "scene/values/geometry_checks.h"
 
 namespace lumel::v0 {
 namespace {
 
 /// Directions shorter than this point nowhere.
-constexpr float kLeastLength = 1e-20f;
+constexpr float kMinLength = 1e-20f;
 
 lumel::LiveLinksOptions links_options(const LiveLinksSettings& settings)
 {
@@ -47,7 +47,7 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
     if (place.direction) {
         const glm::vec3 direction = to_glm(*place.direction);
         const float length = glm::length(direction);
-        if (!std::isfinite(length) || length < kLeastLength)
+        if (!std::isfinite(length) || length < kMinLength)
             refuse("has a direction that points nowhere");
         result = glm::mat4(frame_about(direction / -length));
         result[3] = lamp.transform[3];

@@ -4,9 +4,9 @@
 #include "api/device.h"
 #include "api/translate.h"
 #include "api/values.h"
-#include "finish/finish.h"
-#include "relight/matrix_file.h"
-#include "relight/relight_session.h"
+#include "atlas/finish/finish.h"
+#include "methods/matrix/matrix_file.h"
+#include "methods/matrix/relight_session.h"
 
 namespace lumel::v0 {
 namespace {
@@ -42,8 +42,8 @@ Map map_of_places(const lumel::Relightable& light, const std::vector<glm::vec3>&
 struct RelightImpl {
     const gpu::Device* device;
     RelightSession session;
-    std::shared_ptr<const Relightable> baked;  ///< null: read from a file
-    std::unique_ptr<World> world;              ///< once a light has moved
+    std::shared_ptr<const RelightableBake> baked;  ///< null: read from a file
+    std::unique_ptr<World> world;                  ///< once a light has moved
 
     /// Puts the scene that was baked onto the device.
     void load_world()
@@ -107,7 +107,7 @@ Map Relight::map()
     return translated([&] {
         const std::vector<glm::vec3> irradiance = impl_->session.irradiance();
         impl_->device->check_validation();
-        if (const Relightable* baked = impl_->baked.get())
+        if (const RelightableBake* baked = impl_->baked.get())
             return map_of(finish_map(baked->scene, baked->atlas, baked->lumels, irradiance));
         return map_of_places(impl_->session.light(), irradiance);
     });

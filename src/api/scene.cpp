@@ -5,7 +5,7 @@
 
 #include "api/translate.h"
 #include "api/values.h"
-#include "scene/light_options.h"
+#include "scene/sky/light_options.h"
 
 namespace lumel::v0 {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "lumel/lumel.h"
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel::v0 {
 

@@ -7,10 +7,10 @@
 
 #include "api/scene.h"
 #include "api/values.h"
-#include "core/error.h"
-#include "core/frame.h"
-#include "scene/geometry_checks.h"
-#include "scene/scene_hash.h"
+#include "base/core/error.h"
+#include "base/core/frame.h"
+#include "scene/values/geometry_checks.h"
+#include "scene/values/scene_hash.h"
 
 namespace lumel::v0 {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "core/error.h"
+#include "base/core/error.h"
 #include "lumel/lumel.h"
 
 namespace lumel::v0 {

@@ -3,7 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/translate.h"
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace lumel::v0 {
 namespace {
@@ -87,7 +87,7 @@ AtlasOptions checked_options(const AtlasSettings& settings)
     check_range(settings.size, 0, kLargestAtlas, "size");
     check_range(settings.max_size, 1, kLargestAtlas, "max_size");
     check_range(settings.gutter, 0, kLargestGutter, "gutter");
-    check_range(settings.pages, 1, kMostPages, "pages");
+    check_range(settings.pages, 1, kMaxPages, "pages");
     AtlasOptions options{.texels_per_metre = density,
                          .size = settings.size,
                          .max_size = settings.max_size,

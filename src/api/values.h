@@ -8,8 +8,8 @@
 
 #include <glm/glm.hpp>
 
-#include "atlas/atlas.h"
-#include "core/image.h"
+#include "atlas/packing/atlas.h"
+#include "base/core/image.h"
 #include "lumel/lumel.h"
 
 namespace lumel::v0 {

@@ -31,7 +31,7 @@ public:
         return {file, line};
     }
 
-    /// "solve/glossy.cpp:131", without the folders above the room.
+    /// "methods/glossy/glossy.cpp:131", without the folders above the room.
     std::string text() const;
 
 private:

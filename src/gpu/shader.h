@@ -2,8 +2,8 @@
 // What a shader is given, by the names and types that it declares. For each compute shader, and for
 // each raster pass, the build writes a header beside its SPIR-V (cmake/LumelShaders.cmake):
 //
-//     #include "solve/stochastic.receive.comp.h"         solve/stochastic.receive.comp
-//     #include "visibility/hemicube.raster.h"            hemicube.vert and the stages with it
+//     #include "methods/stochastic/stochastic.receive.comp.h"         solve/stochastic.receive.comp
+//     #include "raster/eyes/hemicube.raster.h"            hemicube.vert and the stages with it
 //
 // with a type lumel::shaders::StochasticReceive that holds
 //

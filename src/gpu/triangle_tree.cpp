@@ -9,7 +9,7 @@ namespace lumel::gpu {
 namespace {
 
 /// An array is never empty.
-constexpr std::uint64_t kLeastBytes = sizeof(std::uint32_t);
+constexpr std::uint64_t kMinBytes = sizeof(std::uint32_t);
 /// Every ray looks at it.
 constexpr std::uint32_t kAnyMask = 0xff;
 
@@ -22,7 +22,7 @@ std::uint64_t address_of(const Device& device, const Buffer& buffer)
 
 Buffer upload(const Device& device, const void* data, std::uint64_t bytes, const char* name)
 {
-    Buffer buffer(device, std::max(bytes, kLeastBytes), Buffer::Place::addressed, name);
+    Buffer buffer(device, std::max(bytes, kMinBytes), Buffer::Place::addressed, name);
     buffer.upload(data, bytes);
     return buffer;
 }

@@ -4,7 +4,7 @@
 #include <volk.h>
 #include <vulkan/vulkan.h>
 
-#include "core/error.h"
+#include "base/core/error.h"
 
 namespace lumel::gpu {
 

@@ -1,232 +1,112 @@
+// A lamp is seen under a cone of half angle α: a ball of radius R from distance d with
+// sin α = R / d, or a disc in the sky. Directions are drawn uniformly from the cone, whose solid
+// angle is
+//
+//     Ω = 2π (1 - cos α) = 2π sin² α / (1 + cos α).
+//
+// The disc has the radiance lux / (π sin² α), so that a plane that faces it gets lux. The ball's
+// surface sends I(ω) / (π R²) along ω, so that all that it sends along ω is I(ω), whatever R is.
+// Times Ω, an estimate of what a plane that faces the drawn direction gets is
+//
+//     disc:  lux · 2 / (1 + cos α),          ball:  I(ω) / d² · 2 / (1 + cos α),
+//
+// which holds for α = 0, the point and the parallel beam, too. What is inside the ball gets none.
+
 #include "lights/lamps.h"
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <numbers>
-#include <span>
-#include <vector>
+#include <limits>
 
-#include "core/frame.h"
-#include "core/lattice.h"
-#include "core/sphere.h"
-#include "lights/lamps.receive.comp.h"
-#include "lights/lamps.shared.h"
+#include "rays/paths/directions.h"
 
 namespace lumel {
+
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-/// Between the keys of one lamp's random numbers and the next's.
-constexpr std::uint32_t kLampKeys = 977;
+/// A direction drawn from a cone.
+struct ConeSample {
+    glm::vec3 direction;
+    float cosine = 1.0f;        ///< to the axis
+    float squared_sine = 0.0f;  ///< exact where it is small
+    float spread = 1.0f;        ///< 2 / (1 + cos α)
+};
 
-/// Are two hemicubes needed to see all surfaces that the light reaches?
-bool has_halves(const PunctualLight& light)
+/// Uniform in solid angle, as `disc` is over the unit disc. `squared_sine`: sin² α.
+ConeSample draw_from_cone(const glm::vec3& axis, float squared_sine, float cosine,
+                          const glm::vec2& disc)
 {
-    return light.kind == PunctualLight::Kind::point && light.radius == 0.0f;
-}
-
-Lamp lamp_of(const PunctualLight& light)
-{
-    Lamp lamp{.position = glm::vec3(light.transform[3]),
-              .radius = light.radius,
-              .x = glm::normalize(glm::vec3(light.transform[0])),
-              .y = glm::normalize(glm::vec3(light.transform[1])),
-              .z = glm::normalize(glm::vec3(light.transform[2])),
-              .intensity = light.color * light.intensity,
-              .range = light.range,
-              .cone_scale = 0.0f,
-              .cone_offset = 1.0f,
-              .profile = light.profile < 0 ? kNoProfile : std::uint32_t(light.profile),
-              .eyes_per_look = has_halves(light) ? 2u : 1u,
-              .share = 1.0f};
-    if (light.kind == PunctualLight::Kind::spot) {
-        const float outer = std::cos(light.outer_cone);
-        lamp.cone_scale = 1.0f / std::max(std::cos(light.inner_cone) - outer, kLeastConeStep);
-        lamp.cone_offset = -outer * lamp.cone_scale;
-    }
-    return lamp;
-}
-
-/// An eye that looks along `normal`, turned about it by `turn` [rad].
-Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::uint32_t random)
-{
-    const glm::mat3 frame = frame_about(normal);
-    const glm::vec3 tangent = std::cos(turn) * frame[0] + std::sin(turn) * frame[1];
-    return {position, tangent, glm::cross(normal, tangent), normal, random, kAllChannels};
-}
-
-/// Eyes of a lamp: points of its ball, or the lamp itself, turned differently each time; all
-/// around in two halves, or only where a spot lights.
-std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options, std::uint32_t key)
-{
-    std::vector<Eye> eyes;
-    const glm::vec3 position(light.transform[3]);
-    const bool ball = light.radius > 0.0f;
-    const std::uint32_t count = ball ? options.ball_points : options.points;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const glm::vec3 direction = on_sphere(lattice_point(i, count, key));
-        const float turn = 2.0f * kPi * lattice_point(i, count, ~key).y;
-        const std::uint32_t random = key * count + i;
-        if (ball) {
-            eyes.push_back(eye_at(position + light.radius * direction, direction, turn, random));
-        } else if (has_halves(light)) {
-            eyes.push_back(eye_at(position, direction, turn, random));
-            eyes.push_back(eye_at(position, -direction, turn, random));
-        } else {
-            const glm::vec3 axis = -glm::normalize(glm::vec3(light.transform[2]));
-            eyes.push_back(eye_at(position, axis, turn, random));
-        }
-    }
-    return eyes;
-}
-
-/// Each eye once for each channel.
-std::vector<Eye> in_channels(const std::vector<Eye>& eyes)
-{
-    std::vector<Eye> all;
-    for (const Eye& eye : eyes)
-        for (std::uint32_t channel = 0; channel < kChannels; ++channel) {
-            all.push_back(eye);
-            all.back().channel = 1 + channel;
-        }
-    return all;
-}
-
-std::vector<float> profiles_of(const Scene& scene)
-{
-    std::vector<float> candela;
-    for (const Photometry& profile : scene.profiles)
-        candela.insert(candela.end(), profile.candela.begin(), profile.candela.end());
-    return candela;
-}
-
-/// Eyes of one batch.
-std::uint32_t batch_of(const LampOptions& options)
-{
-    return std::uint32_t(std::max<std::uint64_t>(
-        kMostLightPixels / view_pixels(Projection::hemicube, options.hemicube), 1));
+    ConeSample ray{.direction = axis};
+    if (squared_sine <= 0.0f)
+        return ray;
+    const float height = squared_sine / (1.0f + cosine);  // 1 - cos α
+    const float drop = height * glm::dot(disc, disc);
+    ray.cosine = 1.0f - drop;
+    ray.squared_sine = drop * (2.0f - drop);
+    ray.spread = 2.0f / (1.0f + cosine);
+    const glm::vec2 aside = std::sqrt(height * (2.0f - drop)) * disc;
+    ray.direction = turn_to(axis, aside.x, aside.y, ray.cosine);
+    return ray;
 }
 
 }  // namespace
 
-std::uint64_t lamp_pixels(const LampOptions& options)
+glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                  float offset, std::uint32_t seed)
 {
-    return batch_of(options) * view_pixels(Projection::hemicube, options.hemicube);
+    return std::isinf(lamp.distance)
+               ? rays.passing_out(position, lamp.direction, seed)
+               : rays.passing(position, position + lamp.distance * lamp.direction, offset, seed);
 }
 
-/// Buffers that lamps use in turn.
-struct LampLight::Stage {
-    Stage(const gpu::Device& on, const World& in, const Scene& scene, const std::vector<Lamp>& all,
-          const LampOptions& given)
-        : device(&on),
-          world(&in),
-          options(given),
-          lamps(on, std::span<const Lamp>(all)),
-          profiles(on, std::span<const float>(profiles_of(scene))),
-          views(on, in, Projection::hemicube, given.hemicube, batch_of(given)),
-          receive(on, std::uint32_t(Projection::hemicube)),
-          pacer(on)
-    {
-    }
-
-    /// Adds the light of some of a lamp's eyes. first: of them among the lamp's.
-    void take(std::span<const Eye> batch, std::uint32_t lamp, std::uint32_t first,
-              const SummedLight& light)
-    {
-        const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch, "lamps.eyes");
-        views.look_from(pacer, eyes, std::uint32_t(batch.size()));
-        pacer.work("lamps", light.lumels(), kProbeLumels,
-                   [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
-                       const LampReceiveParams params{.views = views.layout(),
-                                                      .first = begin,
-                                                      .last = end,
-                                                      .lamp = lamp,
-                                                      .first_eye = first,
-                                                      .eyes = std::uint32_t(batch.size()),
-                                                      .seed = options.seed,
-                                                      .centre = options.centre ? 1u : 0u};
-                       commands.dispatch(receive,
-                                         {.lumels = world->lumels(),
-                                          .pieces = world->pieces(),
-                                          .views = {views.image(), views.sampler()},
-                                          .eyes = eyes,
-                                          .lamps = lamps,
-                                          .candela = profiles,
-                                          .sums = light.sums()},
-                                         params, end - begin);
-                   });
-    }
-
-    const gpu::Device* device;
-    const World* world;
-    LampOptions options;
-    gpu::Array<Lamp> lamps;
-    gpu::Array<float> profiles;
-    EyeViews views;
-    gpu::Kernel<shaders::LampsReceive> receive;
-    std::deque<gpu::Array<Eye>> in_flight;  ///< until the pacer has finished
-    gpu::Pacer pacer;                       ///< after all that its work uses: it waits when it ends
-};
-
-LampLight::LampLight(const gpu::Device& device, const World& world, const Scene& scene,
-                     const LampOptions& options, SummedLight& light)
-    : light_(&light)
+Lamps::Lamps(const Scene& scene) : scene_(&scene)
 {
-    std::vector<Lamp> lamps;
-    for (const PunctualLight& lamp : scene.lights) {
-        if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
-            continue;
-        const auto key = options.seed + kLampKeys * std::uint32_t(lamps.size());
-        eyes_.push_back(eyes_of(lamp, options, key));
-        lamps.push_back(lamp_of(lamp));
-        if (world.has_coloured_glass()) {
-            eyes_.back() = in_channels(eyes_.back());
-            lamps.back().eyes_per_look *= kChannels;
-        }
-        lamps.back().share = float(lamps.back().eyes_per_look) / float(eyes_.back().size());
-    }
-    if (!lamps.empty())
-        stage_ = std::make_unique<Stage>(device, world, scene, lamps, options);
+    for (const PunctualLight& light : scene.lights)
+        if (shines(light))
+            lamps_.push_back({.light = &light,
+                              .position = glm::vec3(light.transform[3]),
+                              .toward = glm::normalize(glm::vec3(light.transform[2]))});
 }
 
-LampLight::~LampLight() = default;
-
-void LampLight::step(std::uint64_t pixels)
+LampSample Lamps::sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const
 {
-    const std::span<const Eye> all(eyes_[lamp_]);
-    const std::uint64_t fit = std::max<std::uint64_t>(
-        pixels / view_pixels(Projection::hemicube, stage_->options.hemicube), 1);
-    const std::size_t count =
-        std::min<std::size_t>({fit, stage_->views.capacity(), all.size() - next_});
-    stage_->take(all.subspan(next_, count), std::uint32_t(lamp_), std::uint32_t(next_), *light_);
-    next_ += count;
-    if (next_ < all.size())
-        return;
-    light_->finish_source(stage_->pacer);
-    next_ = 0;
-    if (++lamp_ == eyes_.size())
-        light_->finish(stage_->pacer);
+    const Lamp& chosen = lamps_[lamp];
+    return chosen.light->kind == PunctualLight::Kind::directional
+               ? from_disc(chosen, disc)
+               : from_ball(chosen, position, disc);
 }
 
-void LampLight::wait()
+LampSample Lamps::from_disc(const Lamp& lamp, const glm::vec2& disc) const
 {
-    stage_->pacer.finish();
-    stage_->in_flight.clear();
+    const float sine = std::sin(lamp.light->angle);
+    const ConeSample ray =
+        draw_from_cone(lamp.toward, sine * sine, std::cos(lamp.light->angle), disc);
+    return {.direction = ray.direction,
+            .distance = std::numeric_limits<float>::infinity(),
+            .illuminance = lamp.light->intensity * ray.spread * lamp.light->color};
 }
 
-double LampLight::done() const
+LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position,
+                            const glm::vec2& disc) const
 {
-    if (is_done())
-        return 1.0;
-    const double of_lamp = double(next_) / double(eyes_[lamp_].size());
-    return (double(lamp_) + of_lamp) / double(eyes_.size());
-}
-
-void LampLight::finish()
-{
-    light_->finish_source(stage_->pacer);
-    light_->finish(stage_->pacer);
+    const PunctualLight& light = *lamp.light;
+    const glm::vec3 offset = lamp.position - position;
+    const float squared = glm::dot(offset, offset);
+    const float squared_radius = light.radius * light.radius;
+    if (squared <= squared_radius)
+        return {};
+    const float squared_sine = squared_radius / squared;
+    const float far = std::sqrt(squared);
+    const ConeSample ray =
+        draw_from_cone(offset / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
+    // Where the ray enters the ball.
+    const float within = std::sqrt(std::max(0.0f, squared_radius - squared * ray.squared_sine));
+    LampSample sample{.direction = ray.direction, .distance = far * ray.cosine - within};
+    const float window = range_window(light, sample.distance);
+    if (window > 0.0f)
+        sample.illuminance =
+            intensity_towards(*scene_, light, -ray.direction) * (window * ray.spread / squared);
+    return sample;
 }
 
 }  // namespace lumel

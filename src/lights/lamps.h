@@ -1,54 +1,52 @@
 #pragma once
-// Point and spot lights, through hemicubes.
+// The punctual lights of a scene as rays on the host sample them, for the truth, `update` and
+// `why`. Bakes find their light on the device (raster/shadow_maps/lamps.h) or by links
+// (lights/sources.h), with code of their own on purpose: the truth judges it. See lamps.cpp for the
+// equations.
 
-#include <cstdint>
-#include <memory>
+#include <cstddef>
 #include <vector>
 
-#include "lights/light_sums.h"
-#include "scene/scene.h"
-#include "visibility/eye_views.h"
+#include <glm/glm.hpp>
+
+#include "rays/cast/ray_scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel {
 
-struct LampOptions {
-    std::uint32_t hemicube = 512;     ///< side of the front face [pixels], see EyeViews
-    std::uint32_t points = 16;        ///< looked from per lamp that is a point
-    std::uint32_t ball_points = 128;  ///< per lamp that is a ball
-    std::uint32_t seed = 1;
-    bool centre = false;  ///< receive at lumels' centroids
+/// What a lamp sends to a point along one direction, as if nothing were between.
+struct LampSample {
+    glm::vec3 direction{0.0f};    ///< unit, towards the lamp
+    float distance = 0.0f;        ///< [m] to its surface; infinite: directional
+    glm::vec3 illuminance{0.0f};  ///< estimate [lx] for a plane that faces the direction
 };
 
-/// Adds the direct light of the scene's point and spot lights at the lumels to a sum, each lamp as
-/// one source, a few of their views at a time. How they are cut does not change the result.
-/// Hemicubes, whose edges are exact, are used whatever projection solvers use.
-class LampLight {
-public:
-    /// device, world and light must outlive it, and the world stay as it is.
-    LampLight(const gpu::Device& device, const World& world, const Scene& scene,
-              const LampOptions& options, SummedLight& light);
-    ~LampLight();
+/// What of a lamp's light gets through to a point [0…1]. offset: as RayScene::passing takes it.
+glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                  float offset, std::uint32_t seed);
 
-    /// Draws hemicubes of about `pixels` in all, of one lamp, one at least, and adds their light.
-    /// Waits for the device after the last.
-    void step(std::uint64_t pixels);
-    void wait();
-    bool is_done() const { return lamp_ == eyes_.size(); }
-    /// Part of the whole.
-    double done() const;
-    /// Counts what has been found as the whole. Waits for the device.
-    void finish();
+class Lamps {
+public:
+    /// `scene` must outlive this, unmoved.
+    explicit Lamps(const Scene& scene);
+
+    std::size_t count() const { return lamps_.size(); }
+
+    /// Draws a direction, by a point of the unit disc, of those that a lamp shines from.
+    LampSample sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const;
 
 private:
-    struct Stage;
+    struct Lamp {
+        const PunctualLight* light = nullptr;
+        glm::vec3 position{0.0f};  ///< world [m]
+        glm::vec3 toward{0.0f};    ///< unit, opposite to its light
+    };
 
-    SummedLight* light_;
-    std::vector<std::vector<Eye>> eyes_;  ///< of each lamp
-    std::size_t lamp_ = 0, next_ = 0;     ///< eye of it
-    std::unique_ptr<Stage> stage_;        ///< none where there are no lamps
+    LampSample from_disc(const Lamp& lamp, const glm::vec2& disc) const;
+    LampSample from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& disc) const;
+
+    const Scene* scene_;
+    std::vector<Lamp> lamps_;  ///< those that shine
 };
-
-/// Pixels of the views of one batch.
-std::uint64_t lamp_pixels(const LampOptions& options);
 
 }  // namespace lumel

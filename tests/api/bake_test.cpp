@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "../support/temporary_folder.h"
-#include "bake/bake.h"
+#include "base/images/image_files.h"
 #include "boxes.h"
-#include "images/image_files.h"
+#include "jobs/bake/bake.h"
 
 namespace lumel::v0 {
 namespace {

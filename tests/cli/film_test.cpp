@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "output/movie.h"
 #include "program.h"
+#include "results/files/movie.h"
 
 namespace lumel::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "images/image_files.h"
+#include "base/images/image_files.h"
 #include "program.h"
 
 namespace lumel::test {
@@ -45,7 +45,7 @@ TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
         EXPECT_TRUE(has(bake.err, report["sizes"][size].dump() + " " + size)) << bake.err;
     EXPECT_TRUE(has(bake.err, "close pairs take ")) << bake.err;
     EXPECT_TRUE(has(bake.err, "128 shooters in 8 steps")) << bake.err;
-    EXPECT_TRUE(has(bake.err, "iB of world/world.cpp:")) << bake.err;
+    EXPECT_TRUE(has(bake.err, "iB of raster/world/world.cpp:")) << bake.err;
     EXPECT_TRUE(has(bake.err, "solving: \"receive\" took ")) << bake.err;
     EXPECT_TRUE(has(bake.err, " MiB at most, on the device ")) << bake.err;
 }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "images/image_files.h"
+#include "base/images/image_files.h"
 #include "program.h"
 
 namespace lumel::test {

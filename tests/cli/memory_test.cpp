@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/json/json_file.h"
 #include "program.h"
-#include "json/json_file.h"
 
 namespace lumel::test {
 namespace {
@@ -34,7 +34,7 @@ TEST(MaxMemory, WhatDoesNotFitIsRefusedWithASizeThatDoes)
 /// What lumel info states of a bake is what the system then sees.
 void expect_as_stated(const std::string& scene, const std::vector<std::string>& options)
 {
-    constexpr double kLeast = 0.85, kMost = 1.3;  // of the peak
+    constexpr double kMin = 0.85, kMax = 1.3;  // of the peak
     const Workplace place;
     std::vector<std::string> info = {"info", own_scene(scene), "--json"},
                              bake = {"bake", own_scene(scene), place.path("out")};
@@ -45,8 +45,8 @@ void expect_as_stated(const std::string& scene, const std::vector<std::string>& 
     const Outcome done = run_lumel(bake);
     ASSERT_EQ(done.code, 0) << done.err;
     const auto stated = said["host_memory_bytes"].get<double>(), peak = double(done.peak_bytes);
-    EXPECT_GE(stated, kLeast * peak) << scene << ", stated: " << said["host_memory_parts"];
-    EXPECT_LE(stated, kMost * peak) << scene << ", stated: " << said["host_memory_parts"];
+    EXPECT_GE(stated, kMin * peak) << scene << ", stated: " << said["host_memory_parts"];
+    EXPECT_LE(stated, kMax * peak) << scene << ", stated: " << said["host_memory_parts"];
 }
 
 TEST(MaxMemory, OfTheHostIsAsStatedWithAPreview)

@@ -7,8 +7,8 @@
 
 #include "../../fuzz/readers.h"
 #include "../support/source_folder.h"
-#include "core/error.h"
-#include "core/files.h"
+#include "base/core/error.h"
+#include "base/core/files.h"
 
 namespace lumel {
 namespace {

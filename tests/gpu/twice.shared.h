@@ -1,6 +1,6 @@
 #ifndef LUMEL_TESTS_GPU_TWICE_SHARED_H
 #define LUMEL_TESTS_GPU_TWICE_SHARED_H
-#include "core/shared.h"
+#include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
 /// Push constants of twice.comp.

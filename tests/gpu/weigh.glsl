@@ -3,7 +3,7 @@
 
 // Declares `weights`, and `nothing`, which no one reads.
 
-#include "core/shared.h"
+#include "base/core/shared.h"
 
 layout(scalar) readonly buffer Nothing { float nothing[]; };
 layout(scalar) readonly buffer Weights { float weights[]; };

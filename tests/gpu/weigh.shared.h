@@ -1,6 +1,6 @@
 #ifndef LUMEL_TESTS_GPU_WEIGH_SHARED_H
 #define LUMEL_TESTS_GPU_WEIGH_SHARED_H
-#include "core/shared.h"
+#include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kWeighGroup = 32u;

@@ -5,8 +5,8 @@
 
 #include "../support/source_folder.h"
 #include "bench/papers/matrix_case.h"
-#include "matrix/coded_matrix.h"
-#include "matrix/compressed_tiles.h"
+#include "solve/matrix/coded_matrix.h"
+#include "solve/matrix/compressed_tiles.h"
 
 namespace lumel::bench {
 namespace {

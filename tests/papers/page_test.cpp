@@ -9,9 +9,9 @@
 
 #include "../support/source_folder.h"
 #include "../support/temporary_folder.h"
+#include "base/core/error.h"
 #include "bench/papers/all.h"
 #include "bench/papers/page.h"
-#include "core/error.h"
 
 namespace lumel::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
-#include "scene/animation.h"
+#include "scene/values/animation.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -8,7 +8,7 @@
 
 namespace lumel::test {
 
-Wave::Wave()
+RayBatch::RayBatch()
 {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
@@ -32,7 +32,7 @@ Json wave_primitive()
     return {{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TEXCOORD_0", 2}}}, {"indices", 3}};
 }
 
-GltfBuilder Wave::plain() const
+GltfBuilder RayBatch::plain() const
 {
     GltfBuilder builder;
     builder.add_positions(positions);
@@ -58,7 +58,7 @@ int add_attribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type,
     return id;
 }
 
-Bytes draco_stream(const Wave& wave, const DracoWay& way)
+Bytes draco_stream(const RayBatch& wave, const DracoWay& way)
 {
     draco::Mesh mesh;
     mesh.set_num_points(std::uint32_t(wave.positions.size()));
@@ -85,7 +85,7 @@ Bytes draco_stream(const Wave& wave, const DracoWay& way)
 
 GltfBuilder draco_wave(const DracoWay& way)
 {
-    const Wave wave;
+    const RayBatch wave;
     GltfBuilder builder = wave.plain();
     builder.buffer.clear();
     builder.json.erase("bufferViews");

@@ -10,14 +10,14 @@
 namespace lumel::test {
 
 /// A wavy square of 8 × 8 quads with normals and texture coordinates.
-struct Wave {
+struct RayBatch {
     static constexpr int kSide = 9;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec2> texcoords;
     std::vector<std::uint16_t> indices;
 
-    Wave();
+    RayBatch();
     /// Accessors 0 to 3: positions, normals, texture coordinates, indices, each over a bufferView
     /// of its own.
     GltfBuilder plain() const;

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "gltf/page_parts.h"
-#include "gltf/split_sides.h"
 #include "gltf_builder.h"
+#include "scene/gltf/page_parts.h"
+#include "scene/gltf/split_sides.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -46,7 +46,7 @@ std::string error_with(const Change& change)
 
 TEST(Draco, ExactStreamsAreThePlainFile)
 {
-    const Scene plain = Wave().plain().read();
+    const Scene plain = RayBatch().plain().read();
     EXPECT_EQ(draco_wave(kInOrder).read().hash, plain.hash);
     expect_twins(plain, draco_wave({}).read(), {});
 }
@@ -54,7 +54,8 @@ TEST(Draco, ExactStreamsAreThePlainFile)
 TEST(Draco, QuantisedOnesEndWithinTheirSteps)
 {
     // Positions: half a step of the widest side, 1, in each of three directions.
-    expect_twins(Wave().plain().read(), draco_wave({.position_bits = 12, .normal_bits = 8}).read(),
+    expect_twins(RayBatch().plain().read(),
+                 draco_wave({.position_bits = 12, .normal_bits = 8}).read(),
                  {.position = 0.87f / 4095.0f, .normal = normal_step(8), .texcoord = 0.0f});
 }
 
@@ -81,7 +82,7 @@ TEST(Draco, PrimitivesThatShareAccessorsGetTheirOwnData)
     const Scene scene = builder.read();
     const auto& primitives = scene.meshes.at(0).primitives;
     ASSERT_EQ(primitives.size(), 3u);
-    const Scene plain = Wave().plain().read();
+    const Scene plain = RayBatch().plain().read();
     const auto& expected = plain.meshes[0].primitives[0].positions;
     EXPECT_EQ(primitives[0].positions, expected);
     EXPECT_EQ(primitives[1].positions, half.read().meshes[0].primitives[0].positions);
@@ -93,7 +94,7 @@ TEST(Draco, StripsAreListsOnceDecoded)
 {
     GltfBuilder builder = draco_wave(kInOrder);
     primitive_of(builder)["mode"] = 5;
-    EXPECT_EQ(builder.read().hash, Wave().plain().read().hash);
+    EXPECT_EQ(builder.read().hash, RayBatch().plain().read().hash);
 }
 
 TEST(Draco, WhatIsWrongIsSaidWithItsPlace)

@@ -8,9 +8,9 @@
 
 #include <glm/glm.hpp>
 
-#include "core/error.h"
-#include "gltf/document.h"
-#include "scene/scene.h"
+#include "base/core/error.h"
+#include "scene/gltf/document.h"
+#include "scene/values/scene.h"
 
 namespace lumel::test {
 

@@ -7,7 +7,7 @@
 
 #include "../support/source_folder.h"
 #include "gltf_builder.h"
-#include "scene/ies.h"
+#include "scene/load/ies.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gltf_builder.h"
-#include "scene/gltf_image.h"
+#include "scene/load/gltf_image.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -5,11 +5,11 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/luminance.h"
+#include "base/core/luminance.h"
+#include "base/images/image_files.h"
 #include "gltf_builder.h"
-#include "images/image_files.h"
-#include "scene/clear_sky.h"
-#include "scene/light_options.h"
+#include "scene/sky/clear_sky.h"
+#include "scene/sky/light_options.h"
 
 using namespace lumel;
 using namespace lumel::test;

@@ -46,7 +46,7 @@ Json attributes(std::size_t count, std::size_t stride, const char* filter = "NON
 /// The wave with all its vertices coded without loss.
 GltfBuilder coded_wave(const char* name = "EXT_meshopt_compression")
 {
-    const Wave wave;
+    const RayBatch wave;
     GltfBuilder builder = wave.plain();
     builder.json["buffers"] = Json::array({{{"byteLength", 0}}, {{"byteLength", 1 << 30}}});
     const std::size_t count = wave.positions.size();
@@ -62,7 +62,7 @@ GltfBuilder coded_wave(const char* name = "EXT_meshopt_compression")
     return builder;
 }
 
-Bytes coded_indices(const Wave& wave)
+Bytes coded_indices(const RayBatch& wave)
 {
     Bytes bytes(meshopt_encodeIndexBufferBound(wave.indices.size(), wave.positions.size()));
     bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), wave.indices.data(),
@@ -79,14 +79,14 @@ Json& extension_of(GltfBuilder& builder, std::size_t view)
 
 TEST(Meshopt, CodedVerticesAreThoseOfThePlainFile)
 {
-    const std::string plain = Wave().plain().read().hash;
+    const std::string plain = RayBatch().plain().read().hash;
     EXPECT_EQ(coded_wave().read().hash, plain);
     EXPECT_EQ(coded_wave("KHR_meshopt_compression").read().hash, plain);
 }
 
 TEST(Meshopt, IndicesKeepTheirOrderAndTrianglesTheirCorners)
 {
-    const Wave wave;
+    const RayBatch wave;
     const Scene plain = wave.plain().read();
     GltfBuilder sequence = coded_wave();
     Bytes bytes(meshopt_encodeIndexSequenceBound(wave.indices.size(), wave.positions.size()));
@@ -104,7 +104,7 @@ TEST(Meshopt, IndicesKeepTheirOrderAndTrianglesTheirCorners)
 
 TEST(Meshopt, FiltersEndWithinTheirSteps)
 {
-    const Wave wave;
+    const RayBatch wave;
     const std::size_t count = wave.positions.size();
     constexpr int kBits = 15;  // of the mantissa of positions, one of them its sign
     GltfBuilder builder = coded_wave();
@@ -194,7 +194,7 @@ TEST(Meshopt, WhatIsWrongIsSaidWithItsPlace)
     expect("count", 1 << 30, "can hold");
     EXPECT_TRUE(contains(error_with(0, "count", 80), "/bufferViews/0/byteLength: must be"));
 
-    const Wave wave;
+    const RayBatch wave;
     GltfBuilder triangles = coded_wave();
     code_view(triangles, 3, coded_indices(wave),
               {{"mode", "TRIANGLES"}, {"count", wave.indices.size()}, {"byteStride", 2}});

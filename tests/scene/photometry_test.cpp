@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 using namespace lumel;
 

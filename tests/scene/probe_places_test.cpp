@@ -1,6 +1,6 @@
 // Places for light probes that a file names.
 
-#include "scene/probe_places.h"
+#include "scene/load/probe_places.h"
 
 #include <gtest/gtest.h>
 

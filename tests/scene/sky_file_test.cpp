@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "../support/source_folder.h"
+#include "base/images/image_files.h"
 #include "gltf_builder.h"
-#include "images/image_files.h"
-#include "scene/sky_file.h"
+#include "scene/sky/sky_file.h"
 
 using namespace lumel;
 using namespace lumel::test;

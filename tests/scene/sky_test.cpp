@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/luminance.h"
-#include "scene/sky.h"
+#include "base/core/luminance.h"
+#include "scene/values/sky.h"
 
 using namespace lumel;
 

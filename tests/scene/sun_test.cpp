@@ -5,9 +5,9 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/error.h"
-#include "core/luminance.h"
-#include "scene/clear_sky.h"
+#include "base/core/error.h"
+#include "base/core/luminance.h"
+#include "scene/sky/clear_sky.h"
 
 using namespace lumel;
 

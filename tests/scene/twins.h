@@ -1,7 +1,7 @@
 #pragma once
 // Whether a scene from a compressed file is that of its plain twin.
 
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel::test {
 

@@ -27,7 +27,7 @@ Bytes texels()
 /// A wave that shows a picture.
 GltfBuilder textured(const Bytes& file, const char* type, const Json& texture)
 {
-    GltfBuilder builder = Wave().plain();
+    GltfBuilder builder = RayBatch().plain();
     const int view = builder.add_view(file.data(), file.size());
     builder.push("images", {{"bufferView", view}, {"mimeType", type}});
     builder.push("textures", texture);

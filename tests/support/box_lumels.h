@@ -11,8 +11,8 @@
 
 #include <glm/glm.hpp>
 
-#include "atlas/atlas.h"
-#include "scene/scene.h"
+#include "atlas/packing/atlas.h"
+#include "scene/values/scene.h"
 
 namespace lumel::support {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "rays/ray_caster.h"
+#include "rays/cast/ray_caster.h"
 
 namespace lumel::support {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reference/brdf.h"
-#include "scene/scene.h"
+#include "scene/values/scene.h"
+#include "truth/brdf.h"
 
 namespace lumel::support {
 

@@ -12,7 +12,7 @@
 #include <glm/gtc/packing.hpp>
 #include <zstd.h>
 
-#include "core/image.h"
+#include "base/core/image.h"
 
 namespace lumel::test {
 

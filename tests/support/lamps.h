@@ -1,7 +1,7 @@
 #pragma once
 // Lights for small scenes made by hand.
 
-#include "scene/scene.h"
+#include "scene/values/scene.h"
 
 namespace lumel::support {
 

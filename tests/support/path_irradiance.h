@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "reference/averages.h"
-#include "reference/bounce_samples.h"
-#include "reference/path_tracer.h"
+#include "truth/averages.h"
+#include "truth/bounce_samples.h"
+#include "truth/path_tracer.h"
 
 namespace lumel::support {
 
@@ -19,8 +19,8 @@ inline std::vector<glm::vec3> path_irradiance(const Scene& scene, const RayScene
                                               std::size_t count, int samples,
                                               const PathStart& start)
 {
-    constexpr int kMostBounces = 1024;
-    const PathTracer tracer(scene, rays, kMostBounces);
+    constexpr int kMaxBounces = 1024;
+    const PathTracer tracer(scene, rays, kMaxBounces);
     const std::vector<glm::vec4> means =
         average(count, samples,
                 [&](std::size_t i, std::uint32_t sample) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reference/brdf.h"
+#include "truth/brdf.h"
 
 namespace lumel::support {
 

@@ -1,0 +1,30 @@
+#include "atlas/cells/ray_origins.h"
+
+#include <cmath>
+
+namespace lumel {
+
+RayOrigin RayOrigins::start(std::size_t i, const glm::vec2& at) const
+{
+    const WorldLumel& lumel = (*world_)[i];
+    const std::span<const Piece> pieces = world_->pieces(lumel);
+    std::size_t index = 0;
+    while (index + 1 < pieces.size() && at.x >= pieces[index].share)
+        ++index;
+    const LumelPoint point =
+        centre_ ? LumelPoint{lumel.centre, lumel.normal} : world_->point_on(i, at);
+    glm::vec3 geometric = glm::normalize(glm::cross(pieces[index].edge_u, pieces[index].edge_v));
+    if (glm::dot(geometric, point.normal) < 0.0f)
+        geometric = -geometric;  // the instance mirrors
+
+    // Lean towards the middle too, so that no start lies behind a wall that touches the lumel.
+    RayOrigin start{point.position + ray_offset_ * geometric, point.normal, geometric,
+                    cells_ ? cells_->cell(i, point.position) : 0u};
+    const glm::vec3 inward = lumel.centre - point.position;
+    const float distance = glm::length(inward);
+    if (distance > 0.0f)
+        start.position += inward * (std::min(ray_offset_, 0.5f * distance) / distance);
+    return start;
+}
+
+}  // namespace lumel

@@ -1,0 +1,47 @@
+// A lumel under other geometry sees no light, and nobody sees it; but the texel beside it is seen
+// and is filtered with it. So it takes its neighbours' light, inside its chart only: a chart's
+// neighbour in the atlas may lie in another room.
+
+#include <cstddef>
+#include <limits>
+
+#include "atlas/finish/finish.h"
+#include "atlas/finish/grow.h"
+#include "atlas/lumels/sides.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kNoChart = std::numeric_limits<std::uint32_t>::max();
+
+bool is_black(const Image& map, std::size_t texel)
+{
+    const float* rgb = map.values.data() + texel * 4;
+    return rgb[0] == 0.0f && rgb[1] == 0.0f && rgb[2] == 0.0f;
+}
+
+}  // namespace
+
+void fill_buried(Image& map, const Lumels& lumels, std::span<Image> layers)
+{
+    const std::size_t count = std::size_t(map.width) * std::size_t(map.height);
+    std::vector<std::uint32_t> charts(count, kNoChart);
+    std::vector<std::uint8_t> open(count), buried(count);
+    for (const Lumel& lumel : lumels.lumels) {
+        const std::uint32_t texel = map_texel(lumels, lumel);
+        charts[texel] = map_chart(lumels, lumel);
+        (lumel.flags & kLumelBuried ? buried : open)[texel] = 1;
+    }
+
+    std::vector<TexelState> states(count, TexelState::outside);
+    for (std::size_t texel = 0; texel < count; ++texel)
+        if (buried[texel] && (!open[texel] || is_black(map, texel)))
+            states[texel] = TexelState::wanted;
+        else if (open[texel])
+            states[texel] = TexelState::known;
+    for (Image& layer : layers)
+        grow(layer, states, charts);
+    grow(map, std::move(states), charts);
+}
+
+}  // namespace lumel

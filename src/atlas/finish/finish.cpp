@@ -1,0 +1,75 @@
+#include "atlas/finish/finish.h"
+
+#include <algorithm>
+
+namespace lumel {
+namespace {
+
+/// One value per texel, of the lumel that it shows.
+Image layer_map(const std::vector<std::uint32_t>& shown, const Image& light,
+                const std::vector<glm::vec3>& values)
+{
+    Image map = light;  // for its alpha
+    for (std::size_t texel = 0; texel < shown.size(); ++texel)
+        for (int c = 0; c < 3 && shown[texel] != kNoLumel; ++c)
+            map.values[texel * 4 + std::size_t(c)] = values[shown[texel]][c];
+    return map;
+}
+
+/// The map of one side. `other`: kLumelBack or 0, what marks lumels of the other one.
+Image side_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+               std::span<const glm::vec3> values, std::uint32_t other)
+{
+    std::vector<std::uint8_t> sides(lumels.coverage.size(), 0);
+    for (const Lumel& lumel : lumels.lumels)
+        ++sides[lumel.texel];
+    Lumels shown{.width = lumels.width, .height = lumels.height, .coverage = lumels.coverage};
+    std::vector<glm::vec3> shown_values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        if (sides[lumel.texel] > 1 && (lumel.flags & kLumelBack) == other)
+            continue;
+        shown.lumels.push_back(lumel);
+        shown_values.push_back(values[i]);
+    }
+    return finish_map(scene, atlas, shown, shown_values);
+}
+
+}  // namespace
+
+Image finish_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                 std::span<const glm::vec3> values)
+{
+    return finish_maps(scene, atlas, lumels, values, {}).light;
+}
+
+SideMaps finish_sides(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                      std::span<const glm::vec3> values)
+{
+    const bool one_side = std::none_of(lumels.lumels.begin(), lumels.lumels.end(),
+                                       [](const Lumel& lumel) { return lumel.flags & kLumelBack; });
+    if (one_side)
+        return {finish_map(scene, atlas, lumels, values), {}};
+    return {side_map(scene, atlas, lumels, values, kLumelBack),
+            side_map(scene, atlas, lumels, values, 0u)};
+}
+
+FinishedMaps finish_maps(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                         std::span<const glm::vec3> light,
+                         std::span<const std::vector<glm::vec3>> layers)
+{
+    FinishedMaps maps{to_map(lumels, light), {}};
+    if (!layers.empty()) {
+        const std::vector<std::uint32_t> shown = shown_lumels(lumels, light);
+        for (const std::vector<glm::vec3>& values : layers)
+            maps.layers.push_back(layer_map(shown, maps.light, values));
+    }
+    fill_buried(maps.light, lumels, maps.layers);
+    dilate(maps.light);
+    for (Image& layer : maps.layers)
+        dilate(layer);
+    match_seams(maps.light, scene, atlas, lumels, maps.layers);
+    return maps;
+}
+
+}  // namespace lumel

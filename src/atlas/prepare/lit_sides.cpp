@@ -1,0 +1,268 @@
+#include "atlas/prepare/lit_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "atlas/near/hemisphere.h"
+#include "base/core/lattice.h"
+#include "base/core/parallel.h"
+#include "scene/values/sky.h"
+
+namespace lumel {
+namespace {
+
+/// Walks from a side: at least so many, and about as many more in all as areas ask for.
+constexpr std::uint32_t kMinWalks = 32, kMaxWalks = 512;
+constexpr double kSharedWalks = 1 << 15;
+/// A side is lit if one of so many walks finds light: what gets through cracks into furniture is
+/// less, and nobody sees it.
+constexpr std::uint32_t kWalksForLight = 64;
+constexpr std::uint32_t kMaxSteps = 24;  ///< of a walk
+/// Walks from each lamp, which light what they meet; fewer where lamps are many.
+constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
+constexpr std::uint32_t kLampSteps = 3;
+/// Walks begin away from the edges of their triangle by this share of it: next to an edge they
+/// could begin beyond the neighbouring wall.
+constexpr float kInset = 0.01f;
+/// And go on from this share of a ray before its end, a place that is surely on this side.
+constexpr float kBefore = 1e-3f;
+
+const Primitive& primitive_of(const Scene& scene, const TriangleOf& at)
+{
+    return scene.meshes[std::size_t(scene.instances[at.instance].mesh)].primitives[at.primitive];
+}
+
+const Material& material_of(const Scene& scene, const TriangleOf& at)
+{
+    return scene.materials[std::size_t(primitive_of(scene, at).material)];
+}
+
+bool is_double_sided(const Scene& scene, const TriangleOf& at)
+{
+    return material_of(scene, at).double_sided;
+}
+
+/// Where a walk is.
+struct Place {
+    glm::vec3 position;  ///< [m]
+    glm::vec3 normal;    ///< unit, of the side that it is on
+};
+
+/// The double-sided triangles of a chart.
+class ChartSides {
+public:
+    ChartSides(const Scene& scene, const std::vector<TriangleOf>& chart) : scene_(scene)
+    {
+        double sum = 0.0;
+        for (const TriangleOf& at : chart) {
+            if (!is_double_sided(scene, at))
+                continue;
+            const glm::vec3 a = corner(at, 0);
+            sum += 0.5 * double(glm::length(glm::cross(corner(at, 1) - a, corner(at, 2) - a)));
+            triangles_.push_back(at);
+            sums_.push_back(sum);
+            glows_ |= material_of(scene, at).emitted != glm::vec3(0.0f);
+        }
+    }
+
+    bool glows() const { return glows_; }
+
+    double area() const { return sums_.empty() ? 0.0 : sums_.back(); }  ///< [m²]
+
+    /// Walk `index` of `count` begins here, lifted off the side.
+    Place start(bool back, std::uint32_t index, std::uint32_t count, float ray_offset) const
+    {
+        const double at = (double(index) + 0.5) / double(count) * area();
+        const auto found = std::lower_bound(sums_.begin(), sums_.end(), at);
+        const TriangleOf& triangle =
+            triangles_[std::min(std::size_t(found - sums_.begin()), sums_.size() - 1)];
+        const glm::vec3 a = corner(triangle, 0), b = corner(triangle, 1), c = corner(triangle, 2);
+        glm::vec2 uv = sequence_point(index, back ? 1u : 0u);
+        if (uv.x + uv.y > 1.0f)
+            uv = 1.0f - uv;
+        const glm::vec3 point = a + uv.x * (b - a) + uv.y * (c - a);
+        const glm::mat3 linear(scene_.instances[triangle.instance].transform);
+        const bool turned = back != (glm::determinant(linear) < 0.0f);
+        const glm::vec3 normal = glm::normalize((turned ? -1.0f : 1.0f) * glm::cross(b - a, c - a));
+        return {glm::mix(point, (a + b + c) / 3.0f, kInset) + ray_offset * normal, normal};
+    }
+
+private:
+    glm::vec3 corner(const TriangleOf& at, std::uint32_t k) const
+    {
+        const Primitive& primitive = primitive_of(scene_, at);
+        return glm::vec3(
+            scene_.instances[at.instance].transform *
+            glm::vec4(primitive.positions[primitive.indices[3 * at.triangle + k]], 1.0f));
+    }
+
+    const Scene& scene_;
+    std::vector<TriangleOf> triangles_;
+    std::vector<double> sums_;  ///< running, over triangles [m²]
+    bool glows_ = false;
+};
+
+/// Does light of one lamp, another with each `seed`, arrive at a place?
+bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::uint32_t seed)
+{
+    if (scene.lights.empty())
+        return false;
+    const PunctualLight& lamp = scene.lights[seed % scene.lights.size()];
+    if (!shines(lamp))
+        return false;
+    if (lamp.kind == PunctualLight::Kind::directional) {
+        const glm::vec3 to_lamp = glm::normalize(glm::vec3(lamp.transform[2]));
+        return glm::dot(at.normal, to_lamp) > 0.0f && rays.sees_out(at.position, to_lamp, seed);
+    }
+    const glm::vec3 place(lamp.transform[3]), away = at.position - place;
+    return glm::dot(at.normal, away) < 0.0f &&
+           intensity_towards(scene, lamp, glm::normalize(away)) != glm::vec3(0.0f) &&
+           rays.sees(at.position, place, rays.ray_offset(), seed);
+}
+
+/// Follows one walk to its end. True if it found light.
+bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32_t key)
+{
+    for (std::uint32_t step = 0; step < kMaxSteps; ++step) {
+        const std::uint32_t seed = mixed_bits(key + step);
+        if (sees_lamp(scene, rays, at, seed))
+            return true;
+        const glm::vec3 direction =
+            direction_about(at.normal, {unit_float(seed), unit_float(mixed_bits(~seed))});
+        RayHit hit;
+        if (!rays.closest(ray_out(at.position, direction, seed), hit))
+            return sky_radiance(scene.sky, direction) != glm::vec3(0.0f);
+        if (!hit.front && !is_double_sided(scene, hit))
+            return false;
+        if (material_of(scene, {hit.instance, hit.primitive, hit.triangle}).emitted !=
+            glm::vec3(0.0f))
+            return true;
+        at.position += direction * hit.distance * (1.0f - kBefore);
+        at.normal = hit.front ? hit.normal : -hit.normal;
+    }
+    return false;
+}
+
+/// The charts by their triangles.
+class ChartOfTriangle {
+public:
+    ChartOfTriangle(const Scene& scene, std::span<const std::vector<TriangleOf>> charts)
+        : chart_(scene.instances.size())
+    {
+        for (std::size_t i = 0; i < chart_.size(); ++i)
+            for (const Primitive& primitive :
+                 scene.meshes[std::size_t(scene.instances[i].mesh)].primitives)
+                chart_[i].emplace_back(primitive.indices.size() / 3, 0u);
+        for (std::uint32_t chart = 0; chart < charts.size(); ++chart)
+            for (const TriangleOf& at : charts[chart])
+                chart_[at.instance][at.primitive][at.triangle] = chart;
+    }
+    std::uint32_t of(const RayHit& hit) const
+    {
+        return chart_[hit.instance][hit.primitive][hit.triangle];
+    }
+
+private:
+    std::vector<std::vector<std::vector<std::uint32_t>>> chart_;
+};
+
+/// Even over all directions.
+glm::vec3 any_direction(std::uint32_t seed)
+{
+    const float z = 2.0f * unit_float(mixed_bits(seed)) - 1.0f;
+    const float angle = 2.0f * std::numbers::pi_v<float> * unit_float(mixed_bits(~seed));
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// [2 × charts] 1 for fronts and backs, in turn, that walks from lamps meet. A side asks for one of
+/// all lamps at a time: where they are many it may miss the one beside it.
+std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
+                               std::span<const std::vector<TriangleOf>> charts)
+{
+    std::vector<char> lit(2 * charts.size(), 0);
+    const ChartOfTriangle chart(scene, charts);
+    const auto lamps = std::uint32_t(scene.lights.size());
+    for (std::uint32_t i = 0; i < lamps; ++i) {
+        const PunctualLight& lamp = scene.lights[i];
+        if (lamp.kind == PunctualLight::Kind::directional || !shines(lamp))
+            continue;
+        const std::uint32_t walks = std::clamp(kAllLampWalks / lamps, kMinLampWalks, kLampWalks);
+        for (std::uint32_t walk = 0; walk < walks; ++walk) {
+            std::uint32_t seed = mixed_bits(i * kLampWalks + walk);
+            glm::vec3 from(lamp.transform[3]), direction = any_direction(seed);
+            if (intensity_towards(scene, lamp, direction) == glm::vec3(0.0f))
+                continue;
+            RayHit hit;
+            for (std::uint32_t step = 0;
+                 step < kLampSteps && rays.closest(ray_out(from, direction, seed), hit) &&
+                 (hit.front || is_double_sided(scene, hit));
+                 ++step) {
+                lit[2 * chart.of(hit) + (hit.front ? 0 : 1)] = 1;
+                seed = mixed_bits(seed + 1);
+                from += direction * hit.distance * (1.0f - kBefore);
+                direction = direction_about(hit.front ? hit.normal : -hit.normal,
+                                            {unit_float(seed), unit_float(mixed_bits(~seed))});
+            }
+        }
+    }
+    return lit;
+}
+
+}  // namespace
+
+std::vector<char> lit_on_both_sides(const Scene& scene, const RayScene& rays,
+                                    std::span<const std::vector<TriangleOf>> charts)
+{
+    std::vector<char> both(charts.size(), 0);
+    std::vector<ChartSides> sides;
+    double all = 0.0;
+    for (const std::vector<TriangleOf>& chart : charts) {
+        sides.emplace_back(scene, chart);
+        all += sides.back().area();
+    }
+    if (all == 0.0)
+        return both;
+    const std::vector<char> by_lamps = lit_by_lamps(scene, rays, charts);
+    const auto is_lit = [&](std::size_t chart, bool back) {
+        if (sides[chart].glows() || by_lamps[2 * chart + back])
+            return true;
+        const double share = sides[chart].area() / all;
+        const auto walks =
+            std::uint32_t(std::clamp(kSharedWalks * share, double(kMinWalks), double(kMaxWalks)));
+        std::uint32_t wanted = std::max(1u, walks / kWalksForLight);
+        for (std::uint32_t walk = 0; walk < walks && wanted > 0; ++walk) {
+            const std::uint32_t key =
+                mixed_bits(2 * std::uint32_t(chart) + back) + walk * kMaxSteps;
+            wanted -= finds_light(scene, rays,
+                                  sides[chart].start(back, walk, walks, rays.ray_offset()), key);
+        }
+        return wanted == 0;
+    };
+    parallel_for(charts.size(), 16, [&](std::size_t first, std::size_t last) {
+        for (std::size_t chart = first; chart < last; ++chart)
+            both[chart] = sides[chart].area() > 0.0 && is_lit(chart, true) && is_lit(chart, false);
+    });
+    return both;
+}
+
+ShowsBoth shows_both(Sides sides, const RayScene& rays)
+{
+    if (sides == Sides::automatic)
+        return [&rays](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
+            return lit_on_both_sides(scene, rays, charts);
+        };
+    if (sides == Sides::both)
+        return [](const Scene& scene, std::span<const std::vector<TriangleOf>> charts) {
+            std::vector<char> both;
+            for (const std::vector<TriangleOf>& chart : charts)
+                both.push_back(std::any_of(chart.begin(), chart.end(), [&](const TriangleOf& at) {
+                    return is_double_sided(scene, at);
+                }));
+            return both;
+        };
+    return {};
+}
+
+}  // namespace lumel

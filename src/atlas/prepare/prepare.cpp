@@ -1,0 +1,89 @@
+#include "atlas/prepare/prepare.h"
+
+#include <algorithm>
+
+#include "atlas/near/buried.h"
+#include "atlas/prepare/lit_sides.h"
+#include "base/core/error.h"
+
+namespace lumel {
+namespace {
+
+/// How far the work is, roughly, when its parts end.
+constexpr double kRaysReady = 0.1, kLaidOut = 0.3, kLifted = 0.5;
+
+bool is_black(const glm::vec3& light)
+{
+    return light == glm::vec3(0.0f);
+}
+
+/// Whether anything sends light at all; whether it meets a surface is another question.
+bool gives_light(const Scene& scene)
+{
+    const auto shines = [](const PunctualLight& light) {
+        return light.intensity > 0.0f && !is_black(light.color);
+    };
+    const auto emits = [&](const Instance& instance) {
+        const auto& primitives = scene.meshes[std::size_t(instance.mesh)].primitives;
+        return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
+            return !is_black(scene.materials[std::size_t(primitive.material)].emitted);
+        });
+    };
+    return std::any_of(scene.lights.begin(), scene.lights.end(), shines) ||
+           std::any_of(scene.instances.begin(), scene.instances.end(), emits) ||
+           !std::all_of(scene.sky.radiance.begin(), scene.sky.radiance.end(), is_black);
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights)
+{
+    Scene scene = read_gltf(path, model);
+    add_lights(scene, lights);
+    if (!gives_light(scene))
+        scene.warnings.emplace_back(
+            "nothing in the scene gives light, so the lightmap will be black: give a material "
+            "emission, add lamps (KHR_lights_punctual), or use --sky or --sun");
+    return scene;
+}
+
+void check_camera(const Scene& scene, int camera)
+{
+    const int cameras = int(scene.cameras.size());
+    if (camera >= cameras)
+        throw Error(ErrorKind::input, "--camera " + std::to_string(camera),
+                    cameras == 0 ? "the scene has no cameras; leave it out and one is chosen"
+                                 : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
+}
+
+Prepared::Prepared(Scene given, const AtlasOptions& options, const ProgressCallback& watch)
+    : Prepared(
+          std::move(given),
+          [&](const Scene& placed, const RayScene& among, const ProgressCallback& part) {
+              return make_atlas(placed, options, part, shows_both(options.sides, among));
+          },
+          {}, watch)
+{
+}
+
+Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury,
+                   const ProgressCallback& watch)
+    : scene(std::move(given)),
+      rays(scene),
+      atlas(lay_out(scene, rays, part_of(watch, kRaysReady, kLaidOut))),
+      lumels(make_lumels(scene, atlas, part_of(watch, kLaidOut, kLifted)))
+{
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path,
+                    "has no surface that light could fall on: nothing is drawn, or all of it is "
+                    "cut out");
+    open = bury ? bury(scene, rays, lumels)
+                : mark_buried(scene, rays, lumels, {}, part_of(watch, kLifted, 1.0));
+}
+
+Prepared::Prepared(const std::string& scene_path, const AtlasOptions& options)
+    : Prepared(read_gltf(scene_path), options)
+{
+}
+
+}  // namespace lumel

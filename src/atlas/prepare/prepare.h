@@ -1,0 +1,42 @@
+#pragma once
+// What every method needs before it can begin.
+
+#include <functional>
+#include <string>
+
+#include "atlas/packing/atlas.h"
+#include "rays/cast/ray_scene.h"
+#include "scene/sky/light_options.h"
+
+namespace lumel {
+
+/// Reads a scene and adds the lights of the options. Throws Error.
+Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
+
+/// Throws Error{input} if the scene has no camera of that number; -1 stands for any.
+void check_camera(const Scene& scene, int camera);
+
+/// A scene with its lumels; buried ones are marked. Stays where it was made, since the rays look
+/// into the scene.
+struct Prepared {
+    /// Lays out and lifts a scene. Throws Error.
+    Prepared(Scene scene, const AtlasOptions& options, const ProgressCallback& watch = {});
+    /// The same with an atlas that `lay_out` makes of the scene, and with `bury` in place of
+    /// mark_buried; its result is `open`.
+    using LayOut = std::function<Atlas(const Scene&, const RayScene&, const ProgressCallback&)>;
+    using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
+    Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {},
+             const ProgressCallback& watch = {});
+    /// Reads it first.
+    Prepared(const std::string& scene_path, const AtlasOptions& options);
+    Prepared(const Prepared&) = delete;
+    Prepared& operator=(const Prepared&) = delete;
+
+    Scene scene;
+    RayScene rays;
+    Atlas atlas;
+    Lumels lumels;
+    std::vector<float> open;  ///< [N] share of each lumel's area that is not buried
+};
+
+}  // namespace lumel

@@ -1,0 +1,186 @@
+#pragma once
+// The state of work as bytes, for the same program to go on from later. What holds state names it
+// once, for both directions:
+//
+//     template <class Archive>
+//     void state(Archive& archive) { archive(count_, values_); }
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <map>
+#include <ostream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/core/error.h"
+#include "base/core/fingerprint.h"
+
+namespace lumel {
+
+/// What has no state of its own is written as it lies in memory.
+template <class T, class Archive>
+concept HasState = requires(T value, Archive archive)
+{
+    value.state(archive);
+};
+template <class T, class Archive>
+concept IsPlain =
+    !HasState<T, Archive> && std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
+
+/// Writes values; a stream that fails stays failed.
+class StateWriter {
+public:
+    explicit StateWriter(std::ostream& to) : to_(to) {}
+
+    template <class... Values>
+    void operator()(Values&... values)
+    {
+        (write(values), ...);
+    }
+    /// The last: lets the reader find damage. Call once.
+    void finish()
+    {
+        const std::uint64_t all = sum_.value();
+        to_.write(reinterpret_cast<const char*>(&all), sizeof all);
+    }
+
+private:
+    void bytes(const void* data, std::size_t size)
+    {
+        sum_.add_bytes(data, size);
+        to_.write(static_cast<const char*>(data), std::streamsize(size));
+    }
+    template <class T>
+    void write(T& value)
+    {
+        if constexpr (IsPlain<T, StateWriter>)
+            bytes(&value, sizeof value);
+        else
+            value.state(*this);
+    }
+    template <class T>
+    void write(std::vector<T>& values)
+    {
+        const std::uint64_t size = values.size();
+        bytes(&size, sizeof size);
+        if constexpr (IsPlain<T, StateWriter>)
+            bytes(values.data(), size * sizeof(T));
+        else
+            for (T& value : values)
+                write(value);
+    }
+    void write(std::string& text)
+    {
+        const std::uint64_t size = text.size();
+        bytes(&size, sizeof size);
+        bytes(text.data(), size);
+    }
+    void write(std::map<std::string, double>& values)
+    {
+        std::uint64_t size = values.size();
+        write(size);
+        for (auto& [name, value] : values) {
+            std::string text = name;
+            write(text);
+            write(value);
+        }
+    }
+
+    std::ostream& to_;
+    Fingerprint sum_;
+};
+
+/// Reads what a StateWriter has written. Throws Error{input} where it cannot have been.
+class StateReader {
+public:
+    /// `size`: bytes that the stream has. where: its name, for messages.
+    StateReader(std::istream& from, std::uint64_t size, std::string where)
+        : from_(from),
+          left_(size),
+          where_(std::move(where))
+    {
+    }
+
+    template <class... Values>
+    void operator()(Values&... values)
+    {
+        (read(values), ...);
+    }
+    /// To be called before anything that was read is relied on.
+    void finish()
+    {
+        const std::uint64_t all = sum_.value();
+        std::uint64_t written = 0;
+        bytes(&written, sizeof written);
+        if (written != all || left_ != 0)
+            fail();
+    }
+
+    /// Has all been read?
+    bool at_end() const { return left_ == 0; }
+
+private:
+    [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, "is damaged"); }
+
+    void bytes(void* data, std::uint64_t size)
+    {
+        if (size > left_ || !from_.read(static_cast<char*>(data), std::streamsize(size)))
+            fail();
+        left_ -= size;
+        sum_.add_bytes(data, size);
+    }
+    /// Of something with `least` bytes for each at least: damage must not ask for much memory.
+    std::uint64_t count(std::uint64_t least)
+    {
+        std::uint64_t size = 0;
+        bytes(&size, sizeof size);
+        if (size > left_ / least)
+            fail();
+        return size;
+    }
+    template <class T>
+    void read(T& value)
+    {
+        if constexpr (IsPlain<T, StateReader>)
+            bytes(&value, sizeof value);
+        else
+            value.state(*this);
+    }
+    template <class T>
+    void read(std::vector<T>& values)
+    {
+        if constexpr (IsPlain<T, StateReader>) {
+            values.resize(count(sizeof(T)));
+            bytes(values.data(), values.size() * sizeof(T));
+        } else {
+            values.resize(count(sizeof(std::uint64_t)));
+            for (T& value : values)
+                read(value);
+        }
+    }
+    void read(std::string& text)
+    {
+        text.resize(count(1));
+        bytes(text.data(), text.size());
+    }
+    void read(std::map<std::string, double>& values)
+    {
+        values.clear();
+        std::uint64_t size = 0;
+        read(size);
+        for (std::uint64_t i = 0; i < size; ++i) {
+            std::string name;
+            read(name);
+            read(values[name]);
+        }
+    }
+
+    std::istream& from_;
+    std::uint64_t left_;
+    std::string where_;
+    Fingerprint sum_;
+};
+
+}  // namespace lumel

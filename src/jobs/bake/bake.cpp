@@ -1,0 +1,140 @@
+// The score: the whole of Lumel, in order.
+
+#include "jobs/bake/bake.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "jobs/bake/outputs.h"
+#include "jobs/edit/kept_solution.h"
+#include "jobs/inspect/probes.h"
+#include "jobs/solve/checkpoint.h"
+#include "jobs/solve/dump.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/memory_plan.h"
+#include "jobs/solve/sources.h"
+#include "links/kept/links_file.h"
+#include "methods/matrix/matrix_file.h"
+#include "methods/methods.h"
+#include "raster/shadow_maps/direct_light.h"
+#include "results/files/folder.h"
+#include "solve/solver/solver.h"
+
+namespace lumel {
+namespace {
+
+bool is_lit(const std::vector<glm::vec3>& irradiance)
+{
+    return std::any_of(irradiance.begin(), irradiance.end(),
+                       [](const glm::vec3& light) { return light != glm::vec3(0.0f); });
+}
+
+/// Without any, the scene's reader has warned.
+bool has_sources(const Prepared& prepared)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    return has_lights(prepared.scene) ||
+           std::any_of(lumels.begin(), lumels.end(),
+                       [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
+}
+
+/// All but light probes. output: made when the scene has been read.
+BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
+                       BakeOptions options, std::optional<OutputFolder>& output,
+                       const ProgressFunction& progress)
+{
+    options.atlas = atlas_that_fits(options);
+    const MethodInfo& method = method_of(options.solver.method);
+    if (options.probe_spacing > 0.0 && options.parts != Parts::all)
+        throw Error(ErrorKind::input, "--probes with --only",
+                    "is not possible: light probes hold all light, direct and indirect");
+    if (options.directional != Directional::none && options.parts != Parts::all)
+        throw Error(ErrorKind::input, "--directional with --only",
+                    "is not possible: directional layers hold all light, direct and indirect");
+    check_keep_links(options);
+    check_resume(options);
+    Stages stages(progress);
+    stages.begin("reading");
+    Scene scene = read_scene(scene_path, method.materials, options.lights);
+    // What can fail before the long work should.
+    output.emplace(folder);
+    std::optional<OutputFolder> dump;
+    if (!options.dump.empty())
+        dump.emplace(options.dump, "dump");
+    const gpu::Device device(options.device);
+
+    const MemoryLimits limits = memory_limits(options, device.info());
+    check_memory(scene, options, limits);
+    const Setting setting(std::move(scene), device, options, stages);
+    if (options.probe_spacing > 0.0)
+        check_probe_spacing(options.probe_spacing, setting.prepared);
+    options.solver.max_bytes = bytes_for_links(setting.prepared, options, limits);
+    Checkpoint checkpoint(folder, options, setting.prepared);
+    const std::unique_ptr<Solution> solution =
+        options.keep_links > 0         ? solve_over_kept_links(setting, options, stages)
+        : keeps_sources_apart(options) ? solve_sources(device, setting, options, stages)
+                                       : solve_light(device, setting, options, stages, &checkpoint);
+    const SolverState solved = solution->solver->state();
+    SolveRun& run = solution->run;
+    if (dump) {
+        stages.begin("dumping");
+        write_dump(*dump, device,
+                   {setting.prepared, *setting.world, setting.near, solution->irradiance},
+                   options.solver);
+    }
+
+    DirectionalLight directional;
+    if (options.directional != Directional::none) {
+        stages.begin("directional light");
+        directional = gather_directional(
+            device, *setting.world, setting.prepared.scene, setting.prepared.rays,
+            setting.prepared.lumels, setting.near, solution->irradiance,
+            directional_options(options, solved.shots),
+            [&](double fraction) { return run.finished && stages.progress(fraction); });
+    }
+
+    const bool stopped = stages.stopped();
+    // Of no light there is no error.
+    const bool lit = is_lit(solution->irradiance);
+    if (!lit && has_sources(setting.prepared))
+        stages.warn("no light reaches any surface: the lightmap is black");
+    stages.begin("finishing");
+    const Results results{.shots = solved.shots,
+                          .iterations = solved.iterations,
+                          .error = lit ? solved.error : -1.0,
+                          .dark_error = lit ? solved.dark_error : -1.0,
+                          .interrupted = stopped,
+                          .near_pairs = setting.near.column.size(),
+                          .curve = std::move(run.curve),
+                          .relightable = solution->relightable.has_value(),
+                          .form_factors = solution->form_factors,
+                          .lamps = std::move(solution->lamps),
+                          .directional = std::move(directional)};
+    output->outdate(kMatrixFile);
+    output->outdate(kLinksFile);
+    if (!stopped)
+        output->outdate(kCheckpointFile);
+    if (solution->relightable)
+        write_relightable(output->path(kMatrixFile), *solution->relightable);
+    if (solution->links)
+        write_links(output->path(kLinksFile), std::move(*solution->links));
+    return write_bake(*output, options, setting.prepared, device, *solution->solver,
+                      solution->irradiance, results, stages);
+}
+
+}  // namespace
+
+BakeSummary bake(const std::string& scene_path, const std::string& folder,
+                 const BakeOptions& options, const ProgressFunction& progress)
+{
+    std::optional<OutputFolder> output;
+    BakeSummary summary = bake_light(scene_path, folder, options, output, progress);
+    // A map that is done stays where its probes are stopped.
+    if (options.probe_spacing > 0.0 && !summary.interrupted)
+        summary.interrupted =
+            !unless_stopped([&] { add_probes(*output, options.probe_spacing, progress); });
+    output->commit();
+    return summary;
+}
+
+}  // namespace lumel

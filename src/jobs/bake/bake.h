@@ -1,0 +1,18 @@
+#pragma once
+// `lumel bake` and `lumel info`.
+
+#include <string>
+
+#include "jobs/solve/bake_options.h"
+
+namespace lumel {
+
+/// lumel bake: reads `scene_path`, solves, and writes lightmap.exr, lightmap.png, scene.glb,
+/// scene-baked.glb, preview.png and report.json into `folder`. Throws Error.
+BakeSummary bake(const std::string& scene_path, const std::string& folder,
+                 const BakeOptions& options, const ProgressFunction& progress = {});
+
+/// lumel info: what is in the scene and what a bake would take, as text or JSON.
+std::string describe(const std::string& scene_path, const BakeOptions& options, bool json);
+
+}  // namespace lumel

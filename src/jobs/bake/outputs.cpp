@@ -1,0 +1,230 @@
+#include "jobs/bake/outputs.h"
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "atlas/finish/fine_radiance.h"
+#include "atlas/finish/finish.h"
+#include "base/core/error.h"
+#include "base/core/log.h"
+#include "base/images/image_files.h"
+#include "base/json/json_file.h"
+#include "jobs/bake/directional_layers.h"
+#include "jobs/bake/reference.h"
+#include "jobs/bake/report.h"
+#include "jobs/edit/solution_file.h"
+#include "results/files/folder.h"
+#include "results/files/gltf_write.h"
+#include "results/preview/preview.h"
+#include "results/record/origin.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+
+/// Reflected plus emitted radiance L = (ρ H + E) / π of every lumel [cd/m²].
+std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
+{
+    std::vector<glm::vec3> radiance;
+    radiance.reserve(irradiance.size());
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        radiance.push_back((lumel.albedo * irradiance[i] + lumel.emission) *
+                           std::numbers::inv_pi_v<float>);
+    }
+    return radiance;
+}
+
+/// What does not fit into half precision.
+void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
+{
+    std::size_t clipped = 0;
+    float most = 0.0f;
+    for (int y = 0; y < map.height; ++y)
+        for (int x = 0; x < map.width; ++x) {
+            const float* texel = map.at(x, y);
+            const float brightest = std::max({texel[0], texel[1], texel[2]});
+            if (brightest <= kLargestHalf || texel[3] == 0.0f)
+                continue;
+            ++clipped;
+            most = std::max(most, brightest);
+        }
+    if (clipped > 0)
+        stages.warn(fmt::format("{} {} of {}.exr receive more than the {:.0f} lx that half "
+                                "precision can hold, up to {:.6g} lx, and are clipped; leave out "
+                                "--half",
+                                clipped, clipped == 1 ? "lumel" : "lumels", name, kLargestHalf,
+                                most));
+}
+
+}  // namespace
+
+float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
+                const Prepared& prepared, Stages& stages, float exposure,
+                std::span<const Layer> directional)
+{
+    if (half)
+        warn_of_clipping(map, name, stages);
+    std::map<std::string, std::string> metadata = {
+        {"quantity", "irradiance"},         {"unit", "lx"},
+        {"colorSpace", "linear Rec. 709"},  {"alpha", "coverage"},
+        {"sceneHash", prepared.scene.hash}, {"software", "lumel " + lumel_version()}};
+    if (!directional.empty())
+        metadata.merge(directional_metadata());
+    if (exposure <= 0.0f)
+        exposure = choose_exposure(map);
+    const Pages& pages = prepared.atlas.pages;
+    for (int page = 0; page < pages.count; ++page) {
+        const std::string file = folder.path(page_name(pages, page, name));
+        const Image part = cut_page(pages, page, map);
+        std::vector<Layer> layers;
+        for (const Layer& layer : directional)
+            layers.push_back({layer.name, cut_page(pages, page, layer.image)});
+        write_exr(file + ".exr", part, half ? Precision::float16 : Precision::float32, metadata,
+                  layers);
+        write_png(file + ".png", tone_map(part, exposure));
+    }
+    return exposure;
+}
+
+void outdate_other_pages(OutputFolder& folder, const Pages& pages)
+{
+    const auto outdate = [&](const std::string& name) {
+        for (const char* ending : {".exr", ".png"})
+            folder.outdate(name + ending);
+    };
+    if (pages.count > 1)
+        outdate(kLightmapName);
+    const Pages most{kMaxPages, pages.side};
+    for (int page = pages.count > 1 ? pages.count : 0; page < kMaxPages; ++page)
+        outdate(page_name(most, page, kLightmapName));
+}
+
+namespace {
+
+/// The picture of a bake [cd/m²]. One that cannot be made costs no more than itself.
+std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& prepared,
+                                  const Image& map, const View& view, int width)
+{
+    try {
+        return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
+    } catch (const Error& error) {
+        log_warning(std::string("there is no ") + kPreview + ": " + error.what());
+        return std::nullopt;
+    }
+}
+
+/// One exposure for all that shows the bake [1/lx]: white paint under H lx sends H / π, and shows
+/// exposure × H. It suits the picture, or what surfaces send where there is none.
+float exposure_of(const std::optional<Image>& picture, const Image& radiance)
+{
+    const bool seen = picture && bright_end(*picture) > 0.0f;
+    return choose_exposure(seen ? *picture : radiance) * std::numbers::inv_pi_v<float>;
+}
+
+/// The texture of scene-baked.glb [cd/m²]: as dense as the scene's own, within the limit.
+Image baked_texture(const BakeOptions& options, const Prepared& prepared, const Image& map,
+                    const Image& radiance, Stages& stages)
+{
+    const int wanted = texture_density(prepared.scene, prepared.atlas);
+    const int scale = std::clamp(options.baked_size / prepared.atlas.pages.side, 1, wanted);
+    if (scale < wanted)
+        stages.tell("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
+                    " % of their density, as --baked-size is " +
+                    std::to_string(options.baked_size) + "; scene.glb keeps all of it");
+    return scale == 1 ? radiance
+                      : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
+}
+
+}  // namespace
+
+WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
+                         const Prepared& prepared, const gpu::Device* device,
+                         const std::vector<glm::vec3>& irradiance,
+                         const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages)
+{
+    const DirectionalMaps maps = finish_directional(prepared, irradiance, coefficients);
+    const Image& map = maps.light;
+    const Image radiance = finish_map(prepared.scene, prepared.atlas, prepared.lumels,
+                                      radiance_of(prepared.lumels, irradiance));
+    std::optional<Image> picture;
+    std::optional<View> view;
+    if (device && options.preview_width > 0) {
+        stages.begin("preview");
+        view = choose_view(prepared.scene, prepared.rays);
+        picture = draw_preview(*device, prepared, map, *view, options.preview_width);
+    }
+    stages.begin("writing");
+    const WrittenLight written{.exposure = exposure_of(picture, radiance),
+                               .view = picture ? view : std::nullopt};
+    const float exposure_of_radiance = std::numbers::pi_v<float> * written.exposure;
+    if (picture)
+        write_png(folder.path(kPreview), tone_map(*picture, exposure_of_radiance));
+    write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
+              maps.layers);
+    write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
+    // Where only indirect light is baked, viewers add the direct light of lamps themselves.
+    write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
+                    {.keep = options.keep_lights || options.parts == Parts::indirect,
+                     .exposure = written.exposure,
+                     .format = options.lightmap_format});
+    const Image shown =
+        tone_map(baked_texture(options, prepared, map, radiance, stages), exposure_of_radiance);
+    write_baked_glb(folder.path("scene-baked.glb"), prepared.scene, prepared.atlas, shown);
+    return written;
+}
+
+BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
+                       const gpu::Device& device, const Solver& solver,
+                       const std::vector<glm::vec3>& irradiance, const Results& results,
+                       Stages& stages)
+{
+    const WrittenLight written = write_light(folder, options, prepared, &device, irradiance,
+                                             results.directional.coefficients, stages);
+    stages.end();
+    device.check_validation();
+
+    if (!written.view)
+        folder.outdate(kPreview);
+    folder.outdate(kPageFile);
+    folder.outdate(kProbesFile);
+    outdate_other_pages(folder, prepared.atlas.pages);
+    const BakeRecord record = record_of(options, prepared, results, written);
+    Report facts = bake_report(record, prepared, device, solver, results, stages);
+    facts.preview = preview_row(written, prepared.scene);
+    const Json report = to_json(facts);
+    write_json(folder.path(kReportFile), report);
+    return {.shots = results.shots,
+            .error = results.error,
+            .dark_error = results.dark_error,
+            .seconds = stages.seconds(),
+            .interrupted = results.interrupted,
+            .report = json_text(report)};
+}
+
+BakeSummary write_reference(OutputFolder& folder, const BakeOptions& options,
+                            const ReferenceOptions& reference, const Prepared& prepared,
+                            const std::vector<glm::vec3>& irradiance, bool stopped, Stages& stages)
+{
+    const float exposure =
+        write_map(folder, kLightmapName,
+                  finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance),
+                  options.half, prepared, stages);
+    stages.end();
+    Report facts = reference_report(options, reference, prepared, stopped, stages);
+    facts.exposure = exposure;
+    const Json report = to_json(facts);
+    write_json(folder.path(kReportFile), report);
+    outdate_other_pages(folder, prepared.atlas.pages);
+    folder.commit();
+    return {.shots = std::uint64_t(reference.samples_per_lumel),
+            .seconds = stages.seconds(),
+            .interrupted = stopped,
+            .report = json_text(report)};
+}
+
+}  // namespace lumel

@@ -1,0 +1,40 @@
+#pragma once
+// solution.exr: the light of each lumel as solved, from which a bake can be corrected.
+
+#include <string>
+#include <vector>
+
+#include "atlas/packing/atlas.h"
+#include "jobs/edit/kept_atlas.h"
+
+namespace lumel {
+
+/// What the file says, texel by texel.
+struct StoredSolution {
+    int side = 0;  ///< of the atlas [texels]
+    StoredCharts charts;
+    std::vector<glm::vec3> front, back;  ///< [side][side] H [lx], 0 where there is no such lumel
+    std::vector<glm::vec3> open;         ///< [side][side] open shares: of fronts, of backs
+
+    /// H, and the open share of the area, of a lumel that has the texel in that atlas.
+    const glm::vec3& irradiance(const Lumel& lumel, std::size_t texel) const
+    {
+        return (lumel.flags & kLumelBack ? back : front)[texel];
+    }
+    float open_share(const Lumel& lumel, std::size_t texel) const
+    {
+        return open[texel][lumel.flags & kLumelBack ? 1 : 0];
+    }
+};
+
+/// R, G, B: H [lx] of fronts; A: the number of the chart, from 1; layer "back": H of backs; layer
+/// "open": Prepared::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the
+/// chart in R and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N].
+/// Throws Error{output}.
+void write_solution(const std::string& path, const Lumels& lumels,
+                    const std::vector<glm::vec3>& irradiance, const std::vector<float>& open);
+
+/// Throws Error{input}.
+StoredSolution read_solution(const std::string& path);
+
+}  // namespace lumel

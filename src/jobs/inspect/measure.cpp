@@ -1,0 +1,228 @@
+#include "jobs/inspect/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/core/parallel.h"
+#include "base/images/image_files.h"
+#include "base/json/json_file.h"
+#include "jobs/edit/finished_bake.h"
+#include "jobs/inspect/measure_picture.h"
+#include "jobs/solve/stages.h"
+#include "methods/methods.h"
+#include "results/files/folder.h"
+
+namespace lumel {
+namespace {
+
+/// Points that a watched step measures, and least that a core takes.
+constexpr std::size_t kPointsPerStep = 64, kGrain = 1;
+/// Of the longer side of a plane without --spacing.
+constexpr double kPointsAlongPlane = 20.0;
+constexpr double kPercent = 100.0;
+
+/// All of the scene unless bounds are given.
+WorkPlane plane_of(const MeasureOptions& options, const Prepared& prepared)
+{
+    const glm::dvec3 low = glm::dvec3(prepared.rays.low()) + prepared.scene.origin;
+    const glm::dvec3 high = glm::dvec3(prepared.rays.high()) + prepared.scene.origin;
+    WorkPlane plane{.height = *options.height, .low = {low.x, low.z}, .high = {high.x, high.z}};
+    if (const auto& bounds = options.bounds) {
+        plane.low = {(*bounds)[0], (*bounds)[1]};
+        plane.high = {(*bounds)[2], (*bounds)[3]};
+    }
+    const glm::dvec2 size = plane.high - plane.low;
+    plane.spacing =
+        options.spacing > 0.0 ? options.spacing : std::max(size.x, size.y) / kPointsAlongPlane;
+    if (!(plane.spacing > 0.0))
+        throw Error(ErrorKind::input, "--plane", "the scene has no surfaces; --bounds is needed");
+    return plane;
+}
+
+void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<MeasureRow>& rows,
+              Stages& stages)
+{
+    const bool done = parallel_steps(
+        rows.size(), kPointsPerStep, kGrain,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                MeasurePoint& point = rows[i].point;
+                point.normal = glm::normalize(point.normal);
+                rows[i].reading = meter.read({glm::vec3(point.place - bake.prepared.scene.origin),
+                                              glm::normalize(glm::vec3(point.normal))},
+                                             std::uint32_t(i));
+            }
+        },
+        [&](std::size_t count) { return stages.progress(double(count) / double(rows.size())); });
+    if (!done)
+        throw_stopped();
+}
+
+/// What an open plane receives, if there is no light but that of the overcast sky.
+std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter,
+                               MeasureSummary& summary)
+{
+    const LightOptions& lights = bake.record.lights;
+    if (!lights.overcast)
+        return std::nullopt;
+    if (meter.has_lamps()) {
+        summary.notes.emplace_back(
+            "no daylight factors are given: the bake has other lights beside the overcast sky");
+        return std::nullopt;
+    }
+    return double(*lights.overcast) * double(lights.sky_scale);
+}
+
+Json numbers(const glm::dvec3& v)
+{
+    return {v.x, v.y, v.z};
+}
+
+Json json_of(const MeasureRow& row, const std::optional<double>& outside)
+{
+    Json json = {{"place", numbers(row.point.place)},
+                 {"normal", numbers(row.point.normal)},
+                 {"inside", row.reading.inside}};
+    if (row.reading.inside)
+        return json;
+    json["illuminance"] = row.reading.lux;
+    json["noise"] = row.reading.noise;
+    json["light"] = numbers(glm::dvec3(row.reading.light));
+    if (outside)
+        json["daylight_factor"] = kPercent * row.reading.lux / *outside;
+    return json;
+}
+
+Json json_of(const WorkPlane& plane, const PlaneFigures& figures, std::size_t all,
+             const std::optional<double>& outside)
+{
+    Json json = {{"height", plane.height},
+                 {"spacing", plane.spacing},
+                 {"bounds", {plane.low.x, plane.low.y, plane.high.x, plane.high.y}},
+                 {"points", figures.count},
+                 {"left_out", all - figures.count}};
+    if (figures.count == 0)
+        return json;
+    json["minimum"] = figures.least;
+    json["mean"] = figures.mean;
+    json["maximum"] = figures.most;
+    json["uniformity"] = figures.uniformity;
+    json["noise_of_mean"] = figures.noise_of_mean;
+    if (outside)
+        json["mean_daylight_factor"] = kPercent * figures.mean / *outside;
+    return json;
+}
+
+std::string report_of(const FinishedBake& bake, const MeasureSummary& summary)
+{
+    Json json;
+    json["units"] = {{"place", "m"},
+                     {"illuminance", "lx"},
+                     {"light", "lx, linear RGB"},
+                     {"noise", "lx, standard error of the rays"},
+                     {"daylight_factor", "%"}};
+    if (bake.record.error >= 0.0)
+        json["error_of_bake"] = bake.record.error;
+    if (summary.outdoors)
+        json["outdoors"] = *summary.outdoors;
+    if (summary.plane)
+        json["plane"] =
+            json_of(*summary.plane, summary.figures, summary.rows.size(), summary.outdoors);
+    json["points"] = Json::array();
+    for (const MeasureRow& row : summary.rows)
+        json["points"].push_back(json_of(row, summary.outdoors));
+    json["notes"] = summary.notes;
+    return json_text(json);
+}
+
+std::string csv_of(const MeasureSummary& summary)
+{
+    std::string text = "x_m,y_m,z_m,normal_x,normal_y,normal_z,illuminance_lx,noise_lx";
+    text += summary.outdoors ? ",daylight_factor_percent\n" : "\n";
+    for (const MeasureRow& row : summary.rows) {
+        const glm::dvec3 &at = row.point.place, &n = row.point.normal;
+        text += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},", at.x, at.y, at.z, n.x,
+                            n.y, n.z);
+        const Reading& reading = row.reading;
+        text += reading.inside ? "," : fmt::format("{:.6g},{:.3g}", reading.lux, reading.noise);
+        if (summary.outdoors)
+            text += reading.inside
+                        ? ","
+                        : fmt::format(",{:.6g}", kPercent * reading.lux / *summary.outdoors);
+        text += "\n";
+    }
+    return text;
+}
+
+void write_csv(const std::string& path, const MeasureSummary& summary)
+{
+    OutputFile output(path);
+    std::ofstream file(output.path(), std::ios::binary);
+    file << csv_of(summary);
+    file.close();
+    if (!file)
+        throw Error(ErrorKind::output, path, "cannot be written");
+    output.commit();
+}
+
+void write_picture(const std::string& path, const Image& picture)
+{
+    OutputFile output(path);
+    write_png(output.path(), picture);
+    output.commit();
+}
+
+void write_preview(const FinishedBake& bake, const MeasureOptions& options)
+{
+    const gpu::Device device(options.device);
+    const Image picture = preview_picture(device, bake.prepared, bake.irradiance, options.width);
+    device.check_validation();
+    write_picture(options.preview, picture);
+}
+
+}  // namespace
+
+MeasureSummary measure(const std::string& folder, const MeasureOptions& options,
+                       const ProgressFunction& progress)
+{
+    Stages stages(progress);
+    stages.begin("reading");
+    const FinishedBake bake(folder);
+    MeasureSummary summary;
+    for (const MeasurePoint& point : options.points)
+        summary.rows.push_back({.point = point});
+    PlaneGrid grid;
+    if (options.height) {
+        summary.plane = plane_of(options, bake.prepared);
+        grid = points_on(*summary.plane);
+        for (const glm::dvec3& place : grid.points)
+            summary.rows.push_back({.point = {.place = place}});
+    }
+
+    stages.begin("rays");
+    const LightMeter meter(
+        bake.prepared.scene, bake.prepared.rays, bake.prepared.atlas, bake.prepared.lumels,
+        bake.irradiance, {.samples = options.samples, .seed = seed_of(bake.record.solver.method)});
+    read_all(bake, meter, summary.rows, stages);
+    summary.outdoors = outdoors(bake, meter, summary);
+    std::vector<Reading> readings;
+    for (const MeasureRow& row : summary.rows)
+        readings.push_back(row.reading);
+    summary.figures = figures_of(readings);
+    summary.report = report_of(bake, summary);
+
+    stages.begin("writing");
+    if (!options.table.empty())
+        write_csv(options.table, summary);
+    if (!options.picture.empty())
+        write_picture(options.picture, plane_picture(grid, readings));
+    if (!options.preview.empty())
+        write_preview(bake, options);
+    stages.end();
+    return summary;
+}
+
+}  // namespace lumel

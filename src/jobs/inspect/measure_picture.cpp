@@ -1,0 +1,56 @@
+#include "jobs/inspect/measure_picture.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "atlas/finish/finish.h"
+#include "base/core/luminance.h"
+#include "base/images/false_colour.h"
+#include "jobs/inspect/white_paper.h"
+#include "results/preview/preview.h"
+
+namespace lumel {
+namespace {
+
+/// Of a plane's picture, and of a point in it [pixels].
+constexpr int kPlaneSide = 720, kMaxOfPoint = 96;
+/// Less of a pixel than this is not counted as covered.
+constexpr float kCovered = 0.5f;
+constexpr float kNothing = -1.0f;  ///< as of false_colour()
+
+}  // namespace
+
+Image plane_picture(const PlaneGrid& grid, std::span<const Reading> readings)
+{
+    const int pixels = std::clamp(kPlaneSide / std::max(grid.columns, grid.rows), 1, kMaxOfPoint);
+    std::vector<float> lux;
+    for (const Reading& reading : readings)
+        lux.push_back(reading.inside ? kNothing : float(reading.lux));
+    Image image(grid.columns * pixels, grid.rows * pixels, 1);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            image.at(x, y)[0] =
+                lux[std::size_t(y / pixels) * std::size_t(grid.columns) + std::size_t(x / pixels)];
+    return false_colour(image, scale_for(lux));
+}
+
+Image preview_picture(const gpu::Device& device, const Prepared& prepared,
+                      std::span<const glm::vec3> irradiance, int width)
+{
+    const View view = choose_view(prepared.scene, prepared.rays);
+    const Image map = finish_map(prepared.scene, prepared.atlas, prepared.lumels, irradiance);
+    const Image seen =
+        render_preview(device, white_paper(prepared.scene), prepared.atlas, map, view, width);
+    Image lux(seen.width, seen.height, 1);
+    for (int y = 0; y < seen.height; ++y)
+        for (int x = 0; x < seen.width; ++x) {
+            const float* pixel = seen.at(x, y);
+            // White paper sends H / π.
+            const double arriving =
+                std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]);
+            lux.at(x, y)[0] = pixel[3] < kCovered ? kNothing : float(arriving);
+        }
+    return false_colour(lux, scale_for(lux.values));
+}
+
+}  // namespace lumel

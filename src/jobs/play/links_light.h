@@ -1,0 +1,37 @@
+#pragma once
+// The light of a scene that is played, over links that are kept.
+
+#include "jobs/play/played_light.h"
+#include "links/live/live_links.h"
+
+namespace lumel {
+
+/// Instances below the same node that moves, a list for each: all that lies between stands still.
+std::vector<std::vector<std::uint32_t>> moving_together(const Scene& scene,
+                                                        const Animation& animation);
+
+class LinksLight final : public PlayedLight {
+public:
+    /// Traces all links. Throws as LiveLinks does.
+    LinksLight(const Scene& start, const Animation& animation, const PlayOptions& options);
+
+    void change_to(const Scene& shown, double time) override;
+    void update(double budget_ms, FrameRow& row) override;
+    std::vector<glm::vec3> irradiance() override { return live_.shown(); }
+
+    std::uint64_t shots() const override;
+    const Scene& scene() const override { return live_.scene(); }
+    const Atlas& atlas() const override { return live_.atlas(); }
+    const Lumels& lumels() const override { return live_.lumels(); }
+    const gpu::StageTimes& times() const override { return times_; }
+
+private:
+    std::vector<glm::mat4> start_;                    ///< [instances] places of the first frame
+    std::vector<AnimatedMaterial> lamps_;             ///< those whose light changes
+    std::vector<std::vector<std::uint32_t>> groups_;  ///< instances that move together
+    LiveLinks live_;
+    gpu::StageTimes times_;  ///< none: it works on the host
+    LiveLinksState state_;
+};
+
+}  // namespace lumel

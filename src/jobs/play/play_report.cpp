@@ -1,0 +1,43 @@
+#include "jobs/play/play_report.h"
+
+#include "jobs/bake/report_parts.h"
+#include "results/record/bake_record.h"
+#include "results/record/solver_settings.h"
+
+namespace lumel {
+
+Report play_report(const PlayOptions& options, const Played& played, const gpu::Device& device,
+                   int height, std::vector<FrameRow> frames, const Stages& stages)
+{
+    Report report = report_on(played.scene, {});
+    add_usage(report, played.scene, stages);
+    add_sizes(report, played.scene, played.atlas, played.lumels);
+    add_device(report, device);
+    report.settings = {{"animation", options.animation},
+                       {"frames", options.frames},
+                       {"fps", options.fps},
+                       {"budget", options.budget_ms},
+                       {"residual", options.residual}};
+    report.solver = std::visit(
+        [](const auto& method) { return solver_settings({.method = method}); }, options.solver);
+    if (std::holds_alternative<DirectionsOptions>(options.solver))
+        report.settings["leak"] = options.leak;
+    else if (std::holds_alternative<LinksOptions>(options.solver)) {
+        report.settings["links"] = options.link_rays;
+        for (const char* unread : {"sampling", "rays"})
+            (*report.solver)["options"].erase(unread);
+    } else
+        report.settings["redistribution"] =
+            options.redistribution == Redistribution::cross ? "cross" : "incremental";
+    report.settings.update(atlas_settings(options.atlas));
+    report.shots = played.shots;
+    report.frames = std::move(frames);
+    report.interrupted = stages.stopped();
+    report.exposure = options.exposure;
+    report.picture_width = options.width;
+    report.picture_height = height;
+    add_times(report, "", played.times);
+    return report;
+}
+
+}  // namespace lumel

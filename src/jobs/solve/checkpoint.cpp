@@ -1,0 +1,178 @@
+#include "jobs/solve/checkpoint.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/core/error.h"
+#include "base/core/log.h"
+#include "base/core/state_bytes.h"
+#include "base/core/usage.h"
+#include "base/json/json_file.h"
+#include "methods/methods.h"
+#include "results/files/folder.h"
+#include "results/record/bake_record.h"
+#include "results/record/origin.h"
+#include "results/record/solver_settings.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kMagic[] = "lumel checkpoint 2\n";
+/// Writing takes at most 1 / kRest of the time.
+constexpr double kRest = 20.0;
+
+/// All that decides what the solver does, beside the scene and its lights.
+std::string settings_of(const BakeOptions& options)
+{
+    Json settings;
+    settings["solver"] = solver_settings(options.solver);
+    settings["atlas"] = atlas_settings(options.atlas);
+    settings["parts"] = int(options.parts);
+    return json_text(settings);
+}
+
+/// Throws Error{input} if the file does not begin as a checkpoint does.
+void pass_magic(std::istream& file, const std::string& path)
+{
+    char magic[sizeof kMagic] = {};
+    file.read(magic, sizeof magic);
+    if (std::memcmp(magic, kMagic, sizeof magic) != 0)
+        throw Error(ErrorKind::input, path,
+                    "is no checkpoint of this version of Lumel; bake without --resume");
+}
+
+}  // namespace
+
+void check_resume(const BakeOptions& options)
+{
+    if (!options.resume || method_of(options.solver.method).can_resume)
+        return;
+    std::string able;
+    for (const MethodInfo& method : methods())
+        if (method.can_resume)
+            able += std::string(able.empty() ? "" : ", ") + method.id;
+    throw Error(ErrorKind::input, "--resume",
+                fmt::format("is not supported by --solver {}, only by: {}",
+                            method_of(options.solver.method).id, able));
+}
+
+Checkpoint::Checkpoint(const std::string& folder, const BakeOptions& options,
+                       const Prepared& prepared)
+    : path_((fs::path(folder) / kCheckpointFile).string()),
+      can_(method_of(options.solver.method).can_resume),
+      resume_(options.resume),
+      unit_(method_of(options.solver.method).shots),
+      every_(options.checkpoint_seconds),
+      origin_{.version = lumel_version(),
+              .scene = prepared.scene.hash,
+              .options = settings_of(options),
+              .rays = {}}
+{
+}
+
+Checkpoint::Run Checkpoint::take_up(Solver& solver)
+{
+    origin_.rays = solver.rays();
+    next_ = wall_seconds() + every_;
+    std::error_code missing;
+    const std::uint64_t size = fs::file_size(path_, missing);
+    if (!can_ || missing)
+        return {};
+    if (!resume_) {
+        older_ = seconds_of_older(size);
+        log_info(path_ + " is of a bake that was not finished; this one begins anew, and would go "
+                         "on with --resume");
+        return {};
+    }
+    std::ifstream file(path_, std::ios::binary);
+    pass_magic(file, path_);
+    StateReader reader(file, size - sizeof kMagic, path_);
+    Origin origin;
+    reader(origin);
+    if (!(origin == origin_)) {
+        const char* other = origin.version != origin_.version ? "version of Lumel"
+                            : origin.scene != origin_.scene   ? "scene, or the same before an edit"
+                            : origin.options != origin_.options ? "set of options"
+                                                                : "caster of rays (--rays)";
+        throw Error(ErrorKind::input, path_,
+                    fmt::format("is of another {}; go on as the bake began, or bake without "
+                                "--resume",
+                                other));
+    }
+    Run run;
+    reader(run.seconds, run.curve);
+    solver.read_state(reader);
+    reader.finish();
+    log_info(fmt::format("going on after {:.0f} s of solving, with {} {}", run.seconds,
+                         solver.state().shots, unit_));
+    return run;
+}
+
+double Checkpoint::seconds_of_older(std::uint64_t size) const
+{
+    try {
+        std::ifstream file(path_, std::ios::binary);
+        pass_magic(file, path_);
+        StateReader reader(file, size - sizeof kMagic, path_);
+        Origin origin;
+        double seconds = 0.0;
+        reader(origin, seconds);
+        return seconds;
+    } catch (const Error&) {
+        return 0.0;  // of no use to anybody
+    }
+}
+
+void Checkpoint::keep(Solver& solver, const Run& run)
+{
+    if (!can_ || every_ <= 0.0 || wall_seconds() < next_ || (older_ && run.seconds <= *older_))
+        return;
+    write(solver, run);
+}
+
+void Checkpoint::write(Solver& solver, const Run& given)
+{
+    const double start = wall_seconds();
+    try {
+        OutputFile output(path_);
+        std::ofstream file(output.path(), std::ios::binary);
+        file.write(kMagic, sizeof kMagic);
+        StateWriter writer(file);
+        Run run = given;
+        writer(origin_, run.seconds, run.curve);
+        solver.write_state(writer);
+        writer.finish();
+        file.close();
+        if (!file)
+            throw Error(ErrorKind::output, path_, std::strerror(errno));
+        output.commit();
+    } catch (const Error& error) {
+        if (!warned_)
+            log_warning(std::string("no checkpoint to go on from: ") + error.what());
+        warned_ = true;
+    }
+    const double now = wall_seconds();
+    next_ = now + std::max(every_, kRest * (now - start));
+}
+
+void Checkpoint::stop(Solver& solver, const Run& run)
+{
+    if (!can_)
+        return;
+    if (resume_) {
+        if (every_ > 0.0)
+            write(solver, run);
+    } else if (!older_) {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+}
+
+}  // namespace lumel

@@ -1,0 +1,244 @@
+#include "jobs/solve/host_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "atlas/finish/fine_radiance.h"
+#include "atlas/finish/finish.h"
+#include "base/core/bytes.h"
+#include "base/core/spherical_harmonics.h"
+#include "links/trace/links.h"
+#include "methods/matrix/relight_solver.h"
+#include "methods/methods.h"
+#include "results/preview/preview.h"
+
+namespace lumel {
+namespace {
+
+/// The program, its libraries and a device that is open, before a scene is read: resident size with
+/// Mesa's software device, 20 MiB for validation layers among them [bytes].
+constexpr std::uint64_t kProgramBytes = 98u << 20;
+/// What Mesa's compiler takes for the preview's shaders, on a device that is a processor [bytes].
+constexpr std::uint64_t kCompilerBytes = 24u << 20;
+/// A lumel in what links that are kept, and the matrix method, know of it [bytes]: as measured.
+constexpr std::uint64_t kKeptLumelBytes = 380;
+/// A link that is kept, and again while it is written.
+constexpr std::uint64_t kKeptLinkBytes = 2 * sizeof(std::uint32_t);
+/// Of triangles before there are trees and charts, as measured [bytes].
+constexpr std::uint64_t kTreeBytes = 130, kChartedBytes = 90;
+/// A value in JSON in memory, and values of a primitive that is written, with its accessors.
+constexpr std::uint64_t kJsonValueBytes = 100, kJsonValues = 30;
+/// A vertex that is written: position, normal, two places; an index.
+constexpr std::uint64_t kWrittenVertexBytes = 40, kWrittenIndexBytes = sizeof(std::uint32_t);
+/// Float images that are compressed are about as large again; 8-bit ones have three channels.
+constexpr std::uint64_t kOfTexel = sizeof(glm::vec4), kOfRgb = sizeof(glm::vec3), kOfPng = 3;
+/// Layers of solution.exr.
+constexpr std::uint64_t kSolutionLayers = 4;
+/// Largest picture that is counted before the view is known.
+constexpr int kMaxPictureSide = 1 << 14;
+
+/// How much there is of everything.
+struct Sizes {
+    std::uint64_t lumels = 0, pieces = 0, texels = 0, page_texels = 0;
+    std::uint64_t written = 0;        ///< bytes of a glTF that is written, without its maps
+    std::uint64_t document = 0;       ///< bytes of it in memory, beside that
+    std::uint64_t finish = 0;         ///< see finish_bytes
+    std::uint64_t texture_scale = 1;  ///< of the side of scene-baked.glb's texture
+    PreviewMemory preview;
+    std::uint64_t picture = 0;  ///< bytes
+};
+
+std::uint64_t bytes_of_scene(const Scene& scene)
+{
+    std::uint64_t bytes = 0;
+    for (const Texture& texture : scene.textures)
+        bytes += bytes_of(texture.rgba);
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& primitive : mesh.primitives) {
+            bytes += bytes_of(primitive.positions) + bytes_of(primitive.normals) +
+                     bytes_of(primitive.colors) + bytes_of(primitive.indices);
+            for (const auto& texcoords : primitive.texcoords)
+                bytes += bytes_of(texcoords);
+        }
+    return bytes + scene.instances.size() * sizeof(Instance);
+}
+
+std::uint64_t bytes_of_atlas(const Atlas& atlas)
+{
+    std::uint64_t bytes = atlas.surfaces.size() * sizeof(Surface) + bytes_of(atlas.back_shift);
+    for (const Surface& surface : atlas.surfaces)
+        bytes += bytes_of(surface.source_vertex) + bytes_of(surface.texcoord) +
+                 bytes_of(surface.indices) + bytes_of(surface.chart);
+    return bytes;
+}
+
+std::uint64_t bytes_of_lumels(const Sizes& sizes)
+{
+    constexpr std::uint64_t kOfLumel = sizeof(Lumel) + sizeof(Gloss) + sizeof(float);
+    return sizes.lumels * kOfLumel + sizes.pieces * sizeof(Piece) + sizes.texels * sizeof(float);
+}
+
+/// The file that the scene came from, as it is read again to be written.
+std::uint64_t bytes_of_file(const Scene& scene)
+{
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(scene.path, none);
+    return none ? 0 : std::uint64_t(bytes);
+}
+
+bool is_links(const BakeOptions& options)
+{
+    return std::holds_alternative<LinksOptions>(options.solver.method);
+}
+
+std::uint64_t layers_of(const BakeOptions& options)
+{
+    return options.directional == Directional::none  ? 0
+           : options.directional == Directional::sh1 ? std::uint64_t(coefficient_count(1))
+                                                     : std::uint64_t(coefficient_count(2));
+}
+
+/// What writing takes beside the maps: one file after another.
+std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
+{
+    const std::uint64_t map = sizes.page_texels * kOfTexel * (2 + layers);
+    const std::uint64_t solution = (kSolutionLayers + 1) * sizes.texels * kOfTexel;
+    const std::uint64_t gltf = 2 * sizes.written + sizes.document;
+    const std::uint64_t scene =
+        gltf + sizes.page_texels * (kOfTexel + kOfRgb + kOfTexel / 2 + 2 * kOfPng);
+    const std::uint64_t finer = sizes.texture_scale * sizes.texture_scale;
+    const std::uint64_t toning = 2 * finer * sizes.texels * kOfTexel;
+    const std::uint64_t baked =
+        gltf +
+        finer * (sizes.texels * kOfTexel + sizes.page_texels * (kOfTexel + kOfRgb + 2 * kOfPng));
+    return std::max({map, solution, scene, toning, baked});
+}
+
+/// What stages take beside what stays.
+std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
+{
+    const std::uint64_t layers = layers_of(options);
+    const std::uint64_t maps =
+        (2 + layers) * sizes.texels * kOfTexel + (1 + layers) * sizes.lumels * sizeof(glm::vec3);
+    const std::uint64_t solving =
+        is_links(options) ? LinkRadiosity::sweep_bytes(sizes.lumels, sizes.texels) : 0;
+    const std::uint64_t drawing =
+        options.preview_width > 0
+            ? sizes.preview.host + (shared ? sizes.preview.device + kCompilerBytes : 0)
+            : 0;
+    const std::uint64_t writing = sizes.picture + writing_bytes(sizes, layers);
+    return std::max(solving, maps + std::max({sizes.finish, drawing, writing}));
+}
+
+void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& options)
+{
+    const std::uint64_t lumels = sizes.lumels;
+    if (const auto* matrix = std::get_if<MatrixOptions>(&options.solver.method))
+        memory.solver = kKeptLumelBytes * lumels +
+                        LumelRowsBuilder::host_bytes(lumels, matrix->transport.patches);
+    if (!is_links(options))
+        return;
+    if (options.keep_links > 0) {
+        memory.solver = kKeptLumelBytes * lumels;
+        memory.links = memory.first_links = lumels * options.keep_links * kKeptLinkBytes;
+    } else {
+        memory.solver = LinkRadiosity::host_bytes(lumels, sizes.pieces, sizes.texels);
+        memory.links = LinkRadiosity::likely_bytes(lumels, options.solver.max_shots);
+        memory.first_links = LinkRadiosity::first_bytes(lumels);
+    }
+}
+
+/// The same where nothing depends on the side of the map.
+Sizes without_map(Sizes sizes)
+{
+    const std::uint64_t map = sizes.texels * kOfTexel;
+    sizes.preview.device -= std::min(sizes.preview.device, map);
+    sizes.lumels = sizes.pieces = sizes.texels = sizes.page_texels = 0;
+    return sizes;
+}
+
+HostMemory finished(HostMemory memory, const Sizes& sizes, const BakeOptions& options, bool shared)
+{
+    memory.program = kProgramBytes;
+    memory.lumels = bytes_of_lumels(sizes);
+    memory.working = working_bytes(sizes, options, shared);
+    add_solver(memory, sizes, options);
+    memory.fixed = memory.program + memory.scene + memory.trees + memory.atlas +
+                   working_bytes(without_map(sizes), options, shared);
+    return memory;
+}
+
+glm::ivec2 picture_of(const BakeOptions& options, const View& view)
+{
+    return {options.preview_width,
+            picture_height(options.preview_width, view.aspect, kMaxPictureSide)};
+}
+
+std::uint64_t picture_bytes(const glm::ivec2& size)
+{
+    return std::uint64_t(size.x) * std::uint64_t(size.y) * kOfTexel;
+}
+
+}  // namespace
+
+std::uint64_t triangle_count(const Scene& scene)
+{
+    std::uint64_t count = 0;
+    for (const Instance& instance : scene.instances)
+        for (const Primitive& primitive : scene.meshes[std::size_t(instance.mesh)].primitives)
+            count += primitive.indices.size() / 3;
+    return count;
+}
+
+HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, bool shared)
+{
+    const Atlas& atlas = prepared.atlas;
+    const auto side = std::uint64_t(atlas.width), page = std::uint64_t(atlas.pages.side);
+    Sizes sizes{.lumels = prepared.lumels.lumels.size(),
+                .pieces = prepared.lumels.pieces.size(),
+                .texels = side * side,
+                .page_texels = page * page,
+                .document = 2 * bytes_of_file(prepared.scene),
+                .finish = finish_bytes(atlas)};
+    for (const Surface& surface : atlas.surfaces)
+        sizes.written += surface.texcoord.size() * kWrittenVertexBytes +
+                         surface.indices.size() * kWrittenIndexBytes;
+    sizes.document += atlas.surfaces.size() * kJsonValues * kJsonValueBytes;
+    sizes.texture_scale = std::uint64_t(std::clamp(options.baked_size / atlas.pages.side, 1,
+                                                   texture_density(prepared.scene, atlas)));
+    if (options.preview_width > 0) {
+        const glm::ivec2 picture = picture_of(options, choose_view(prepared.scene, prepared.rays));
+        sizes.preview = preview_memory(prepared.scene, atlas, picture);
+        sizes.picture = picture_bytes(picture);
+    }
+    return finished({.scene = bytes_of_scene(prepared.scene),
+                     .trees = prepared.rays.bytes(),
+                     .atlas = bytes_of_atlas(atlas)},
+                    sizes, options, shared);
+}
+
+HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions& options,
+                       bool shared)
+{
+    const auto side = std::uint64_t(fixed_side(options.atlas));
+    const std::uint64_t triangles = triangle_count(scene);
+    Sizes sizes{.lumels = lumels,
+                .pieces = lumels,
+                .texels = side * side * std::uint64_t(options.atlas.pages),
+                .page_texels = side * side};
+    if (options.preview_width > 0) {
+        Atlas map;
+        map.width = map.height = fixed_side(options.atlas);
+        const glm::ivec2 picture =
+            picture_of(options, scene.cameras.empty() ? View{} : view_of(scene.cameras.front()));
+        sizes.preview = preview_memory(scene, map, picture);
+        sizes.picture = picture_bytes(picture);
+    }
+    return finished({.scene = bytes_of_scene(scene),
+                     .trees = kTreeBytes * triangles,
+                     .atlas = kChartedBytes * triangles},
+                    sizes, options, shared);
+}
+
+}  // namespace lumel

@@ -1,0 +1,152 @@
+#include "jobs/solve/memory_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/core/error.h"
+#include "base/core/usage.h"
+#include "gpu/staging.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/setting.h"
+#include "jobs/solve/sources.h"
+#include "jobs/solve/stages.h"
+#include "methods/matrix/relight_solver.h"
+#include "methods/methods.h"
+#include "raster/world/world.h"
+
+namespace lumel {
+namespace {
+
+/// Texels of an atlas of a given size that are lumels: most that was seen.
+constexpr double kCovered = 0.85;
+
+/// A size is proposed with so much of the memory left free: charts pack differently.
+constexpr double kSpare = 0.9;
+constexpr int kSizeStep = 16;  ///< of proposed sizes [texels]
+
+bool is_links(const BakeOptions& options)
+{
+    return std::holds_alternative<LinksOptions>(options.solver.method);
+}
+
+/// The larger of the sides that fit of a bake that takes `needed` at a side, `fixed` of it whatever
+/// the size; 0: none does.
+int side_that_fits(int side, std::uint64_t needed, std::uint64_t fixed, std::uint64_t limit)
+{
+    if (limit <= fixed || needed <= fixed)
+        return 0;
+    const double share = double(limit - fixed) / double(needed - fixed);
+    const auto fitting = int(double(side) * std::sqrt(kSpare * std::min(share, 1.0)));
+    return fitting >= kSizeStep ? fitting / kSizeStep * kSizeStep : fitting;
+}
+
+std::string sentence(const char* kind, std::uint64_t needed, std::uint64_t fixed, int side,
+                     std::uint64_t limit, const std::string& owner)
+{
+    const int fitting = side_that_fits(side, needed, fixed, limit);
+    return fmt::format("a bake of {0} × {0} texels needs about {1} of {2} memory, but {3} {4}; {5}",
+                       side, memory_text(needed), kind, owner, memory_text(limit),
+                       fitting > 0
+                           ? fmt::format("use --size {} or less", fitting)
+                           : fmt::format("whatever its size it needs {}", memory_text(fixed)));
+}
+
+void refuse(const std::string& shortage)
+{
+    if (!shortage.empty())
+        throw Error(ErrorKind::device, "", shortage);
+}
+
+}  // namespace
+
+std::uint64_t GraphicsMemory::most() const
+{
+    return staging + world + std::max(direct_light, solver + directional);
+}
+
+GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
+                               const BakeOptions& options)
+{
+    const float diagonal = glm::length(prepared.rays.high() - prepared.rays.low());
+    const SolveSize size{
+        &prepared.lumels,
+        near_pairs_for(prepared.scene, prepared.rays, prepared.lumels, options.solver), diagonal};
+    return {.staging = needs_world(options) ? gpu::Staging::device_bytes() : 0,
+            .world = needs_world(options) ? World::device_bytes(prepared.lumels, occluders) : 0,
+            .direct_light = method_of(options.solver.method).finds_lights
+                                ? 0
+                                : direct_light_bytes(prepared.scene, prepared.lumels, diagonal),
+            .solver = keeps_sources_apart(options)
+                          ? RelightSolver::device_bytes(
+                                size, std::get<MatrixOptions>(options.solver.method))
+                          : solver_bytes(size, options.solver),
+            .directional = directional_bytes(size, directional_options(options, 0))};
+}
+
+MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
+                           std::uint64_t available)
+{
+    const bool given = max_memory > 0, shared = device.type == "cpu";
+    return {.device = given    ? max_memory
+                      : shared ? available
+                               : device.memory_bytes,
+            .host = given ? max_memory : available,
+            .shared = shared,
+            .given = given,
+            .name = device.name};
+}
+
+MemoryLimits memory_limits(const BakeOptions& options, const gpu::DeviceInfo& device)
+{
+    return memory_limits(options.max_memory, device, available_memory_bytes());
+}
+
+std::string shortage(const GraphicsMemory& device, const HostMemory& host, int side,
+                     const MemoryLimits& limits)
+{
+    const char* allowed = "--max-memory allows";
+    if (limits.device > 0 && device.most() > limits.device)
+        return sentence("graphics", device.most(), device.staging, side, limits.device,
+                        limits.given    ? allowed
+                        : limits.shared ? "this machine has"
+                                        : limits.name + " has");
+    const std::uint64_t software = limits.shared ? device.most() : 0;
+    const std::uint64_t fixed = host.fixed + (limits.shared ? device.staging : 0);
+    if (limits.host > 0 && host.least() + software > limits.host)
+        return sentence("host", host.least() + software, fixed, side, limits.host,
+                        limits.given ? allowed : "this machine has");
+    return {};
+}
+
+void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLimits& limits)
+{
+    const int side = fixed_side(options.atlas);
+    if (side == 0)
+        return;
+    const double texels = double(options.atlas.pages) * double(side) * double(side);
+    const HostMemory host =
+        host_memory(scene, std::size_t(kCovered * texels), options, limits.shared);
+    refuse(shortage({}, host, side, limits));
+}
+
+void check_memory(const Prepared& prepared, const BakeOptions& options, const MemoryLimits& limits)
+{
+    const Occluders occluders = find_occluders(prepared.scene, {}, &prepared.atlas);
+    refuse(shortage(graphics_memory(prepared, occluders, options),
+                    host_memory(prepared, options, limits.shared), prepared.atlas.pages.side,
+                    limits));
+}
+
+std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
+                              const MemoryLimits& limits)
+{
+    if (!is_links(options) || limits.host == 0)
+        return 0;
+    const HostMemory host = host_memory(prepared, options, limits.shared);
+    const std::uint64_t others = host.without_links();
+    return std::max(host.first_links, limits.host - std::min(others, limits.host));
+}
+
+}  // namespace lumel

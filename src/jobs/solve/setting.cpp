@@ -1,0 +1,231 @@
+#include "jobs/solve/setting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "atlas/prepare/lit_sides.h"
+#include "base/core/log.h"
+#include "jobs/solve/checkpoint.h"
+#include "jobs/solve/memory_plan.h"
+#include "methods/methods.h"
+#include "solve/solver/solver.h"
+
+namespace lumel {
+namespace {
+
+/// A limit of time that has passed already [s].
+constexpr double kMinSeconds = 1e-9;
+
+/// The progress of a solve toward the limit that is nearest, 0…1.
+double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
+{
+    double fraction = 0.0;
+    if (limits.max_shots > 0)
+        fraction = std::max(fraction, double(state.shots) / double(limits.max_shots));
+    if (limits.max_seconds > 0.0)
+        fraction = std::max(fraction, seconds / limits.max_seconds);
+    // For the bar only: how fast the error falls with shots, between random and ideal.
+    constexpr double kSlope = 0.65;
+    // And how far it is when there is a first estimate.
+    constexpr double kFirstEstimate = 0.25;
+    double error = 1.0;
+    if (limits.target_error > 0.0 && state.error > 0.0)
+        error = std::min(error, limits.target_error / state.error);
+    if (limits.target_dark_error > 0.0 && state.dark_error > 0.0)
+        error = std::min(error, limits.target_dark_error / state.dark_error);
+    if (error < 1.0)
+        fraction = std::max(fraction, std::pow(error, 1.0 / kSlope));
+    return std::min(std::max(fraction, kFirstEstimate * state.begun), 1.0);
+}
+
+Scene in_stage(Scene scene, Stages& stages)
+{
+    stages.begin("charts");
+    return scene;
+}
+
+NearField near_field_of(const Prepared& prepared, const gpu::Device& device,
+                        const BakeOptions& given, Stages& stages)
+{
+    const SolverOptions& options = given.solver;
+    tell_user(prepared);
+    note_sizes(prepared, stages);
+    check_memory(prepared, given, memory_limits(given, device.info()));
+    if (!has_near_field(options.method))
+        return {};
+    stages.begin("near field");
+    NearField near = near_field_for(prepared.scene, prepared.rays, prepared.lumels, options);
+    stages.note(fmt::format(
+        "{} close pairs take {}", near.column.size(),
+        memory_text(near.column.size() * (sizeof(near.column[0]) + sizeof(near.factor[0])))));
+    return near;
+}
+
+std::optional<World> world_on(const gpu::Device& device, const Prepared& prepared,
+                              const BakeOptions& options, Stages& stages)
+{
+    stages.watch(device);
+    if (!needs_world(options))
+        return {};
+    stages.begin("uploading");
+    return std::optional<World>(std::in_place, device, prepared.scene, prepared.lumels,
+                                &prepared.atlas);
+}
+
+/// Estimates of the error as they come, each after twice the shooters of the one before.
+class ErrorNotes {
+public:
+    explicit ErrorNotes(const SolverOptions& options) : shots_(method_of(options.method).shots) {}
+
+    void add(const SolverState& state, Stages& stages)
+    {
+        if (state.error < 0.0 || state.shots < next_)
+            return;
+        std::string note = fmt::format("{} {}, estimated error {:.3f} %", state.shots, shots_,
+                                       100.0 * state.error);
+        if (state.dark_error >= 0.0)
+            note += fmt::format(", of dark lumels {:.2f} %", 100.0 * state.dark_error);
+        stages.note(note);
+        next_ = 2 * state.shots;
+    }
+
+private:
+    const char* shots_;
+    std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+bool needs_world(const BakeOptions& options)
+{
+    return method_of(options.solver.method).on_device || options.directional != Directional::none ||
+           !options.dump.empty();
+}
+
+std::optional<LobeParticles> particles_for(const Prepared& prepared, const SolverOptions& options)
+{
+    std::optional<LobeParticles> particles;
+    if (method_of(options.method).materials == MaterialModel::glossy && !is_papers(options.method))
+        particles.emplace(prepared.scene, prepared.atlas, prepared.rays, prepared.lumels);
+    return particles;
+}
+
+Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
+    : Setting(
+          std::move(scene),
+          [&](const Scene& placed, const RayScene& rays, const ProgressCallback& watch) {
+              return make_atlas(placed, options.atlas, watch,
+                                shows_both(options.atlas.sides, rays));
+          },
+          device, options, stages)
+{
+}
+
+Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
+                 const BakeOptions& options, Stages& stages)
+    : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.watch()),
+      near(near_field_of(prepared, device, options, stages)),
+      world(world_on(device, prepared, options, stages)),
+      particles(particles_for(prepared, options.solver))
+{
+}
+
+SolverOptions for_what_is_left(SolverOptions options, const Stages& stages)
+{
+    if (options.max_seconds > 0.0)
+        options.max_seconds = std::max(options.max_seconds - stages.seconds(), kMinSeconds);
+    return options;
+}
+
+void tell_missed(const SolverOptions& options, const SolverState& state, Stages& stages)
+{
+    if (state.shots == 0 || (options.max_shots == 0 && options.max_seconds <= 0.0))
+        return;
+    const auto tell = [&](double reached, double wanted, const char* of) {
+        if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
+            return;
+        stages.warn(
+            reached >= 0.0
+                ? fmt::format("the estimated error{} is {:.2g} %, not the {:g} % asked for: "
+                              "the limit of shots or time was reached first",
+                              of, 100.0 * reached, 100.0 * wanted)
+                : fmt::format("the limit of shots or time was reached before the error{} "
+                              "could be estimated; {:g} % was asked for",
+                              of, 100.0 * wanted));
+    };
+    tell(state.error, options.target_error, "");
+    tell(state.dark_error, options.target_dark_error, " of dark lumels");
+}
+
+SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stages,
+                        Checkpoint* checkpoint)
+{
+    const SolverOptions options = for_what_is_left(given, stages);
+    stages.begin("solving");
+    stages.note_arrays();
+    Checkpoint::Run so_far;
+    if (checkpoint)
+        so_far = checkpoint->take_up(solver);
+    const double before = so_far.seconds;
+    SolverOptions limits = options;
+    if (limits.max_seconds > 0.0)
+        limits.max_seconds = std::max(limits.max_seconds - before, kMinSeconds);
+    ErrorNotes errors(options);
+    SolveRun run;
+    run.finished = solve(solver, limits, [&](const SolverState& state) {
+        errors.add(state, stages);
+        so_far.seconds = before + stages.stage_seconds();
+        std::vector<ConvergencePoint>& curve = so_far.curve;
+        if (state.error >= 0.0 && (curve.empty() || curve.back().error != state.error))
+            curve.push_back({state.shots, so_far.seconds, state.error});
+        if (checkpoint)
+            checkpoint->keep(solver, so_far);
+        return stages.progress(solved_fraction(options, state, so_far.seconds), state.shots,
+                               state.error);
+    });
+    if (!run.finished && checkpoint)
+        checkpoint->stop(solver, so_far);
+    run.curve = std::move(so_far.curve);
+    if (!run.finished && solver.state().shots == 0)
+        throw_stopped();
+    if (solver.state().full)
+        stages.warn(
+            fmt::format("there is no memory for more rays: it ends at an estimated error "
+                        "of {:.2g} %; allow more with --max-memory, or use a smaller --size",
+                        100.0 * solver.state().error));
+    else if (run.finished)
+        tell_missed(options, solver.state(), stages);
+    stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
+                            method_of(options.method).shots, solver.state().iterations));
+    stages.note_times(solver.times());
+    return run;
+}
+
+void tell_warnings(const Scene& scene)
+{
+    for (const std::string& warning : scene.warnings)
+        log_warning(warning);
+}
+
+void note_sizes(const Prepared& prepared, Stages& stages)
+{
+    const std::vector<Lumel>& lumels = prepared.lumels.lumels;
+    const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
+        return (lumel.flags & kLumelBuried) != 0;
+    });
+    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
+                            "buried",
+                            prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
+                            lumels.size(), prepared.lumels.pieces.size(), buried));
+}
+
+void tell_user(const Prepared& prepared)
+{
+    tell_warnings(prepared.scene);
+    for (const std::string& note : prepared.atlas.notes)
+        log_info(note);
+}
+
+}  // namespace lumel

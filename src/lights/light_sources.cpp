@@ -1,0 +1,146 @@
+#include "lights/light_sources.h"
+
+#include <algorithm>
+
+namespace lumel {
+namespace {
+
+bool contains(const auto& list, const auto& value)
+{
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+std::string name_of(const Scene& scene, int material)
+{
+    const std::string& name = scene.materials[std::size_t(material)].name;
+    return name.empty() ? "material " + std::to_string(material) : name;
+}
+
+std::string name_of(const Scene& scene, std::uint32_t instance)
+{
+    const std::string& name = scene.instances[instance].name;
+    return name.empty() ? "instance " + std::to_string(instance) : name;
+}
+
+/// Instances of which an open lumel shines.
+std::vector<std::uint32_t> shining_instances(const Scene& scene, const Lumels& lumels)
+{
+    std::vector<char> shines(scene.instances.size(), 0);
+    for (const Lumel& lumel : lumels.lumels)
+        if (!(lumel.flags & kLumelBuried) && lumel.emission != glm::vec3(0.0f))
+            shines[lumel.instance] = 1;
+    std::vector<std::uint32_t> instances;
+    for (std::uint32_t i = 0; i < shines.size(); ++i)
+        if (shines[i])
+            instances.push_back(i);
+    return instances;
+}
+
+std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t instance)
+{
+    std::vector<std::string> names;
+    const Mesh& mesh = scene.meshes[std::size_t(scene.instances[instance].mesh)];
+    for (const Primitive& primitive : mesh.primitives) {
+        const std::string name = name_of(scene, primitive.material);
+        const Material& material = scene.materials[std::size_t(primitive.material)];
+        if (material.emitted != glm::vec3(0.0f) && !contains(names, name))
+            names.push_back(name);
+    }
+    return names;
+}
+
+constexpr int kNone = -1;
+
+/// A material that looks the same and does not shine; itself if it does not.
+int without_emission(Scene& scene, int material, std::vector<int>& dark)
+{
+    if (scene.materials[std::size_t(material)].emitted == glm::vec3(0.0f))
+        return material;
+    int& made = dark[std::size_t(material)];
+    if (made == kNone) {
+        made = int(scene.materials.size());
+        scene.materials.push_back(scene.materials[std::size_t(material)]);
+        scene.materials.back().emitted = glm::vec3(0.0f);
+    }
+    return made;
+}
+
+/// The same of a mesh.
+int without_emission(Scene& scene, int mesh, std::vector<int>& dark_mesh,
+                     std::vector<int>& dark_material)
+{
+    const auto shines = [&](const Primitive& primitive) {
+        return scene.materials[std::size_t(primitive.material)].emitted != glm::vec3(0.0f);
+    };
+    const std::vector<Primitive>& primitives = scene.meshes[std::size_t(mesh)].primitives;
+    if (std::none_of(primitives.begin(), primitives.end(), shines))
+        return mesh;
+    int& made = dark_mesh[std::size_t(mesh)];
+    if (made == kNone) {
+        made = int(scene.meshes.size());
+        Mesh copy = scene.meshes[std::size_t(mesh)];
+        for (Primitive& primitive : copy.primitives)
+            primitive.material = without_emission(scene, primitive.material, dark_material);
+        scene.meshes.push_back(std::move(copy));
+    }
+    return made;
+}
+
+LightSource& named(std::vector<LightSource>& sources, const std::string& name)
+{
+    const auto found = std::find_if(sources.begin(), sources.end(),
+                                    [&](const LightSource& source) { return source.name == name; });
+    return found != sources.end() ? *found : sources.emplace_back(LightSource{.name = name});
+}
+
+}  // namespace
+
+std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels)
+{
+    std::vector<LightSource> sources;
+    if (!scene.sky.empty())
+        sources.push_back({.name = kSkyName, .sky = true});
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+        if (shines(scene.lights[i]))
+            named(sources, scene.lights[i].name).lights.push_back(i);
+
+    const std::vector<std::uint32_t> instances = shining_instances(scene, lumels);
+    for (const std::uint32_t i : instances) {
+        const std::vector<std::string> materials = shining_materials(scene, i);
+        const bool by_material = instances.size() > kMaxEmitters && !materials.empty();
+        LightSource& source = named(sources, by_material ? materials.front() : name_of(scene, i));
+        source.instances.push_back(i);
+        for (const std::string& material : materials)
+            if (!contains(source.materials, material))
+                source.materials.push_back(material);
+    }
+    return sources;
+}
+
+Scene lamps_of(const Scene& scene, const LightSource& source)
+{
+    Scene lamps;
+    lamps.path = scene.path;
+    lamps.profiles = scene.profiles;
+    if (source.sky)
+        lamps.sky = scene.sky;
+    for (const std::uint32_t i : source.lights)
+        lamps.lights.push_back(scene.lights[i]);
+    return lamps;
+}
+
+Scene only_shining(Scene scene, const LightSource& source)
+{
+    scene.sky = {};
+    scene.lights.clear();
+    std::vector<int> dark_mesh(scene.meshes.size(), kNone),
+        dark_material(scene.materials.size(), kNone);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        int& mesh = scene.instances[i].mesh;
+        if (!contains(source.instances, i))
+            mesh = without_emission(scene, mesh, dark_mesh, dark_material);
+    }
+    return scene;
+}
+
+}  // namespace lumel

@@ -1,0 +1,63 @@
+#pragma once
+// Shadow rays, queued singly, cast in batches.
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "lights/sources.h"
+#include "rays/cast/ray_caster.h"
+
+namespace lumel {
+
+/// From a point to where a sample of a source is. ray_offset: short of it [m].
+inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, float ray_offset,
+                           std::uint32_t seed)
+{
+    if (std::isinf(sample.distance))
+        return ray_out(start.position, sample.direction, seed);
+    return ray_between(start.position, start.position + sample.distance * sample.direction,
+                       ray_offset, seed);
+}
+
+class ShadowRays {
+public:
+    std::uint32_t size() const { return std::uint32_t(samples_.size()); }
+
+    /// Adds a look at what a source sends along a ray, which is not cast where that is nothing.
+    void add(const SourceSample& sample, const RaySpan& ray)
+    {
+        const bool dark = sample.irradiance == glm::vec3(0.0f);
+        ray_of_.push_back(dark ? kNoRay : std::uint32_t(rays_.size()));
+        samples_.push_back(sample);
+        if (!dark)
+            rays_.push_back(ray);
+    }
+    void cast(const RayCaster& caster)
+    {
+        passing_.resize(rays_.size());
+        caster.passing(rays_, passing_);
+    }
+    void clear()
+    {
+        samples_.clear();
+        ray_of_.clear();
+        rays_.clear();
+    }
+
+    const SourceSample& sample(std::size_t look) const { return samples_[look]; }
+    /// Once all are cast: what of it gets through [0…1].
+    glm::vec3 passing(std::size_t look) const
+    {
+        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : passing_[ray_of_[look]];
+    }
+
+private:
+    static constexpr std::uint32_t kNoRay = ~0u;
+    std::vector<SourceSample> samples_;  ///< [looks]
+    std::vector<std::uint32_t> ray_of_;  ///< [looks]
+    std::vector<RaySpan> rays_;
+    std::vector<glm::vec3> passing_;  ///< [rays]
+};
+
+}  // namespace lumel

@@ -1,0 +1,51 @@
+#pragma once
+// What rays to a source tell of its light.
+
+#include <cstdint>
+
+#include <glm/glm.hpp>
+
+#include "base/core/luminance.h"
+#include "lights/sources.h"
+
+namespace lumel {
+
+/// The light of a source at a lumel is that of the source as if nothing were between, where that is
+/// known exactly, times the visible share, weighted by what comes along each ray:
+///
+///     D = ⟨open⟩ · Σ V f / Σ f,        else  D = ⟨V f⟩.
+///
+/// So lumels that see all of a source, or nothing of it, have no noise.
+struct SourceEstimate {
+    glm::vec3 open{0.0f};    ///< Σ of what is known exactly [lx]
+    glm::vec3 passed{0.0f};  ///< Σ V f [lx]
+    float offered = 0.0f;    ///< Σ f by luminance
+    glm::vec3 seen{0.0f};    ///< Σ V f by luminance of f
+    std::uint32_t rays = 0, free = 0, hidden = 0;
+    bool exact = true;
+
+    void add(const SourceSample& sample, const glm::vec3& passing)
+    {
+        const float offer = float(luminance(sample.irradiance));
+        ++rays;
+        if (sample.open)
+            open += *sample.open;
+        else
+            exact = false;
+        passed += passing * sample.irradiance;
+        offered += offer;
+        seen += passing * offer;
+        if (offer > 0.0f)
+            ++(passing == glm::vec3(0.0f) ? hidden : free);
+    }
+    glm::vec3 light() const
+    {
+        if (rays == 0)
+            return glm::vec3(0.0f);
+        if (!exact)
+            return passed / float(rays);
+        return offered > 0.0f ? open / float(rays) * (seen / offered) : glm::vec3(0.0f);
+    }
+};
+
+}  // namespace lumel

@@ -1,0 +1,534 @@
+// Random numbers of the two halves are independent.
+//
+// A few rays tell which lumels see parts of sources; these begin anew with many, so that what the
+// few have shown decides nothing about the result. More go where neighbours are uncertain.
+
+#include "links/direct/direct.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/core/luminance.h"
+#include "base/core/parallel.h"
+#include "lights/source_estimate.h"
+#include "links/direct/deviation.h"
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels of one block of work, and blocks of one step.
+constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
+/// Rays of one half for each source: of all lumels, and of those that see a part of a source. Small
+/// sources have sharp shadows.
+constexpr std::uint32_t kFewRays = 8, kManyRays = 16, kTimesToSmall = 2;
+/// Sources with less than this share of the light guessed for a lumel share their rays.
+constexpr float kOwnRays = 1.0f / 16.0f;
+/// Halvings of their rays at most, against the source that may send most.
+constexpr std::uint32_t kMaxHalved = 3;
+/// The light of a lumel's cells is kept if it differs by more than this share of the brightest, and
+/// that is more than this share of the mean of all lumels.
+constexpr float kDiffers = 0.25f, kCounts = 0.01f;
+
+/// Neighbours in the order of lumels, on either side, that should see the same sources.
+constexpr std::size_t kNeighbours = 4;
+/// Rays of one half to a source, at most, and times as many as before in one pass.
+constexpr std::uint32_t kMaxRays = kManyRays << 9, kMaxTimes = 16;
+/// Less than so many times the rays before are not worth a pass.
+constexpr double kMinTimes = 1.41;
+/// Steps of the search for how many rays a variance takes, and how far it goes beyond where the
+/// most uncertain lumel has the most rays.
+constexpr int kSearchSteps = 24;
+constexpr double kWidestSearch = 1e3;
+/// Halves that differ by more than this share of their mean, and of that of all lumels, are
+/// uncertain.
+constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
+
+/// Sources that a point beside the lumels asks for light, at most.
+constexpr std::uint32_t kMaxSought = 2;
+
+/// Sets many rays apart from few among the random streams of a lumel.
+constexpr std::uint32_t kManyStream = 0x10000;
+
+/// Dimension pairs of a ray's random numbers.
+constexpr std::uint32_t kStartPair = 0, kChoicePair = 1, kSourcePair = 2;
+
+}  // namespace
+
+struct DirectEstimator::Found {
+    glm::vec3 half[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    OfCells cells{};
+    std::uint32_t seen = 0;
+    bool uncertain = false;
+    bool exact = true;  ///< of all sources what they send as if nothing were between is known
+    std::uint64_t rays = 0;
+};
+
+/// Rays from a lumel to one source, or to several that share them: those of the second half follow
+/// those of the first.
+struct DirectEstimator::Group {
+    std::uint32_t source;
+    bool alone;
+    std::uint32_t first, rays;  ///< looks, of each half
+};
+
+/// Lumels whose rays are cast together.
+struct DirectEstimator::RayBatch {
+    std::size_t first = 0;                     ///< lumel, in the list of the pass
+    std::vector<std::uint32_t> lumels;         ///< that follow each other in it
+    std::vector<std::uint32_t> groups_before;  ///< [lumels + 1]
+    std::vector<Group> groups;
+    ShadowRays looks;
+    std::vector<std::uint32_t> cells;  ///< [looks] of the lumel, that the ray leaves
+
+    explicit RayBatch(std::size_t from) { begin(from); }
+    void begin(std::size_t from)
+    {
+        first = from;
+        lumels.clear();
+        groups_before.assign(1, 0);
+        groups.clear();
+        looks.clear();
+        cells.clear();
+    }
+};
+
+/// One source of several, and what its light counts for the others.
+struct DirectEstimator::Choice {
+    std::uint32_t source;
+    float factor;
+};
+
+DirectEstimator::DirectEstimator(const LinkScene& place, const LightSources& sources,
+                                 const RayOrigins& starts, const std::vector<std::uint32_t>& order,
+                                 std::uint32_t seed)
+    : place_(place),
+      sources_(sources),
+      starts_(starts),
+      order_(order),
+      seed_(seed),
+      half_{std::vector<glm::vec3>(order.size()), std::vector<glm::vec3>(order.size())},
+      taken_(order.size()),
+      more_(order.size()),
+      seen_(order.size()),
+      uncertain_(order.size()),
+      varying_(order.size(), kSame),
+      blocks_((order.size() + kBlock - 1) / kBlock)
+{
+}
+
+/// Sources that send much have rays of their own, in proportion to what they may send; `rest`:
+/// running sums over all sources of what the others might send.
+std::vector<DirectEstimator::RaysTo>
+DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<float>& rest) const
+{
+    rest.resize(sources_.count());
+    float total = 0.0f, most = 0.0f;
+    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
+        total += rest[s] = sources_.sampling_weight(s, at, size);
+        most = std::max(most, rest[s]);
+    }
+    const auto halved = [&](float guess) {
+        const float times = most > 0.0f ? std::round(std::log2(most / guess)) : 0.0f;
+        return std::uint32_t(std::clamp(times, 0.0f, float(kMaxHalved)));
+    };
+    std::vector<RaysTo> result;
+    float sum = 0.0f;
+    for (std::uint32_t s = 0; s < sources_.count(); ++s) {
+        if (rest[s] >= kOwnRays * total) {
+            result.push_back({.source = s, .halved = halved(rest[s])});
+            rest[s] = 0.0f;
+        }
+        rest[s] = sum += rest[s];
+    }
+    if (sum > 0.0f)
+        result.push_back({.halved = halved(sum), .rest = &rest});
+    return result;
+}
+
+/// By running sums over the sources.
+DirectEstimator::Choice DirectEstimator::choose(const std::vector<float>& running, float at)
+{
+    const float mark = at * running.back();
+    const auto found = std::upper_bound(running.begin(), running.end() - 1, mark);
+    const auto source = std::uint32_t(found - running.begin());
+    const float own = *found - (source > 0 ? running[source - 1] : 0.0f);
+    return {source, own > 0.0f ? running.back() / own : 0.0f};
+}
+
+/// Queues a shadow ray to a point of a source. factor: scales its light where it stands for others
+/// too.
+void DirectEstimator::look(const RayOrigin& start, std::size_t source, float factor,
+                           const glm::vec2& at, std::uint32_t seed, ShadowRays& looks) const
+{
+    SourceSample sample = sources_.sample(source, start, at);
+    if (factor != 1.0f) {
+        sample.irradiance *= factor;
+        sample.open.reset();
+    }
+    looks.add(sample, ray_towards(sample, start, place_.rays.ray_offset(), seed));
+}
+
+std::uint32_t DirectEstimator::looks_around() const
+{
+    return std::min(std::uint32_t(sources_.count()), kMaxSought);
+}
+
+void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uint32_t seed,
+                                    ShadowRays& looks) const
+{
+    const auto place_on = [&](std::uint32_t k) {
+        const std::uint32_t own = PathSamples::hash(seed, k);
+        return glm::vec2(PathSamples::to_unit(own),
+                         PathSamples::to_unit(PathSamples::hash(own, 1)));
+    };
+    const auto add = [&](std::size_t source, float factor, std::uint32_t k) {
+        look(start, source, factor, place_on(k), PathSamples::hash(seed, ~k), looks);
+    };
+    const auto count = std::uint32_t(sources_.count());
+    if (count <= kMaxSought) {
+        for (std::uint32_t s = 0; s < count; ++s)
+            add(s, 1.0f, s);
+        return;
+    }
+    // Some, by what they may send.
+    std::vector<float> running(count);
+    float sum = 0.0f;
+    for (std::uint32_t s = 0; s < count; ++s)
+        running[s] = sum += sources_.sampling_weight(s, start.position, size);
+    for (std::uint32_t k = 0; k < kMaxSought; ++k) {
+        const Choice choice =
+            choose(running, (place_on(count + k).x + float(k)) / float(kMaxSought));
+        add(choice.source, choice.factor / float(kMaxSought), k);
+    }
+}
+
+glm::vec3 DirectEstimator::light_of(const ShadowRays& looks, std::uint32_t first) const
+{
+    glm::vec3 light(0.0f);
+    for (std::uint32_t look = first; look < first + looks_around(); ++look)
+        light += looks.passing(look) * looks.sample(look).irradiance;
+    return light;
+}
+
+/// Rays of a lumel to a source, or to the rest of the sources together.
+void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
+                               RayBatch& wave) const
+{
+    const bool many = more > 0, alone = !to.rest, small = alone && sources_.is_small(to.source);
+    const std::uint32_t times = small ? kTimesToSmall : 1;
+    const std::uint32_t begin = many ? times * taken_[i] >> to.halved : 0;
+    const std::uint32_t rays = times * (many ? more >> to.halved : kFewRays);
+    wave.groups.push_back({to.source, alone, wave.looks.size(), rays});
+    for (std::uint32_t h = 0; h < 2; ++h) {
+        const std::uint32_t stream =
+            PathSamples::hash(PathSamples::hash(seed_, 2 * i + h),
+                              2 * to.source + (alone ? 0 : 1) + (many ? kManyStream : 0));
+        for (std::uint32_t k = begin; k < begin + rays; ++k) {
+            const PathSamples samples(stream, k);
+            const RayOrigin start = starts_.start(i, samples.stratified(kStartPair));
+            const Choice choice = alone ? Choice{to.source, 1.0f}
+                                        : choose(*to.rest, samples.stratified(kChoicePair).x);
+            look(start, choice.source, choice.factor, samples.stratified(kSourcePair),
+                 samples.bits(kSourcePair), wave.looks);
+            wave.cells.push_back(start.cell);
+        }
+    }
+}
+
+/// The rays that lumel i has in this pass.
+void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    std::vector<float> rest;
+    if (!(lumel.flags & kLumelBuried))
+        for (const RaysTo& to :
+             share_out_rays(starts_.start(i, glm::vec2(0.5f)).position, lumel.size, rest))
+            add_rays(i, to, more_[i], wave);
+    wave.lumels.push_back(i);
+    wave.groups_before.push_back(std::uint32_t(wave.groups.size()));
+}
+
+/// Adds what the rays of a group have found.
+void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& found)
+{
+    std::array<SourceEstimate, kCells> of_cells;
+    SourceEstimate of_both;
+    for (std::uint32_t h = 0; h < 2; ++h) {
+        SourceEstimate sums;
+        const std::uint32_t first = group.first + h * group.rays;
+        for (std::uint32_t look = first; look < first + group.rays; ++look)
+            for (SourceEstimate* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
+                into->add(wave.looks.sample(look), wave.looks.passing(look));
+        found.half[h] += sums.light();
+    }
+    found.rays += of_both.free + of_both.hidden;
+    found.uncertain = found.uncertain || (of_both.free > 0 && of_both.hidden > 0);
+    found.exact = found.exact && of_both.exact;
+    if (of_both.free > 0)
+        found.seen |= 1u << (group.alone ? group.source % 32 : 31);
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        found.cells[c] += (of_cells[c].rays > 0 ? of_cells[c] : of_both).light();
+}
+
+void DirectEstimator::take(const RayBatch& wave)
+{
+    for (std::size_t k = 0; k < wave.lumels.size(); ++k) {
+        const std::uint32_t i = wave.lumels[k];
+        Found found;
+        for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
+            take(wave.groups[g], wave, found);
+        // A ray for a cell tells something only if it tells all.
+        if (more_[i] == 0 && !found.exact)
+            found.cells.fill(0.5f * (found.half[0] + found.half[1]));
+        keep(i, found, blocks_[(wave.first + k) / kBlock]);
+    }
+}
+
+/// Of the lumels in blocks [first, last) of a list.
+void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t first,
+                           std::size_t last)
+{
+    const std::size_t begin = first * kBlock, end = std::min(last * kBlock, lumels.size());
+    RayBatch wave(begin);
+    for (std::size_t k = begin; k < end; ++k) {
+        add(lumels[k], wave);
+        if (wave.looks.size() < place_.caster.batch() && k + 1 < end)
+            continue;
+        wave.looks.cast(place_.caster);
+        take(wave);
+        wave.begin(k + 1);
+    }
+}
+
+/// Takes over what was found of lumel i; many rays are the mean of what all of them found.
+void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
+{
+    const std::uint32_t taken = taken_[i], more = more_[i];
+    const float before = taken > 0 ? float(taken) / float(taken + more) : 0.0f;
+    OfCells cells;
+    for (std::uint32_t c = 0; c < std::uint32_t(kCells); ++c)
+        cells[c] = before * at(i, c) + (1.0f - before) * found.cells[c];
+    for (int h = 0; h < 2; ++h)
+        half_[h][i] = before * half_[h][i] + (1.0f - before) * found.half[h];
+    taken_[i] += more;
+    if (first_pass_) {
+        uncertain_[i] = found.uncertain;
+        seen_[i] = found.seen;
+    }
+    block.rays += found.rays;
+    const auto by_light = [](const glm::vec3& one, const glm::vec3& other) {
+        return luminance(one) < luminance(other);
+    };
+    const auto [least, most] = std::minmax_element(cells.begin(), cells.end(), by_light);
+    if (luminance(*most) - luminance(*least) > double(kDiffers) * luminance(*most)) {
+        block.lumel.push_back(i);
+        block.cells.push_back(cells);
+    }
+}
+
+bool DirectEstimator::fits() const
+{
+    const std::size_t count = order_.size();
+    return half_[0].size() == count && half_[1].size() == count && taken_.size() == count &&
+           more_.size() == count && seen_.size() == count && uncertain_.size() == count &&
+           varying_.size() == count && done_ <= blocks_.size();
+}
+
+std::uint64_t DirectEstimator::bytes(std::size_t lumels, std::size_t varying)
+{
+    constexpr std::size_t kOfLumel =
+        2 * sizeof(glm::vec3) + 5 * sizeof(std::uint32_t) + sizeof(char);
+    return lumels * kOfLumel + varying * sizeof(OfCells);
+}
+
+bool DirectEstimator::step()
+{
+    const std::vector<std::uint32_t>& list = first_pass_ ? order_ : many_;
+    if (first_pass_ && sources_.count() == 0)
+        return false;
+    const std::size_t last_block = std::min(done_ + kBlocksPerStep, blocks_.size());
+    const std::size_t grain = place_.caster.batch() / (kBlock * 2 * kFewRays);
+    parallel_for(last_block - done_, grain, [&](std::size_t first, std::size_t last) {
+        find(list, done_ + first, done_ + last);
+    });
+    done_ = last_block;
+    if (done_ < blocks_.size())
+        return true;
+
+    // The pass ends.
+    if (first_pass_)
+        mark_uncertain_hidden();
+    keep_cells();
+    const bool more = first_pass_ && !many_.empty();
+    first_pass_ = false;
+    if (more)
+        begin_pass();
+    return more;
+}
+
+void DirectEstimator::begin_pass()
+{
+    blocks_.assign((many_.size() + kBlock - 1) / kBlock, {});
+    done_ = 0;
+}
+
+/// Rays that lumel i should have more, if so many were best.
+std::uint32_t DirectEstimator::wanted(std::uint32_t i, double rays) const
+{
+    const std::uint32_t taken = taken_[i];
+    if (!(rays > kMinTimes * double(std::max(taken, kFewRays))))
+        return 0;
+    const double doubled = std::round(std::log2(std::max(rays / double(kManyRays), 1.0)));
+    const std::uint32_t most = std::min(std::max(taken, kManyRays) * kMaxTimes, kMaxRays);
+    const auto all = std::uint32_t(std::min(std::exp2(doubled) * double(kManyRays), double(most)));
+    return all > taken ? all - taken : 0;
+}
+
+bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector<double>& weight)
+{
+    // The variance of a ray is about that of the lumel times its rays. All variances together are
+    // least if rays are in proportion to deviations.
+    const auto rays_of = [&](std::uint32_t i) { return double(std::max(taken_[i], kFewRays)); };
+    std::vector<double> variance(order_.size()), square(order_.size());
+    double now = 0.0;
+    for (const std::uint32_t i : order_) {
+        const glm::vec3 apart = half_[0][i] - half_[1][i];
+        now += variance[i] = weight[i] * double(glm::dot(apart, apart));
+        square[i] = variance[i] * rays_of(i);
+    }
+    const std::vector<double> deviation = deviation_nearby(square, order_, 1.0);
+    const double widest = *std::max_element(deviation.begin(), deviation.end());
+    const auto enough = [&](double scale) {
+        double left = 0.0;
+        std::uint64_t rays = 0;
+        for (const std::uint32_t i : order_) {
+            if (place_.lumels.lumels[i].flags & kLumelBuried)
+                continue;
+            const std::uint32_t more = wanted(i, scale * deviation[i]);
+            rays += 2 * std::uint64_t(more);
+            left += more > 0 ? variance[i] * rays_of(i) / double(taken_[i] + more) : variance[i];
+        }
+        return rays >= most || left <= share * now;
+    };
+    if (!(widest > 0.0))
+        return false;
+    double low = double(kFewRays) / widest, high = kWidestSearch * double(kMaxRays) / widest;
+    for (int step = 0; step < kSearchSteps; ++step) {
+        const double middle = std::sqrt(low * high);
+        (enough(middle) ? high : low) = middle;
+    }
+    many_.clear();
+    for (const std::uint32_t i : order_) {
+        more_[i] =
+            place_.lumels.lumels[i].flags & kLumelBuried ? 0 : wanted(i, high * deviation[i]);
+        if (more_[i] > 0)
+            many_.push_back(i);
+    }
+    if (many_.empty())
+        return false;
+    begin_pass();
+    return true;
+}
+
+double DirectEstimator::fraction() const
+{
+    // Few rays, then many: each pass is about a half.
+    const double part = blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
+    return first_pass_ ? 0.5 * part : 0.5 + 0.5 * part;
+}
+
+double DirectEstimator::mean_of_all() const
+{
+    double mean = 0.0;
+    for (std::size_t i = 0; i < half_[0].size(); ++i)
+        mean += luminance(this->mean(i));
+    return mean / double(std::max<std::size_t>(half_[0].size(), 1));
+}
+
+/// Do the halves differ by more than counts?
+bool DirectEstimator::differs(std::size_t i, double mean) const
+{
+    const double apart = std::abs(luminance(half_[0][i]) - luminance(half_[1][i]));
+    return apart > kUncertain * luminance(this->mean(i)) && apart > kUncertainOfAll * mean;
+}
+
+/// Lumels that see a part of a source, those whose halves differ, and those that see other sources
+/// than a neighbour on their chart: few rays miss thin shadows.
+void DirectEstimator::mark_uncertain_hidden()
+{
+    const std::vector<std::uint32_t> by_side = lumels_by_side(place_.lumels);
+    const int width = place_.lumels.width, height = place_.lumels.height;
+    std::vector<char> needs = uncertain_;
+    const double mean = mean_of_all();
+    for (std::size_t i = 0; i < needs.size(); ++i)
+        if (differs(i, mean))
+            needs[i] = 1;
+    parallel_for(place_.lumels.lumels.size(), 4096, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+            const Lumel& lumel = place_.lumels.lumels[i];
+            const int x = int(lumel.texel) % width, y = int(lumel.texel) / width;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height)
+                        continue;
+                    const std::size_t texel =
+                        std::size_t(y + dy) * std::size_t(width) + std::size_t(x + dx);
+                    const std::uint32_t other =
+                        by_side[2 * texel + (lumel.flags & kLumelBack ? 1 : 0)];
+                    if (other == kNoLumel || place_.lumels.lumels[other].chart != lumel.chart)
+                        continue;
+                    if (uncertain_[other] || seen_[other] != seen_[i])
+                        needs[i] = 1;
+                }
+        }
+    });
+    // Charts may be small: neighbours in space, as far as the order has them.
+    for (std::size_t o = 0; o < order_.size(); ++o)
+        for (std::size_t n = o + 1; n < std::min(o + 1 + kNeighbours, order_.size()); ++n) {
+            const std::uint32_t i = order_[o], j = order_[n];
+            if (uncertain_[i] || uncertain_[j] || seen_[i] != seen_[j])
+                needs[i] = needs[j] = 1;
+        }
+    for (const std::uint32_t i : order_)
+        if (needs[i] && !(place_.lumels.lumels[i].flags & kLumelBuried)) {
+            many_.push_back(i);
+            more_[i] = kManyRays;
+        }
+}
+
+/// Takes over what the blocks of a pass found of cells.
+void DirectEstimator::keep_cells()
+{
+    const double mean = mean_of_all();
+    std::vector<char> again(first_pass_ ? 0 : half_[0].size(), 0);
+    if (!first_pass_)
+        for (const std::uint32_t i : many_)
+            again[i] = 1;
+
+    std::vector<OfCells> kept;
+    std::vector<std::uint32_t> index(varying_.size(), kSame);
+    const auto keep = [&](std::uint32_t i, const OfCells& cells) {
+        double most = 0.0;
+        for (const glm::vec3& cell : cells)
+            most = std::max(most, luminance(cell));
+        if (most <= double(kCounts) * mean)
+            return;
+        index[i] = std::uint32_t(kept.size());
+        kept.push_back(cells);
+    };
+    if (!first_pass_)
+        for (std::uint32_t i = 0; i < varying_.size(); ++i)
+            if (varying_[i] != kSame && !again[i])
+                keep(i, cells_[varying_[i]]);
+    for (Block& block : blocks_) {
+        for (std::size_t k = 0; k < block.lumel.size(); ++k)
+            keep(block.lumel[k], block.cells[k]);
+        rays_ += block.rays;
+        block = {};
+    }
+    cells_ = std::move(kept);
+    varying_ = std::move(index);
+}
+
+}  // namespace lumel

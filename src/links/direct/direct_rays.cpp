@@ -1,0 +1,94 @@
+#include "links/direct/direct_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rays/paths/samples.h"
+#include "solve/shooting/lumel_arrays.h"
+#include "solve/solver/inputs.h"
+
+namespace lumel {
+namespace {
+
+/// The variance is brought down to this share of what it is at most in one go, since the first
+/// guess of it is rough.
+constexpr double kMinShare = 1.0 / 16.0;
+/// A pass takes at most so many times the rays of all before it.
+constexpr std::uint64_t kMaxMore = 4;
+/// Rays of a lumel in the mean, at most: what a lampshade or a niche receives of the lamp inside
+/// can take many without an end.
+constexpr std::uint64_t kMaxRays = 2048;
+/// Random stream of its rays.
+constexpr std::uint32_t kDirectStream = 2;
+
+std::vector<std::uint32_t> as_they_come(std::size_t count)
+{
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    return order;
+}
+
+}  // namespace
+
+DirectRays::DirectRays(const HostScene& host, const Lumels& lumels, std::uint32_t seed,
+                       double target_error, std::span<const glm::vec3> known)
+    : target_error_(target_error),
+      known_(irradiance_sum(known)),
+      surfaces_(host.scene),
+      caster_(cast_on_host(host.rays)),
+      place_{host.scene, surfaces_, host.rays, *caster_, nullptr, host.atlas, lumels},
+      world_(host.scene, host.rays, lumels),
+      cells_(world_),
+      starts_(world_, &cells_, host.rays.ray_offset(), false),
+      sources_(dark_, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
+      order_(as_they_come(lumels.lumels.size())),
+      finder_(place_, sources_, starts_, order_, PathSamples::hash(seed, kDirectStream))
+{
+}
+
+void DirectRays::step()
+{
+    ++state_.iterations;
+    if (finder_.step()) {
+        state_.begun = finder_.fraction();
+        return;
+    }
+    estimate();
+    double share = kMinShare;
+    if (target_error_ > 0.0 && state_.error > 0.0)
+        share = std::clamp(std::pow(target_error_ / state_.error, 2.0), kMinShare, 1.0);
+    const std::vector<double> even(order_.size(), 1.0);
+    const std::uint64_t most = kMaxRays * order_.size(), taken = finder_.rays();
+    state_.full = taken >= most || !finder_.refine(share, std::min(kMaxMore * taken, most), even);
+}
+
+/// The difference of two independent halves has four times the variance of their mean.
+void DirectRays::estimate()
+{
+    double squares = 0.0, light = known_, count = 0.0;
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        if (place_.lumels.lumels[i].flags & kLumelBuried)
+            continue;
+        const glm::vec3 apart = 0.5f * (finder_.half(0)[i] - finder_.half(1)[i]);
+        const glm::vec3 mean = finder_.mean(i);
+        squares += double(glm::dot(apart, apart));
+        light += double(mean.r + mean.g + mean.b);
+        count += 1.0;
+    }
+    // √(Σ d² / 3n) / (Σ H / 3n)
+    state_.error = light > 0.0 ? std::sqrt(3.0 * count * squares) / light : 0.0;
+    state_.shots = std::max<std::uint64_t>(1, finder_.rays() /
+                                                  std::max<std::uint64_t>(1, std::uint64_t(count)));
+    state_.begun = 1.0;
+}
+
+std::vector<glm::vec3> DirectRays::irradiance() const
+{
+    std::vector<glm::vec3> light(order_.size());
+    for (std::size_t i = 0; i < light.size(); ++i)
+        light[i] = finder_.mean(i);
+    return light;
+}
+
+}  // namespace lumel

@@ -1,0 +1,345 @@
+#include "links/filter/filter_tile.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/glm.hpp>
+
+namespace lumel {
+namespace {
+
+/// Lumels to either side, and the deviation of the bells over them, narrowest first.
+constexpr std::array<int, kBells> kReach = {kNearReach, 5};
+constexpr std::array<float, kBells> kSpread = {1.5f, 3.0f};
+/// Lumels to either side of two that are compared with each other.
+constexpr int kPatch = 1;
+static_assert(kReach.back() + kPatch <= kHalo);
+/// Lumels to either side over which the variance is averaged: so many that the weights hardly know
+/// the lumel's own.
+constexpr int kNoiseReach = 3;
+static_assert(kNoiseReach <= kHalo);
+constexpr float kMinVariance = 1e-30f;
+/// Normals of lumels that mix differ by less than 25 degrees.
+const float kCosAlike = std::cos(glm::radians(25.0f));
+/// One may lie this far out of the plane of the other, and be so many times as large.
+constexpr float kOutOfPlane = 0.5f, kSizes = 2.0f;
+/// A wide bell reaches as far as this many times the distance to what is nearest.
+constexpr float kWidth = 1.0f;
+/// Texels a side around which two patches may lie.
+constexpr int kPairs = kTile + 2 * kPatch;
+
+using Row = std::array<float, kTile>;
+
+constexpr std::ptrdiff_t in_tile(Offset to)
+{
+    return std::ptrdiff_t(to.y) * kWide + to.x;
+}
+
+/// How a lumel within reach is come to: by a last step, from one of the ring before.
+struct Way {
+    Offset to;
+    std::size_t from;        ///< way
+    unsigned step;           ///< into kSteps
+    std::ptrdiff_t step_at;  ///< from the beginning, the lumel that has the last step's bit
+    std::array<float, kBells> bell;
+};
+
+constexpr int sign(int x)
+{
+    return (x > 0) - (x < 0);
+}
+
+Way way_to(Offset to, const std::vector<Way>& nearer)
+{
+    const int ring = std::max(std::abs(to.x), std::abs(to.y));
+    const Offset last{std::abs(to.x) == ring ? sign(to.x) : 0,
+                      std::abs(to.y) == ring ? sign(to.y) : 0};
+    const Offset before{to.x - last.x, to.y - last.y};
+    const auto from = std::find_if(nearer.begin(), nearer.end(), [&](const Way& way) {
+        return way.to.x == before.x && way.to.y == before.y;
+    });
+    const auto is = [](Offset step, int x, int y) { return step.x == x && step.y == y; };
+    const auto step = std::find_if(kSteps.begin(), kSteps.end(), [&](Offset s) {
+        return is(s, last.x, last.y) || is(s, -last.x, -last.y);
+    });
+    Way way{to,
+            std::size_t(from - nearer.begin()),
+            unsigned(step - kSteps.begin()),
+            in_tile(is(*step, last.x, last.y) ? before : to),
+            {}};
+    for (std::size_t b = 0; b < kBells; ++b)
+        if (ring <= kReach[b])
+            way.bell[b] =
+                std::exp(-0.5f * float(to.x * to.x + to.y * to.y) / (kSpread[b] * kSpread[b]));
+    return way;
+}
+
+/// All within reach, nearest first; the first is the lumel itself.
+std::vector<Way> all_ways()
+{
+    std::vector<Way> ways = {{{0, 0}, 0, 0, 0, {}}};
+    for (int ring = 1; ring <= kReach.back(); ++ring)
+        for (int y = -ring; y <= ring; ++y)
+            for (int x = -ring; x <= ring; ++x)
+                if (std::max(std::abs(x), std::abs(y)) == ring)
+                    ways.push_back(way_to({x, y}, ways));
+    return ways;
+}
+
+const std::vector<Way>& ways()
+{
+    static const std::vector<Way> kWays = all_ways();
+    return kWays;
+}
+
+/// Of each lumel within a tile: whether steps lead to the one at an offset.
+using Reached = std::array<std::uint8_t, std::size_t(kTile) * kTile>;
+
+/// False if none is reached.
+bool take_step(const FilterTile& tile, const Way& way, const Reached& before, Reached& reached)
+{
+    unsigned any = 0;
+    for (int y = 0; y < kTile; ++y) {
+        const std::uint8_t* steps = &tile.steps[wide_at(0, y) + std::size_t(way.step_at)];
+        const std::size_t row = std::size_t(y) * kTile;
+        for (std::size_t x = 0; x < kTile; ++x) {
+            reached[row + x] = std::uint8_t(before[row + x] & (steps[x] >> way.step));
+            any |= reached[row + x];
+        }
+    }
+    return any != 0;
+}
+
+// Plain loops over rows, without branches or references to choose between, so that compilers turn
+// them into vector instructions.
+
+glm::vec3 vector(const std::array<FilterTile::Wide<float>, 3>& planes, std::size_t t)
+{
+    return {planes[0][t], planes[1][t], planes[2][t]};
+}
+
+float least(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+float most(float a, float b)
+{
+    return a < b ? b : a;
+}
+
+/// Which lumels mix with those at an offset, and which of them have nothing near: 1 or 0.
+struct Alike {
+    Inner all, widely;
+};
+
+/// False if none does.
+bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike& alike)
+{
+    float any = 0.0f;
+    for (int y = 0; y < kTile; ++y) {
+        const std::size_t a = wide_at(0, y), b = a + std::size_t(in_tile(to)),
+                          row = std::size_t(y) * kTile;
+        for (std::size_t x = 0; x < kTile; ++x) {
+            const glm::vec3 normal = vector(tile.normal, a + x);
+            const float cosine = glm::dot(normal, vector(tile.normal, b + x));
+            const glm::vec3 apart = vector(tile.centre, b + x) - vector(tile.centre, a + x);
+            const float off = glm::dot(normal, apart);
+            const float own = tile.size[a + x], theirs = tile.size[b + x];
+            const bool is = (cosine >= kCosAlike) & (std::abs(off) <= kOutOfPlane * own) &
+                            (own <= kSizes * theirs) & (theirs <= kSizes * own);
+            const float width = kWidth * least(tile.nearest[a + x], tile.nearest[b + x]);
+            alike.all[row + x] = (is ? 1.0f : 0.0f) * float(reached[row + x] & 1);
+            alike.widely[row + x] = glm::dot(apart, apart) <= width * width ? 1.0f : 0.0f;
+        }
+        for (std::size_t x = 0; x < kTile; ++x)
+            any += alike.all[row + x];
+    }
+    return any > 0.0f;
+}
+
+/// By how far a guide differs in each pair of texels at an offset, and the noise it has there.
+struct Differences {
+    std::array<float, std::size_t(kPairs) * kPairs> square, noise;
+};
+
+void find_differences(const FilterTile& tile, std::uint32_t k, Offset to, Differences& found)
+{
+    const FilterTile::Light& light = tile.light[k];
+    const FilterTile::Wide<float>& variance = tile.variance[k];
+    for (int y = 0; y < kPairs; ++y) {
+        const std::size_t a = wide_at(-kPatch, y - kPatch), b = a + std::size_t(in_tile(to));
+        float *square = &found.square[std::size_t(y) * kPairs],
+              *noise = &found.noise[std::size_t(y) * kPairs];
+        for (std::size_t x = 0; x < kPairs; ++x) {
+            const glm::vec3 d = vector(light, a + x) - vector(light, b + x);
+            const float same = tile.chart[a + x] == tile.chart[b + x] ? 1.0f : 0.0f;
+            square[x] = same * glm::dot(d, d);
+            noise[x] = same * (variance[a + x] + variance[b + x]);
+        }
+    }
+}
+
+/// Falls like exp(-x) from x = 0 to 4, where it ends.
+float falling(float x)
+{
+    const float left = 1.0f - 0.25f * least(most(x, 0.0f), 4.0f), square = left * left;
+    return square * square;
+}
+
+/// Weights of a row of lumels by how far the guide differs around the two, beyond its noise.
+void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Differences& found,
+                  int y, Row& weight)
+{
+    Row squares{}, noises{};
+    const std::size_t own_at = wide_at(0, y), their_at = own_at + std::size_t(in_tile(to));
+    for (int dy = -kPatch; dy <= kPatch; ++dy)
+        for (int dx = -kPatch; dx <= kPatch; ++dx) {
+            const std::size_t at = wide_at(dx, y + dy),
+                              pair =
+                                  std::size_t(y + dy + kPatch) * kPairs + std::size_t(dx + kPatch);
+            for (std::size_t x = 0; x < kTile; ++x) {
+                const float same = tile.chart[at + x] == tile.chart[own_at + x] ? 1.0f : 0.0f;
+                squares[x] += same * found.square[pair + x];
+                noises[x] += same * found.noise[pair + x];
+            }
+        }
+    Row beyond;
+    for (std::size_t x = 0; x < kTile; ++x) {
+        const float own = tile.variance[k][own_at + x], theirs = tile.variance[k][their_at + x];
+        const float expected =
+            noises[x] * (own + least(own, theirs)) / (own + theirs + kMinVariance);
+        beyond[x] = (squares[x] - expected) / (noises[x] + kMinVariance);
+    }
+    for (std::size_t x = 0; x < kTile; ++x)
+        weight[x] = falling(beyond[x]);
+}
+
+/// Adds a row of lumels' followers of solution k, as far away as `there`.
+void add_row(const FilterTile& tile, std::uint32_t k, std::size_t there, const Row& weight,
+             std::size_t row, FilteredTile& filtered)
+{
+    const FilterTile::Light &one = tile.light[(k + 1) % kSolutions],
+                            &other = tile.light[(k + 2) % kSolutions];
+    for (std::size_t x = 0; x < kTile; ++x)
+        filtered.weight[row + x] += weight[x];
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t x = 0; x < kTile; ++x) {
+            filtered.one[c][row + x] += weight[x] * one[c][there + x];
+            filtered.other[c][row + x] += weight[x] * other[c][there + x];
+        }
+}
+
+/// Adds the followers of solution k at an offset to those of the tile's lumels.
+void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Alike& alike,
+         FilteredTiles& filtered)
+{
+    Differences found;
+    find_differences(tile, k, way.to, found);
+    for (int y = 0; y < kTile; ++y) {
+        Row look_alike, weight;
+        find_weights(tile, k, way.to, found, y, look_alike);
+        const std::size_t row = std::size_t(y) * kTile,
+                          there = wide_at(0, y) + std::size_t(in_tile(way.to));
+        for (std::size_t b = 0; b < kBells; ++b) {
+            const float narrow = way.bell[0], wider = way.bell[b] - narrow;
+            if (way.bell[b] == 0.0f)
+                continue;
+            for (std::size_t x = 0; x < kTile; ++x)
+                weight[x] =
+                    (narrow + wider * alike.widely[row + x]) * alike.all[row + x] * look_alike[x];
+            add_row(tile, k, there, weight, row, filtered[b][k]);
+        }
+    }
+}
+
+void begin(const FilterTile& tile, std::uint32_t k, FilteredTile& filtered)
+{
+    filtered.weight.fill(1.0f);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (int y = 0; y < kTile; ++y) {
+            const std::size_t row = std::size_t(y) * kTile;
+            std::copy_n(&tile.light[(k + 1) % kSolutions][c][wide_at(0, y)], kTile,
+                        &filtered.one[c][row]);
+            std::copy_n(&tile.light[(k + 2) % kSolutions][c][wide_at(0, y)], kTile,
+                        &filtered.other[c][row]);
+        }
+}
+
+/// visit(way, which lumels mix) for the first ways by which any are reached.
+template <class Visit>
+void for_each_way(const FilterTile& tile, std::size_t count, const Visit& visit)
+{
+    std::vector<Reached> reached(count);
+    std::vector<char> any(count, 1);
+    reached[0].fill(1);
+    Alike alike;
+    for (std::size_t w = 1; w < count; ++w) {
+        const Way& way = ways()[w];
+        any[w] = any[way.from] && take_step(tile, way, reached[way.from], reached[w]);
+        if (any[w] && find_alike(tile, way.to, reached[w], alike))
+            visit(w, alike);
+    }
+}
+
+}  // namespace
+
+void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance)
+{
+    const FilterTile::Light &one = tile.light[(k + 1) % kSolutions],
+                            &other = tile.light[(k + 2) % kSolutions];
+    FilterTile::Wide<float> square{};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t t = 0; t < square.size(); ++t) {
+            const float d = one[c][t] - other[c][t];
+            square[t] += 0.5f * d * d;
+        }
+    for (int y = 0; y < kTile; ++y) {
+        Row sum{}, count{};
+        const std::int32_t* own = &tile.chart[wide_at(0, y)];
+        for (int dy = -kNoiseReach; dy <= kNoiseReach; ++dy)
+            for (int dx = -kNoiseReach; dx <= kNoiseReach; ++dx) {
+                const std::size_t at = wide_at(dx, y + dy);
+                for (std::size_t x = 0; x < kTile; ++x) {
+                    const float same = tile.chart[at + x] == own[x] ? 1.0f : 0.0f;
+                    sum[x] += same * square[at + x];
+                    count[x] += same;
+                }
+            }
+        for (std::size_t x = 0; x < kTile; ++x)
+            variance[std::size_t(y) * kTile + x] = sum[x] / count[x];
+    }
+}
+
+void filter_tile(const FilterTile& tile, FilteredTiles& filtered)
+{
+    for (std::array<FilteredTile, kSolutions>& bell : filtered)
+        for (std::uint32_t k = 0; k < kSolutions; ++k)
+            begin(tile, k, bell[k]);
+    for_each_way(tile, ways().size(), [&](std::size_t w, const Alike& alike) {
+        for (std::uint32_t k = 0; k < kSolutions; ++k)
+            add(tile, k, ways()[w], alike, filtered);
+    });
+}
+
+void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights)
+{
+    for (std::size_t n = 0; n < kNearWays; ++n) {
+        weights.to[n] = ways()[n + 1].to;
+        weights.weight[n].fill(0.0f);
+    }
+    Differences found;
+    for_each_way(tile, kNearWays + 1, [&](std::size_t w, const Alike& alike) {
+        const Way& way = ways()[w];
+        find_differences(tile, k, way.to, found);
+        for (int y = 0; y < kTile; ++y) {
+            Row look_alike;
+            find_weights(tile, k, way.to, found, y, look_alike);
+            const std::size_t row = std::size_t(y) * kTile;
+            for (std::size_t x = 0; x < kTile; ++x)
+                weights.weight[w - 1][row + x] = way.bell[0] * alike.all[row + x] * look_alike[x];
+        }
+    });
+}
+
+}  // namespace lumel

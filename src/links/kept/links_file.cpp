@@ -1,0 +1,207 @@
+// A head, then the contents, all little-endian:
+//
+//     8 bytes   "lumellnk"
+//     8 bytes   version
+//     8 bytes   size of the contents
+//     8 bytes   fingerprint of the contents
+//     contents  in the order of contents(), as of StateWriter
+//
+// Links take as many bits as the largest of them needs, the lowest first. Contents that the
+// fingerprint vouches for are checked again before anything is indexed by them.
+
+#include "links/kept/links_file.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/core/error.h"
+#include "base/core/fingerprint.h"
+#include "base/core/state_bytes.h"
+
+namespace lumel {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
+constexpr std::uint64_t kVersion = 2;      // 1: rays by the number of a lumel
+constexpr std::uint32_t kMaxSide = 65536;  ///< of an atlas [texels]
+constexpr std::uint32_t kWord = 64;        ///< [bits]
+
+struct Head {
+    std::array<char, 8> magic = kMagic;
+    std::uint64_t version = kVersion;
+    std::uint64_t size = 0, fingerprint = 0;
+};
+
+using Words = std::vector<std::uint64_t>;
+
+std::uint32_t bits_of(const StoredLinks& kept)
+{
+    return std::uint32_t(std::bit_width(kept.ends() - 1));
+}
+
+std::uint64_t words_for(const StoredLinks& kept)
+{
+    const std::uint64_t bits = kept.lumels.size() * kept.rays * bits_of(kept);
+    return (bits + kWord - 1) / kWord;
+}
+
+Words packed(const StoredLinks& kept)
+{
+    const std::uint32_t bits = bits_of(kept);
+    Words words(words_for(kept), 0);
+    for (std::uint64_t k = 0; k < kept.links.size(); ++k) {
+        const std::uint64_t at = k * bits, link = kept.links[k];
+        words[at / kWord] |= link << at % kWord;
+        if (at % kWord + bits > kWord)
+            words[at / kWord + 1] |= link >> (kWord - at % kWord);
+    }
+    return words;
+}
+
+std::vector<std::uint32_t> unpacked(const Words& words, const StoredLinks& kept)
+{
+    const std::uint32_t bits = bits_of(kept);
+    const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
+    std::vector<std::uint32_t> links(kept.lumels.size() * kept.rays);
+    for (std::uint64_t k = 0; k < links.size(); ++k) {
+        const std::uint64_t at = k * bits;
+        std::uint64_t link = words[at / kWord] >> at % kWord;
+        if (at % kWord + bits > kWord)
+            link |= words[at / kWord + 1] << (kWord - at % kWord);
+        links[k] = std::uint32_t(link & mask);
+    }
+    return links;
+}
+
+template <class Archive>
+void contents(Archive& archive, StoredLinks& kept, Words& links)
+{
+    archive(kept.scene_hash, kept.rays, kept.seed, kept.ray_offset, kept.side,
+            kept.texels_per_metre, kept.charts, kept.shows_front, kept.back_shift, kept.sheets,
+            kept.instances, kept.lumels, links);
+}
+
+bool is_in(const glm::vec2& place, std::uint32_t side)
+{
+    return place.x >= 0.0f && place.y >= 0.0f && place.x <= float(side) && place.y <= float(side);
+}
+
+/// Its places, and those of its charts' backs, lie in the atlas; its charts have numbers.
+bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept)
+{
+    const auto has_place = [&](const glm::vec2& place) { return is_in(place, kept.side); };
+    const auto has_number = [&](std::uint32_t chart) { return chart < kept.charts; };
+    return std::all_of(sheet.texcoord.begin(), sheet.texcoord.end(), has_place) &&
+           std::all_of(sheet.chart.begin(), sheet.chart.end(), has_number);
+}
+
+/// Numbers are within their bounds, and links are as many as they should be.
+bool is_sound(const StoredLinks& kept, const Words& links)
+{
+    std::uint64_t triangles = 0;
+    for (const StoredLinks::StoredTexcoords& sheet : kept.sheets)
+        triangles += sheet.chart.size();
+    const auto within = [&](const glm::ivec2& shift) {
+        return std::max(std::abs(std::int64_t(shift.x)), std::abs(std::int64_t(shift.y))) <=
+               std::int64_t(kept.side);
+    };
+    return is_grid(kept.rays) && kept.ray_offset > 0.0f && std::isfinite(kept.ray_offset) &&
+           kept.side > 0 && kept.side <= kMaxSide && std::isfinite(kept.texels_per_metre) &&
+           kept.charts <= triangles && kept.ends() <= ~std::uint32_t(0) &&
+           (kept.back_shift.empty() || kept.back_shift.size() == kept.charts) &&
+           std::all_of(kept.back_shift.begin(), kept.back_shift.end(), within) &&
+           std::all_of(
+               kept.sheets.begin(), kept.sheets.end(),
+               [&](const StoredLinks::StoredTexcoords& sheet) { return is_sound(sheet, kept); }) &&
+           links.size() == words_for(kept);
+}
+
+std::uint64_t fingerprint_of(const std::string& bytes)
+{
+    Fingerprint print;
+    print.add_bytes(bytes.data(), bytes.size());
+    return print.value();
+}
+
+Head read_head(std::istream& file, const std::string& path)
+{
+    Head head;
+    if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic)
+        throw Error(ErrorKind::input, path, "are no links that lumel bake --keep-links wrote");
+    if (head.version != kVersion)
+        throw Error(ErrorKind::input, path,
+                    "was written by another version of lumel (its format is " +
+                        std::to_string(head.version) + ", this one reads " +
+                        std::to_string(kVersion) + "); bake the scene again");
+    return head;
+}
+
+[[noreturn]] void fail_damaged(const std::string& path)
+{
+    throw Error(ErrorKind::input, path, "is cut short or damaged; bake the scene again");
+}
+
+}  // namespace
+
+void write_links(const std::string& path, StoredLinks kept)
+{
+    std::ostringstream stream;
+    Words links = packed(kept);
+    kept.links = {};
+    StateWriter writer(stream);
+    contents(writer, kept, links);
+    const std::string bytes = std::move(stream).str();
+    const Head head{.size = bytes.size(), .fingerprint = fingerprint_of(bytes)};
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(&head), sizeof head);
+    file.write(bytes.data(), std::streamsize(bytes.size()));
+    file.close();
+    if (!file)
+        throw Error(ErrorKind::output, path, std::strerror(errno));
+}
+
+StoredLinks read_links(const std::string& path)
+{
+    std::error_code missing;
+    const std::uint64_t size = std::filesystem::file_size(path, missing);
+    std::ifstream file(path, std::ios::binary);
+    if (missing || !file)
+        throw Error(ErrorKind::input, path, "cannot be read");
+    const Head head = read_head(file, path);
+    if (head.size != size - sizeof head)
+        fail_damaged(path);
+    std::string bytes(head.size, '\0');
+    if (!file.read(bytes.data(), std::streamsize(bytes.size())) ||
+        fingerprint_of(bytes) != head.fingerprint)
+        fail_damaged(path);
+    StoredLinks kept;
+    Words links;
+    try {
+        std::istringstream stream(std::move(bytes));
+        StateReader reader(stream, head.size, path);
+        contents(reader, kept, links);
+        if (!reader.at_end())
+            fail_damaged(path);
+    } catch (const Error&) {
+        fail_damaged(path);
+    }
+    if (!is_sound(kept, links))
+        fail_damaged(path);
+    kept.links = unpacked(links, kept);
+    const std::uint64_t ends = kept.ends();
+    if (!std::all_of(kept.links.begin(), kept.links.end(),
+                     [&](std::uint32_t link) { return link < ends; }))
+        fail_damaged(path);
+    return kept;
+}
+
+}  // namespace lumel

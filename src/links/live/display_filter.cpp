@@ -1,0 +1,338 @@
+#include "links/live/display_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "base/core/parallel.h"
+#include "links/filter/filter_tile.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels and tiles of a piece of work: a few milliseconds.
+constexpr std::size_t kLumelsAtOnce = 8192, kTilesAtOnce = 4;
+/// Lumels worth a task.
+constexpr std::size_t kGrain = 256;
+/// Something nearer than this many times their distance may stand between two neighbours; a ray
+/// between them tells, this far above them in sides of a lumel.
+constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
+
+bool is_back(const Lumel& lumel)
+{
+    return (lumel.flags & kLumelBack) != 0;
+}
+
+/// visit(lumel, texel of the tile) for each within a tile, row by row.
+template <class Visit>
+void for_each_lumel(const FilterTile& tile, const Visit& visit)
+{
+    for (int y = 0; y < kTile; ++y)
+        for (int x = 0; x < kTile; ++x)
+            if (const std::uint32_t i = tile.lumel[wide_at(x, y)]; i != kNoLumel)
+                visit(i, std::size_t(y) * kTile + std::size_t(x), wide_at(x, y));
+}
+
+/// What rays bring [lx].
+glm::vec3 by_rays(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel)
+{
+    return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
+}
+
+float sum_of(const glm::vec3& light)
+{
+    return light.r + light.g + light.b;
+}
+
+}  // namespace
+
+DisplayFilter::DisplayFilter(const LinkContext& place, const LumelLinks& links)
+    : place_(place),
+      links_(links),
+      by_side_(lumels_by_side(place.lumels)),
+      places_(place.lumels.lumels.size()),
+      noise_left_(places_.size(), 1.0f)
+{
+    const auto across = std::uint32_t((place.lumels.width + kTile - 1) / kTile),
+               down = std::uint32_t((place.lumels.height + kTile - 1) / kTile);
+    std::vector<char> used(std::size_t(across) * down * 2, 0);
+    const auto tile_of = [&](const Lumel& lumel) {
+        const std::uint32_t width = std::uint32_t(place.lumels.width);
+        const std::uint32_t x = lumel.texel % width / kTile, y = lumel.texel / width / kTile;
+        return 2 * (y * across + x) + (is_back(lumel) ? 1 : 0);
+    };
+    for (const Lumel& lumel : place.lumels.lumels)
+        used[tile_of(lumel)] = 1;
+    for (std::uint32_t t = 0; t < used.size(); ++t)
+        if (used[t])
+            tiles_.push_back({.left = int(t / 2 % across) * kTile,
+                              .top = int(t / 2 / across) * kTile,
+                              .side = int(t % 2)});
+}
+
+void DisplayFilter::begin(const LumelSweeps& sweeps, const glm::vec3& sky)
+{
+    const std::vector<glm::vec3> dark(places_.size(), glm::vec3(0.0f));
+    begin({dark, dark});
+    sweeps_ = &sweeps;
+    sky_ = sky;
+    stage_ = Stage::halves;
+}
+
+void DisplayFilter::begin(std::array<std::vector<glm::vec3>, 2> halves)
+{
+    stage_ = Stage::nearest;
+    next_ = 0;
+    const std::size_t count = places_.size();
+    halves_ = std::move(halves);
+    nearest_.assign(count, 0.0f);
+    noise_.assign(count, 0.0f);
+    steps_.assign(count, 0);
+}
+
+bool DisplayFilter::step()
+{
+    const auto do_lumels = [&](const auto& work) {
+        const std::size_t first = next_, last = std::min(first + kLumelsAtOnce, places_.size());
+        parallel_for(last - first, kGrain, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = first + from; i < first + to; ++i)
+                work(i);
+        });
+        next_ = last;
+        return last == places_.size();
+    };
+    bool ended = true;
+    if (stage_ == Stage::halves)
+        ended = do_lumels([&](std::size_t i) { find_halves(i); });
+    else if (stage_ == Stage::nearest)
+        ended = do_lumels([&](std::size_t i) { find_nearest(i); });
+    else if (stage_ == Stage::steps)
+        ended = do_lumels([&](std::size_t i) { steps_[i] = steps_of(i); });
+    else if (stage_ == Stage::noise)
+        ended = do_tiles([&](Tile&, FilterTile& tile) { find_noise(tile); });
+    else if (stage_ == Stage::weights)
+        ended = do_tiles([&](Tile& of, FilterTile& tile) { weigh(of, tile); });
+    if (ended && stage_ != Stage::done) {
+        stage_ = Stage(int(stage_) + 1);
+        next_ = 0;
+    }
+    if (stage_ != Stage::done)
+        return false;
+    halves_ = {};
+    nearest_ = noise_ = {};
+    steps_ = {};
+    return true;
+}
+
+template <class Work>
+bool DisplayFilter::do_tiles(const Work& work)
+{
+    const std::size_t first = next_, last = std::min(first + kTilesAtOnce, tiles_.size());
+    parallel_for(last - first, 1, [&](std::size_t from, std::size_t to) {
+        const auto tile = std::make_unique<FilterTile>();
+        for (std::size_t t = first + from; t < first + to; ++t) {
+            fill(tiles_[t], *tile);
+            work(tiles_[t], *tile);
+        }
+    });
+    next_ = last;
+    return last == tiles_.size();
+}
+
+/// kNoLumel where there is none that light reaches.
+std::uint32_t DisplayFilter::lumel_at(int x, int y, int side) const
+{
+    const int width = place_.lumels.width;
+    if (x < 0 || x >= width || y < 0 || y >= place_.lumels.height)
+        return kNoLumel;
+    const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
+    const std::uint32_t i = by_side_[2 * texel + std::size_t(side)];
+    return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
+}
+
+/// Light of the rays whose cells lie on the white and on the black fields of a board, each as if it
+/// were all.
+void DisplayFilter::find_halves(std::size_t i)
+{
+    const std::span<const std::uint32_t> links = links_.of(i);
+    glm::vec4 sums[2] = {glm::vec4(0.0f), glm::vec4(0.0f)};
+    for (std::uint32_t k = 0; k < links.size(); ++k)
+        sums[links_.half_of(k)] += sweeps_->sent(links[k]);
+    const float share = 2.0f / float(links.size());
+    const glm::vec3 sky = links_.sky_light()[i], white = links_.white_sky_light()[i];
+    halves_[0][i] = share * glm::vec3(sums[0]) + sky_ * 2.0f * white;
+    halves_[1][i] = share * glm::vec3(sums[1]) + sky_ * 2.0f * (sky - white);
+}
+
+/// How near the rays of a lumel end [m], at least.
+void DisplayFilter::find_nearest(std::size_t i)
+{
+    const glm::vec3& centre = place_.world[i].centre;
+    float nearest = std::numeric_limits<float>::max();
+    for (const std::uint32_t link : links_.of(i))
+        if (link < links_.sky())
+            nearest = std::min(nearest, glm::distance(centre, place_.world[link].centre) -
+                                            place_.world[link].size);
+    nearest_[i] = std::max(nearest, 0.0f);
+}
+
+/// To which of its neighbours on the same chart and side light may mix.
+std::uint8_t DisplayFilter::steps_of(std::size_t i) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    if (lumel.flags & kLumelBuried)
+        return 0;
+    const int width = place_.lumels.width, x = int(lumel.texel) % width,
+              y = int(lumel.texel) / width;
+    unsigned steps = 0;
+    for (unsigned s = 0; s < kSteps.size(); ++s) {
+        const std::uint32_t j = lumel_at(x + kSteps[s].x, y + kSteps[s].y, is_back(lumel) ? 1 : 0);
+        if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && may_step(i, j))
+            steps |= 1u << s;
+    }
+    return std::uint8_t(steps);
+}
+
+/// Nothing stands between two neighbours.
+bool DisplayFilter::may_step(std::size_t i, std::size_t j) const
+{
+    const WorldLumel &a = place_.world[i], &b = place_.world[j];
+    if (std::min(nearest_[i], nearest_[j]) > kMayStandBetween * glm::distance(a.centre, b.centre))
+        return true;
+    const float ray_offset = std::max(kLift * std::max(a.size, b.size), place_.ray_offset);
+    return place_.rays.is_clear(ray_between(a.centre + ray_offset * a.normal,
+                                            b.centre + ray_offset * b.normal, 0.0f,
+                                            std::uint32_t(i)));
+}
+
+/// Solution 0 is the guide, the mean of its followers, which are the halves.
+void DisplayFilter::fill(const Tile& of, FilterTile& tile) const
+{
+    for (int y = -kHalo; y < kTile + kHalo; ++y)
+        for (int x = -kHalo; x < kTile + kHalo; ++x) {
+            const std::size_t t = wide_at(x, y);
+            const std::uint32_t i = tile.lumel[t] = lumel_at(of.left + x, of.top + y, of.side);
+            const bool is = i != kNoLumel;
+            tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
+            tile.steps[t] = is ? steps_[i] : std::uint8_t(0);
+            tile.size[t] = is ? place_.world[i].size : 0.0f;
+            tile.nearest[t] = is ? nearest_[i] : 0.0f;
+            tile.variance[0][t] = is ? noise_[i] : 0.0f;
+            for (int c = 0; c < 3; ++c) {
+                const auto axis = std::size_t(c);
+                tile.centre[axis][t] = is ? place_.world[i].centre[c] : 0.0f;
+                tile.normal[axis][t] = is ? place_.world[i].normal[c] : 0.0f;
+                const float one = is ? halves_[0][i][c] : 0.0f,
+                            other = is ? halves_[1][i][c] : 0.0f;
+                tile.light[0][axis][t] = 0.5f * (one + other);
+                tile.light[1][axis][t] = one;
+                tile.light[2][axis][t] = other;
+            }
+        }
+}
+
+/// The mean of two halves has half the variance of one.
+void DisplayFilter::find_noise(FilterTile& tile)
+{
+    Inner inner;
+    find_variance(tile, 0, inner);
+    for_each_lumel(
+        tile, [&](std::uint32_t i, std::size_t t, std::size_t) { noise_[i] = 0.5f * inner[t]; });
+}
+
+void DisplayFilter::weigh(Tile& of, FilterTile& tile)
+{
+    const auto weights = std::make_unique<NearWeights>();
+    weigh_tile(tile, 0, *weights);
+    of.first = {0};
+    of.weights.clear();
+    for_each_lumel(tile, [&](std::uint32_t i, std::size_t t, std::size_t at) {
+        for (std::size_t n = 0; n < kNearWays; ++n)
+            if (weights->weight[n][t] > 0.0f) {
+                const std::ptrdiff_t there =
+                    std::ptrdiff_t(at) + weights->to[n].y * kWide + weights->to[n].x;
+                of.weights.push_back({tile.lumel[std::size_t(there)], weights->weight[n][t]});
+            }
+        places_[i] = {std::uint32_t(&of - tiles_.data()), std::uint32_t(of.first.size() - 1)};
+        of.first.push_back(std::uint32_t(of.weights.size()));
+        noise_left_[i] = noise_left(i, of);
+    });
+}
+
+/// Noise of lumels is independent: the variance of Σ w x / Σ w is Σ w² σ² / (Σ w)². What lies
+/// between the light of neighbours is not in it.
+float DisplayFilter::noise_left(std::uint32_t i, const Tile& of) const
+{
+    const auto light = [&](std::uint32_t j) { return 0.5f * (halves_[0][j] + halves_[1][j]); };
+    glm::vec3 sum = light(i);
+    float variance = noise_[i];
+    const Place place = places_[i];
+    for (std::uint32_t w = of.first[place.number]; w < of.first[place.number + 1]; ++w) {
+        const Weight& one = of.weights[w];
+        sum += one.weight * light(one.lumel);
+        variance += one.weight * one.weight * noise_[one.lumel];
+    }
+    // Of sums over weights both, so that (Σ w) goes. The variance is that of three channels
+    // together.
+    constexpr float kChannels = 3.0f;
+    const float mean = sum_of(sum) / kChannels;
+    return mean > 0.0f ? std::sqrt(variance / kChannels) / mean : 0.0f;
+}
+
+/// There must be weights.
+template <class Light>
+glm::vec3 DisplayFilter::mixed(const Light& light, std::size_t i) const
+{
+    const Place place = places_[i];
+    const Tile& tile = tiles_[place.tile];
+    glm::vec3 sum = light(i);
+    float weights = 1.0f;
+    for (std::uint32_t w = tile.first[place.number]; w < tile.first[place.number + 1]; ++w) {
+        sum += tile.weights[w].weight * light(tile.weights[w].lumel);
+        weights += tile.weights[w].weight;
+    }
+    return sum / weights;
+}
+
+glm::vec3 DisplayFilter::filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                                  std::size_t i) const
+{
+    return mixed([&](std::size_t j) { return by_rays(sweeps, sky, j); }, i);
+}
+
+glm::vec3 DisplayFilter::filtered(std::span<const glm::vec3> light, std::size_t i) const
+{
+    return mixed([&](std::size_t j) { return light[j]; }, i);
+}
+
+glm::vec3 DisplayFilter::irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                                    std::size_t i) const
+{
+    const glm::vec3 whole = sweeps.irradiance(i);
+    if (places_[i].tile == ~0u)
+        return whole;
+    return glm::max(whole + (filtered(sweeps, sky, i) - by_rays(sweeps, sky, i)), glm::vec3(0.0f));
+}
+
+float DisplayFilter::noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
+                           std::size_t i) const
+{
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return 0.0f;
+    if (places_[i].tile == ~0u)
+        return 1.0f;
+    const float all = sum_of(irradiance(sweeps, sky, i));
+    return all > 0.0f ? noise_left_[i] * sum_of(filtered(sweeps, sky, i)) / all : 0.0f;
+}
+
+std::uint64_t DisplayFilter::bytes() const
+{
+    std::uint64_t bytes =
+        places_.size() * (sizeof(Place) + sizeof(float)) + by_side_.size() * sizeof(std::uint32_t);
+    for (const Tile& tile : tiles_)
+        bytes += tile.first.size() * sizeof(std::uint32_t) + tile.weights.size() * sizeof(Weight);
+    return bytes;
+}
+
+}  // namespace lumel

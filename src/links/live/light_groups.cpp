@@ -1,0 +1,325 @@
+#include "links/live/light_groups.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "base/core/parallel.h"
+#include "lights/shadow_rays.h"
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels worth a task: all of their light, and that which a move may change.
+constexpr std::size_t kGrain = 256, kFollowed = 64;
+/// Lumels between two looks at the watch.
+constexpr std::size_t kStep = 16384;
+/// A sender of more sources chooses among them for each ray, by what they may send.
+constexpr std::size_t kMaxAlone = 8;
+/// Dimension pairs of a ray's random numbers.
+constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
+
+}  // namespace
+
+LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options,
+                         const ProgressCallback& watch)
+    : place_(place),
+      options_(options)
+{
+    list_senders();
+    const std::uint64_t of_one =
+        place.lumels.lumels.size() * sizeof(glm::vec3) * (options.halves ? 2 : 1);
+    const std::size_t fit = std::max<std::size_t>(std::size_t(options.most_bytes / of_one), 1);
+    groups_.resize(std::min(fit, senders_.size()));
+    for (std::uint32_t s = 0; s < senders_.size(); ++s)
+        groups_[std::min<std::size_t>(s, groups_.size() - 1)].senders.push_back(s);
+    this->place();
+    const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+        find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
+}
+
+void LightGroups::list_senders()
+{
+    for (std::size_t s = 0; s < place_.sources.count(); ++s) {
+        const LightSources::SourceInfo origin = place_.sources.origin(s);
+        const auto is_it = [&](const Emitter& sender) {
+            return sender.part == origin.part && sender.index == origin.index;
+        };
+        if (std::none_of(senders_.begin(), senders_.end(), is_it))
+            senders_.push_back({.part = origin.part, .index = origin.index});
+    }
+}
+
+/// Of senders that were none before, such as the bright part of another sky.
+void LightGroups::add_groups()
+{
+    const bool is_full = !groups_.empty() && groups_.back().is_shared();
+    std::size_t grouped = 0;
+    for (const Group& group : groups_)
+        grouped += group.senders.size();
+    for (std::size_t s = grouped; s < senders_.size(); ++s) {
+        if (!is_full)
+            make_room(groups_.emplace_back());
+        groups_.back().senders.push_back(std::uint32_t(s));
+    }
+}
+
+/// Surfaces that move may be split into other sources.
+void LightGroups::place()
+{
+    list_senders();
+    add_groups();
+    for (Emitter& sender : senders_)
+        sender.sources.clear();
+    for (std::uint32_t s = 0; s < place_.sources.count(); ++s) {
+        const LightSources::SourceInfo origin = place_.sources.origin(s);
+        senders_[sender_of(origin.part, origin.index)].sources.push_back(s);
+    }
+}
+
+/// Its number, or that of senders where there is none.
+std::uint32_t LightGroups::sender_of(LightSources::Part part, std::uint32_t index) const
+{
+    const auto found = std::find_if(senders_.begin(), senders_.end(), [&](const Emitter& sender) {
+        return sender.part == part && sender.index == index;
+    });
+    return std::uint32_t(found - senders_.begin());
+}
+
+bool LightGroups::set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor)
+{
+    const std::uint32_t sender = sender_of(part, index);
+    if (sender == senders_.size() || senders_[sender].factor == factor)
+        return false;
+    senders_[sender].factor = factor;
+    if (groups_[std::min<std::size_t>(sender, groups_.size() - 1)].is_shared())
+        find(groups_.back());
+    summed_ = false;
+    return true;
+}
+
+void LightGroups::find_again(LightSources::Part part, std::uint32_t index)
+{
+    place();
+    const std::uint32_t sender = sender_of(part, index);
+    if (sender < senders_.size())
+        find(groups_[std::min<std::size_t>(sender, groups_.size() - 1)]);
+}
+
+void LightGroups::make_room(Group& group) const
+{
+    group.light.resize(place_.lumels.lumels.size());
+    if (options_.halves)
+        group.off.resize(group.light.size());
+}
+
+void LightGroups::find(Group& group, const ProgressCallback& watch)
+{
+    const std::size_t lumels = place_.lumels.lumels.size();
+    make_room(group);
+    parallel_steps(
+        lumels, kStep, kGrain,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                find_at(group, i);
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels));
+            return true;
+        });
+    summed_ = false;
+}
+
+std::uint64_t LightGroups::follow(std::uint32_t thing, const Box& before, std::size_t first,
+                                  std::size_t last)
+{
+    const Box now = place_.rays.box(thing);
+    std::atomic<std::uint64_t> found = 0;
+    for (Group& group : groups_) {
+        const bool moved = is_moved(group, thing);
+        parallel_for(last - first, kFollowed, [&](std::size_t from, std::size_t to) {
+            std::uint64_t count = 0;
+            for (std::size_t i = first + from; i < first + to; ++i)
+                if (moved || place_.object_of(i) == thing || may_cross(group, i, before, now)) {
+                    find_at(group, i);
+                    ++count;
+                }
+            found += count;
+        });
+    }
+    summed_ = false;
+    return found;
+}
+
+/// Do any of its sources move with a thing?
+bool LightGroups::is_moved(const Group& group, std::uint32_t thing) const
+{
+    return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
+        const std::vector<std::uint32_t>& sources = senders_[s].sources;
+        return senders_[s].part == LightSources::Part::material &&
+               std::any_of(sources.begin(), sources.end(), [&](std::uint32_t source) {
+                   return place_.rays.object_of(place_.sources.origin(source).instance) == thing;
+               });
+    });
+}
+
+bool LightGroups::may_cross(const Group& group, std::size_t i, const Box& before,
+                            const Box& now) const
+{
+    return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
+        const std::vector<std::uint32_t>& sources = senders_[s].sources;
+        return std::any_of(sources.begin(), sources.end(), [&](std::uint32_t source) {
+            return may_cross(source, i, before) || may_cross(source, i, now);
+        });
+    });
+}
+
+/// May a ray from a lumel to a source meet a box?
+bool LightGroups::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
+{
+    const LightSources::SourceInfo origin = place_.sources.origin(source);
+    const glm::vec3& from = place_.world[i].centre;
+    const float reach = place_.reach(i);
+    if (origin.part == LightSources::Part::sky)
+        return true;
+    if (origin.sun) {
+        const float far = glm::distance(from, box.centre()) + box.radius() + reach;
+        return box.may_meet(from, glm::normalize(glm::vec3(origin.sun->transform[2])), far,
+                            reach + far * std::tan(origin.sun->angle));
+    }
+    return box.may_lie_between(Box{from, from}.grown(reach), origin.box.grown(place_.ray_offset));
+}
+
+void LightGroups::find_at(Group& group, std::size_t i) const
+{
+    const Found found = light_of(group, i);
+    group.light[i] = found.light;
+    if (options_.halves)
+        group.off[i] = found.off;
+}
+
+LightGroups::Found LightGroups::light_of(const Group& group, std::size_t i) const
+{
+    Found sum;
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return sum;
+    for (const std::uint32_t s : group.senders)
+        sum.add(light_of(senders_[s], i), group.is_shared() ? senders_[s].factor : glm::vec3(1.0f));
+    return sum;
+}
+
+LightGroups::Found LightGroups::light_of(const Emitter& sender, std::size_t i) const
+{
+    const std::uint32_t own =
+        PathSamples::hash(PathSamples::hash(options_.seed, std::uint32_t(i)),
+                          PathSamples::hash(std::uint32_t(sender.part), sender.index));
+    if (sender.sources.size() > kMaxAlone)
+        return by_many(sender, own, i);
+    Found sum;
+    for (std::uint32_t n = 0; n < sender.sources.size(); ++n)
+        sum.add(by_one(sender.sources[n], PathSamples::hash(own, n), i), glm::vec3(1.0f));
+    return sum;
+}
+
+/// Rays to all sources start at the same points, so that light from all around adds up to all.
+RayOrigin LightGroups::start_of(std::size_t i, std::uint32_t k) const
+{
+    const PathSamples samples(PathSamples::hash(options_.seed, std::uint32_t(i)), k);
+    return place_.starts.start(i, samples.stratified(kStartPair));
+}
+
+glm::vec3 LightGroups::passing(const RayOrigin& start, const SourceSample& sample,
+                               std::uint32_t seed) const
+{
+    if (sample.irradiance == glm::vec3(0.0f))
+        return glm::vec3(0.0f);
+    const RaySpan ray = ray_towards(sample, start, place_.ray_offset, seed);
+    return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
+}
+
+/// A few rays, and many where these see a part of the source. The first half of either number is as
+/// well spread as the second.
+LightGroups::Found LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
+                                       std::size_t i) const
+{
+    SourceEstimate found, half;
+    for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
+        if (k == options_.few_rays && (found.free == 0 || found.hidden == 0))
+            break;
+        if (2 * k == options_.few_rays || 2 * k == options_.many_rays)
+            half = found;
+        const PathSamples samples(stream, k);
+        const RayOrigin start = start_of(i, k);
+        const SourceSample sample =
+            place_.sources.sample(source, start, samples.stratified(kSourcePair));
+        found.add(sample, passing(start, sample, samples.bits(kSourcePair)));
+    }
+    const glm::vec3 light = found.light();
+    return {light, half.light() - light};
+}
+
+/// Each ray goes to a source that is chosen by what it may send.
+LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t stream,
+                                        std::size_t i) const
+{
+    std::vector<float> running(sender.sources.size());
+    float total = 0.0f;
+    for (std::size_t n = 0; n < running.size(); ++n)
+        running[n] = total += place_.sources.sampling_weight(
+            sender.sources[n], place_.world[i].centre, place_.lumels.lumels[i].size);
+    glm::vec3 sum(0.0f), half(0.0f);
+    for (std::uint32_t k = 0; k < options_.many_rays; ++k) {
+        if (2 * k == options_.many_rays)
+            half = sum;
+        const PathSamples samples(stream, k);
+        const RayOrigin start = start_of(i, k);
+        const float mark = samples.stratified(kChoicePair).x * total;
+        const auto n = std::size_t(std::upper_bound(running.begin(), running.end() - 1, mark) -
+                                   running.begin());
+        const float own = running[n] - (n > 0 ? running[n - 1] : 0.0f);
+        if (!(own > 0.0f))
+            continue;
+        const SourceSample sample =
+            place_.sources.sample(sender.sources[n], start, samples.stratified(kSourcePair));
+        sum +=
+            passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
+    }
+    const glm::vec3 light = sum / float(options_.many_rays);
+    return {light, half / (0.5f * float(options_.many_rays)) - light};
+}
+
+const std::vector<glm::vec3>& LightGroups::sum()
+{
+    if (summed_)
+        return sum_;
+    sum_.assign(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    for (const Group& group : groups_) {
+        const glm::vec3 factor =
+            group.is_shared() ? glm::vec3(1.0f) : senders_[group.senders.front()].factor;
+        for (std::size_t i = 0; i < sum_.size(); ++i)
+            sum_[i] += factor * group.light[i];
+    }
+    summed_ = true;
+    return sum_;
+}
+
+std::vector<glm::vec3> LightGroups::off() const
+{
+    std::vector<glm::vec3> sum(place_.lumels.lumels.size(), glm::vec3(0.0f));
+    for (const Group& group : groups_)
+        for (std::size_t i = 0; i < group.off.size(); ++i)
+            sum[i] += group.off[i];
+    return sum;
+}
+
+std::uint64_t LightGroups::bytes() const
+{
+    std::uint64_t bytes = sum_.size() * sizeof(glm::vec3);
+    for (const Group& group : groups_)
+        bytes += (group.light.size() + group.off.size()) * sizeof(glm::vec3);
+    return bytes;
+}
+
+}  // namespace lumel

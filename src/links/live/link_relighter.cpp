@@ -1,0 +1,126 @@
+#include "links/live/link_relighter.h"
+
+#include <algorithm>
+
+#include "base/core/error.h"
+#include "base/core/parallel.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels worth a task, and those of a sweep between two looks at the watch.
+constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
+/// Parts of the time, about: direct light of all, sweeps of what follows, weights of what follows.
+constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
+
+}  // namespace
+
+const Scene& without_coloured_glass(const Scene& scene)
+{
+    for (const Material& material : scene.materials)
+        if (is_coloured_glass(material))
+            throw Error(ErrorKind::input, scene.path,
+                        "has coloured glass (material \"" + material.name +
+                            "\"), which links that are kept do not know; make it white, or "
+                            "opaque");
+    return scene;
+}
+
+LinkRelighter::LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
+                             const KeptLightOptions& options, const StoredLinks* kept,
+                             const ProgressCallback& watch)
+    : scene_(without_coloured_glass(scene)),
+      atlas_(atlas),
+      lumels_(lumels),
+      options_(options),
+      rays_(scene, {}),
+      surfaces_(std::in_place, scene),
+      world_(scene, rays_.still(), lumels),
+      starts_(world_, nullptr, rays_.ray_offset(), false),
+      sources_(std::in_place, scene, *surfaces_,
+               glm::distance(rays_.still().low(), rays_.still().high())),
+      links_(place(), atlas, side_of_rays(options.rays), options.seed, kept, watch)
+{
+}
+
+LinkContext LinkRelighter::place() const
+{
+    return {scene_, lumels_, rays_, *surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
+}
+
+/// Materials, lamps and sky as they are now.
+void LinkRelighter::find_sources()
+{
+    surfaces_.emplace(scene_);
+    sources_.emplace(scene_, *surfaces_, glm::distance(rays_.still().low(), rays_.still().high()));
+    links_.find_sky();
+}
+
+std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& watch)
+{
+    find_sources();
+    std::vector<glm::vec3> off;
+    const std::vector<glm::vec3> lamps = light_of_lamps(off, part_of(watch, 0.0, kDirect));
+    std::vector<glm::vec3> direct = lamps, albedo;
+    const std::vector<glm::vec3>& sky = links_.sky_light();
+    for (std::size_t i = 0; i < direct.size(); ++i) {
+        direct[i] += sky[i];
+        albedo.push_back(lumels_.lumels[i].albedo);
+    }
+    sweeps_.emplace(links_);
+    sweeps_->begin(direct, albedo);
+    const ProgressCallback after = part_of(watch, kDirect, 1.0);
+    settle(part_of(after, 0.0, kSweeps));
+    const ProgressCallback rest = part_of(after, kSweeps, 1.0);
+    std::optional<DisplayFilter> filter;
+    if (options_.filter)
+        make_weights(filter.emplace(place(), links_), part_of(rest, 0.0, kWeights));
+    std::vector<glm::vec3> result(lumels_.lumels.size());
+    parallel_for(result.size(), kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = filter ? filter->irradiance(*sweeps_, sky, i) : sweeps_->irradiance(i);
+    });
+    error_ = error_of({links_, *sweeps_, lumels_.lumels, lamps, off, albedo, result},
+                      filter ? &*filter : nullptr, part_of(rest, kWeights, 1.0));
+    tell(watch, 1.0);
+    return result;
+}
+
+/// What lamps, emissive surfaces and the bright part of the sky send [N] [lx]; off: as of
+/// LightGroups.
+std::vector<glm::vec3> LinkRelighter::light_of_lamps(std::vector<glm::vec3>& off,
+                                                     const ProgressCallback& watch)
+{
+    GroupedLightOptions options = options_.light;
+    options.halves = true;
+    LightGroups light(place(), options, watch);
+    off = light.off();
+    return light.sum();
+}
+
+/// Sweeps until at rest.
+void LinkRelighter::settle(const ProgressCallback& watch)
+{
+    for (bool rests = false; !rests;) {
+        rests = sweeps_->step(kStep) && sweeps_->rests(options_.residual);
+        tell(watch, rests ? 1.0 : 0.0);
+    }
+}
+
+void LinkRelighter::make_weights(DisplayFilter& filter, const ProgressCallback& watch)
+{
+    filter.begin(*sweeps_, glm::vec3(1.0f));
+    while (!filter.step())
+        tell(watch, 0.0);
+}
+
+StoredLinks LinkRelighter::kept(const std::string& hash) const
+{
+    StoredLinks kept;
+    kept.scene_hash = hash;
+    keep_places(atlas_, kept);
+    links_.keep(kept);
+    return kept;
+}
+
+}  // namespace lumel

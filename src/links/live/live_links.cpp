@@ -1,0 +1,504 @@
+#include "links/live/live_links.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "atlas/near/still_part.h"
+#include "base/core/error.h"
+#include "base/core/parallel.h"
+#include "links/live/link_relighter.h"
+#include "scene/sky/sky_file.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels between two looks at the clock: of a sweep, about a tenth of a millisecond; that follow a
+/// move, 5 ms at most, where all of them are on the thing.
+constexpr std::size_t kStep = 4096, kPiece = 256;
+
+/// Links traced again, as a part of all, that are worth a sweep before the rest: they took three
+/// times as long.
+constexpr double kWorthASweep = 0.01;
+
+using Groups = std::vector<std::vector<std::uint32_t>>;
+
+Groups instances_of(const Scene& scene, const std::vector<std::string>& things,
+                    const Groups& groups)
+{
+    Groups result;
+    for (const std::string& name : things) {
+        find_instance(scene, name);  // or it throws
+        std::vector<std::uint32_t>& instances = result.emplace_back();
+        for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+            if (scene.instances[i].name == name)
+                instances.push_back(i);
+    }
+    result.insert(result.end(), groups.begin(), groups.end());
+    return result;
+}
+
+/// Index of the first of that name, or how many there are.
+template <class Named>
+std::uint32_t index_of(const std::vector<Named>& all, const std::string& name)
+{
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
+    return std::uint32_t(found - all.begin());
+}
+
+std::vector<std::vector<std::uint32_t>> lumels_by_thing(const Lumels& lumels,
+                                                        const DynamicRayScene& rays)
+{
+    std::vector<std::vector<std::uint32_t>> result(rays.things());
+    for (std::uint32_t i = 0; i < lumels.lumels.size(); ++i)
+        if (const std::uint32_t t = rays.object_of(lumels.lumels[i].instance);
+            t != DynamicRayScene::kStatic)
+            result[t].push_back(i);
+    return result;
+}
+
+std::vector<glm::mat4> transforms_of(const Scene& scene)
+{
+    std::vector<glm::mat4> result;
+    for (const Instance& instance : scene.instances)
+        result.push_back(instance.transform);
+    return result;
+}
+
+void check_factor(const glm::vec3& factor)
+{
+    if (!(factor.x >= 0.0f && factor.y >= 0.0f && factor.z >= 0.0f))
+        throw Error(ErrorKind::input, "factor", "is negative, but light is not");
+}
+
+template <class All>
+void check_index(std::uint32_t index, const All& all, const std::string& what)
+{
+    if (index >= all.size())
+        throw Error(ErrorKind::input, what + " " + std::to_string(index), "is not in the scene");
+}
+
+}  // namespace
+
+LumelScene lay_out(Scene scene, const AtlasOptions& options, const std::vector<std::string>& things)
+{
+    std::vector<std::uint32_t> movers;
+    for (const std::vector<std::uint32_t>& instances : instances_of(scene, things, {}))
+        movers.insert(movers.end(), instances.begin(), instances.end());
+    return lay_out_movers(std::move(scene), options, movers);
+}
+
+LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
+                          const std::vector<std::uint32_t>& movers)
+{
+    std::vector<char> moves(scene.instances.size(), 0);
+    for (const std::uint32_t instance : movers) {
+        if (instance >= moves.size())
+            throw Error(ErrorKind::input, scene.path,
+                        "has no instance " + std::to_string(instance) + " that could move");
+        moves[instance] = 1;
+    }
+    Atlas atlas = make_atlas(scene, options);
+    Lumels lumels = make_lumels(scene, atlas);
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+    mark_buried_by_still(scene, moves, lumels);
+    return {std::move(scene), std::move(atlas), std::move(lumels)};
+}
+
+LiveLinks::LiveLinks(LumelScene laid_out, const LiveLinksOptions& options)
+    : options_(options),
+      laid_out_(std::move(laid_out)),
+      given_(transforms_of(scene())),
+      rays_(without_coloured_glass(scene()), instances_of(scene(), options.things, options.groups)),
+      surfaces_(scene()),
+      world_(scene(), rays_.still(), lumels()),
+      starts_(world_, nullptr, rays_.ray_offset(), false),
+      given_sky_(scene().sky),
+      sources_(std::in_place, scene(), surfaces_, extent()),
+      lumels_of_(lumels_by_thing(lumels(), rays_)),
+      links_(place(), atlas(), side_of_rays(options.rays), options.seed),
+      light_(place(), options.light),
+      sweeps_(links_),
+      paint_(lumels()),
+      filter_(place(), links_),
+      motions_(rays_.things(), glm::mat4(1.0f)),
+      requested_(rays_.things())
+{
+}
+
+float LiveLinks::extent() const
+{
+    return glm::distance(rays_.still().low(), rays_.still().high());
+}
+
+LinkContext LiveLinks::place() const
+{
+    if (rays_.still().parts() == 0)
+        throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
+    return {scene(), lumels(), rays_, surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
+}
+
+void LiveLinks::set_lamp(const std::string& name, const glm::vec3& factor)
+{
+    bool found = false;
+    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
+        if (scene().lights[l].name == name) {
+            set_light(l, factor);
+            found = true;
+        }
+    for (std::uint32_t m = 0; m < scene().materials.size(); ++m)
+        if (scene().materials[m].name == name) {
+            set_emission(m, factor);
+            found = true;
+        }
+    if (!found)
+        throw Error(ErrorKind::input, scene().path,
+                    "has no light and no material named \"" + name + "\"");
+}
+
+void LiveLinks::set_light(std::uint32_t light, const glm::vec3& factor)
+{
+    check_index(light, scene().lights, "light");
+    check_factor(factor);
+    edited_ |= light_.set_factor(Part::light, light, factor);
+}
+
+void LiveLinks::set_emission(std::uint32_t material, const glm::vec3& factor)
+{
+    check_index(material, scene().materials, "material");
+    check_factor(factor);
+    edited_ |= light_.set_factor(Part::material, material, factor);
+}
+
+void LiveLinks::set_sky(const glm::vec3& factor)
+{
+    check_factor(factor);
+    if (scene().sky.empty())
+        throw Error(ErrorKind::input, scene().path, "has no sky");
+    if (factor == sky_factor_)
+        return;
+    sky_factor_ = factor;
+    light_.set_factor(Part::sky, 0, factor);
+    edited_ = true;
+}
+
+void LiveLinks::turn_sky(double angle)
+{
+    if (given_sky_.empty())
+        throw Error(ErrorKind::input, scene().path, "has no sky");
+    place_sky(angle);
+}
+
+void LiveLinks::replace_sky(Sky sky, double angle)
+{
+    if (given_sky_.empty() || sky.empty())
+        throw Error(ErrorKind::input, scene().path, "has no sky");
+    given_sky_ = std::move(sky);
+    place_sky(angle);
+}
+
+/// What others refer to stays where it is.
+void LiveLinks::place_sky(double angle)
+{
+    laid_out_.scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
+    sources_.emplace(scene(), surfaces_, extent());
+    links_.find_sky();
+    light_.find_again(Part::sky, 0);
+    light_.set_factor(Part::sky, 0, sky_factor_);  // its bright part may be new
+    edited_ = true;
+}
+
+void LiveLinks::set_albedo(const std::string& name, const glm::vec3& colour)
+{
+    const std::uint32_t material = index_of(scene().materials, name);
+    if (material == scene().materials.size())
+        throw Error(ErrorKind::input, scene().path, "has no material named \"" + name + "\"");
+    set_albedo(material, colour);
+}
+
+void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
+{
+    check_index(material, scene().materials, "material");
+    if (glm::clamp(colour, 0.0f, 1.0f) != colour)
+        throw Error(ErrorKind::input, "colour of \"" + scene().materials[material].name + "\"",
+                    "is not from 0 to 1");
+    paint_.set(scene(), atlas(), int(material), colour);
+    edited_ = true;
+}
+
+void LiveLinks::move_lamp(const std::string& name, const glm::mat4& transform)
+{
+    bool found = false;
+    for (std::uint32_t l = 0; l < scene().lights.size(); ++l)
+        if (scene().lights[l].name == name) {
+            move_light(l, transform);
+            found = true;
+        }
+    if (!found)
+        throw Error(ErrorKind::input, scene().path, "has no light named \"" + name + "\"");
+}
+
+void LiveLinks::move_light(std::uint32_t light, const glm::mat4& transform)
+{
+    check_index(light, scene().lights, "light");
+    laid_out_.scene.lights[light].transform = transform;
+    sources_->place();
+    light_.find_again(Part::light, light);
+    edited_ = true;
+}
+
+std::uint32_t LiveLinks::thing(const std::string& name) const
+{
+    const auto found = std::find(options_.things.begin(), options_.things.end(), name);
+    if (found == options_.things.end())
+        throw Error(ErrorKind::input, "\"" + name + "\"", "is not one of the things that may move");
+    return std::uint32_t(found - options_.things.begin());
+}
+
+/// Places begin from those of the scene that was given, so that no rounding adds up.
+void LiveLinks::put(std::uint32_t thing, const glm::mat4& motion)
+{
+    motions_[thing] = motion;
+    for (const std::uint32_t instance : rays_.instances(thing))
+        laid_out_.scene.instances[instance].transform = motion * given_[instance];
+    rays_.place(thing);
+    world_.place(scene(), lumels(), lumels_of_[thing]);
+}
+
+Moved LiveLinks::move(const std::string& name, const glm::mat4& motion)
+{
+    const Moved before = state_.found;
+    request(thing(name), motion);
+    while (is_under_way())
+        if (PendingMove* one = with_direct())
+            follow_direct(*one);
+        else if (is_requested())
+            put_requested();
+        else
+            follow_links();
+    const Moved& now = state_.found;
+    return {.links = {now.links.started - before.links.started,
+                      now.links.ended - before.links.ended,
+                      now.links.crossed - before.links.crossed},
+            .direct = now.direct - before.direct};
+}
+
+void LiveLinks::request(std::uint32_t thing, const glm::mat4& motion)
+{
+    check_index(thing, motions_, "thing");
+    if (!is_rigid(glm::mat4(1.0f), motion))
+        throw Error(ErrorKind::input,
+                    "\"" + scene().instances[rays_.instances(thing).front()].name + "\"",
+                    "would be stretched by its motion");
+    requested_[thing].reset();
+    if (motion != motions_[thing])
+        requested_[thing] = motion;
+}
+
+bool LiveLinks::is_requested() const
+{
+    return std::any_of(requested_.begin(), requested_.end(),
+                       [](const std::optional<glm::mat4>& motion) { return motion.has_value(); });
+}
+
+bool LiveLinks::is_under_way() const
+{
+    return !following_.empty() || is_requested();
+}
+
+/// All things first: rays that are traced again for one meet the others where they are.
+void LiveLinks::put_requested()
+{
+    for (std::uint32_t t = 0; t < requested_.size(); ++t)
+        if (requested_[t]) {
+            following_.erase(std::remove_if(following_.begin(), following_.end(),
+                                            [&](const PendingMove& one) { return one.thing == t; }),
+                             following_.end());
+            following_.push_back({.thing = t, .before = rays_.box(t)});
+            put(t, *requested_[t]);
+            following_.back().order = follow_order(world_, lumels_of_[t], rays_.box(t));
+            requested_[t].reset();
+        }
+    sources_->place();
+    light_.place();
+}
+
+/// The first whose direct light is not known to all lumels.
+LiveLinks::PendingMove* LiveLinks::with_direct()
+{
+    const auto found =
+        std::find_if(following_.begin(), following_.end(),
+                     [&](const PendingMove& one) { return one.direct < lumels().lumels.size(); });
+    return found == following_.end() ? nullptr : &*found;
+}
+
+/// A piece of the direct light that has changed.
+void LiveLinks::follow_direct(PendingMove& one)
+{
+    const std::size_t count = lumels().lumels.size();
+    const std::size_t end = std::min(one.direct + kPiece, count);
+    const double all = double(count * std::max<std::size_t>(light_.groups(), 1));
+    state_.found.direct += double(light_.follow(one.thing, one.before, one.direct, end)) / all;
+    one.direct = end;
+    edited_ |= with_direct() == nullptr;
+}
+
+/// Do the lumels around a thing, and on it, not know of its move yet? They do before things move
+/// on, so that what never stops is followed by these.
+bool LiveLinks::has_near_to_follow(const PendingMove& one)
+{
+    return one.links < one.order.near;
+}
+
+/// A piece of the links that have changed. What a shell of lumels found is shown where that is
+/// much.
+void LiveLinks::follow_links()
+{
+    const auto next = std::find_if(following_.begin(), following_.end(), has_near_to_follow);
+    PendingMove& one = next != following_.end() ? *next : following_.front();
+    const std::size_t end = std::min(one.links + kPiece, one.order.end_after(one.links));
+    const Retraced found =
+        links_.follow(one.thing, std::span(one.order.lumels).subspan(one.links, end - one.links));
+    state_.found.links += found;
+    unseen_ += found.all();
+    one.links = end;
+    const double all = double(lumels().lumels.size() * links_.rays());
+    edited_ |= one.order.ends_at(end) && double(unseen_) > kWorthASweep * all;
+    if (end < one.order.lumels.size())
+        return;
+    following_.erase(following_.begin() + (&one - following_.data()));
+    edited_ |= following_.empty();
+}
+
+std::vector<glm::vec3> LiveLinks::direct()
+{
+    std::vector<glm::vec3> light = light_.sum();
+    if (!scene().sky.empty())
+        for (std::size_t i = 0; i < light.size(); ++i)
+            light[i] += sky_factor_ * links_.sky_light()[i];
+    return light;
+}
+
+void LiveLinks::begin()
+{
+    if (!scene().sky.empty()) {
+        sky_light_ = links_.sky_light();
+        for (glm::vec3& light : sky_light_)
+            light *= sky_factor_;
+    }
+    sweeps_.begin(direct(), paint_.albedo());
+    weighing_ = false;
+    swept_ = false;
+    unseen_ = 0;
+    state_ = {.found = state_.found, .all_sweeps = state_.all_sweeps};
+    edited_ = false;
+}
+
+/// A part of what there is to do. What is found is shown before things move on, and their links
+/// follow for a while before they do.
+void LiveLinks::work()
+{
+    if (PendingMove* one = with_direct())
+        follow_direct(*one);
+    else if (edited_ || !swept_)
+        sweep();
+    else if (is_requested() &&
+             std::none_of(following_.begin(), following_.end(), has_near_to_follow))
+        put_requested();
+    else if (!following_.empty())
+        follow_links();
+    else if (!weighing_)
+        sweep();
+    else if (filter_.step()) {
+        weighing_ = false;
+        state_.at_rest = true;
+    }
+}
+
+/// A part of a sweep.
+void LiveLinks::sweep()
+{
+    if (edited_)
+        begin();
+    if (!sweeps_.step(kStep))
+        return;
+    swept_ = true;
+    ++state_.all_sweeps;
+    const bool still = is_at_rest();
+    state_.at_rest = still && !options_.filter;
+    weighing_ = still && options_.filter;
+    if (weighing_)
+        filter_.begin(sweeps_, sky_factor_);
+}
+
+LiveLinksState LiveLinks::advance(double budget_ms)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const auto spent = [&] {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    };
+    while (edited_ || is_under_way() || !state_.at_rest) {
+        work();
+        if (!(spent() < budget_ms))
+            break;
+    }
+    state_.under_way = is_under_way();
+    state_.weighing = weighing_ && !edited_;
+    state_.at_rest = state_.at_rest && !edited_ && !state_.under_way;
+    return state_;
+}
+
+/// After a whole sweep.
+bool LiveLinks::is_at_rest()
+{
+    const StillToCome now = sweeps_.still_to_come();
+    state_.residual = now.all;
+    state_.dark_residual = now.dark;
+    state_.sweeps = sweeps_.sweeps();
+    return sweeps_.rests(options_.residual);
+}
+
+LiveLinksState LiveLinks::settle()
+{
+    return advance(std::numeric_limits<double>::infinity());
+}
+
+std::uint64_t LiveLinks::bytes() const
+{
+    return links_.bytes() + light_.bytes() + sweeps_.bytes() + filter_.bytes() +
+           sky_light_.size() * sizeof(glm::vec3);
+}
+
+std::vector<glm::vec3> LiveLinks::shown() const
+{
+    std::vector<glm::vec3> result(lumels().lumels.size());
+    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = filter_.irradiance(sweeps_, sky_light_, i);
+    });
+    return result;
+}
+
+std::vector<float> LiveLinks::error_estimate() const
+{
+    const auto to_come = edited_ ? 1.0f : float(std::max(state_.residual, state_.dark_residual));
+    std::vector<float> result(lumels().lumels.size());
+    parallel_for(result.size(), kStep, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            result[i] = std::min(filter_.noise(sweeps_, sky_light_, i) + to_come, 1.0f);
+    });
+    return result;
+}
+
+std::vector<glm::vec3> LiveLinks::irradiance() const
+{
+    std::vector<glm::vec3> result(lumels().lumels.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+        result[i] = sweeps_.irradiance(i);
+    return result;
+}
+
+}  // namespace lumel

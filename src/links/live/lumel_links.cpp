@@ -1,0 +1,365 @@
+// Which links can change when a thing moves:
+//
+// - those that start on it,
+// - those that ended on it, of which those that were lost on it have an end of their own,
+// - those that meet it in its new place. Only the rays of the cells of directions that lead to it
+//   are made again, and ask the thing alone.
+//
+// What merely passed its old place meets what it met before.
+
+#include "links/live/lumel_links.h"
+
+#include <array>
+#include <limits>
+#include <mutex>
+#include <numbers>
+
+#include "base/core/frame.h"
+#include "base/core/parallel.h"
+#include "base/core/sphere.h"
+#include "links/live/direction_cells.h"
+#include "links/live/link_changes.h"
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Lumels worth a task: all of their links, and those that a move may change.
+constexpr std::size_t kGrain = 256, kFollowed = 64;
+/// Lumels between two looks at the watch.
+constexpr std::size_t kStep = 16384;
+/// Random numbers of a ray: places within its cells of directions and of starts; of four of them,
+/// which quarters they are of.
+constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
+
+float to_unit(std::uint32_t key, std::uint32_t what)
+{
+    return PathSamples::to_unit(PathSamples::hash(key, what));
+}
+
+}  // namespace
+
+/// The rays of a lumel. All have one frame.
+class LumelLinks::Rays {
+public:
+    Rays(const LumelLinks& links, std::size_t lumel)
+        : links_(links),
+          lumel_(lumel),
+          own_(links.key_of(lumel)),
+          frame_(frame_about(links.place_.world[lumel].normal))
+    {
+    }
+
+    const glm::mat3& frame() const { return frame_; }
+
+    glm::vec3 direction(std::uint32_t k) const
+    {
+        const std::uint32_t key = PathSamples::hash(own_, k), side = links_.side_;
+        return frame_ * by_cosine((glm::vec2(k % side, k / side) +
+                                   glm::vec2(PathSamples::to_unit(key), to_unit(key, kAcross))) /
+                                  float(side));
+    }
+    /// Starts lie in the cells of a grid over the lumel, another for each ray. The cells of rays
+    /// that go up alike, or around alike, are apart.
+    RayOrigin start(std::uint32_t k) const
+    {
+        const std::uint32_t key = PathSamples::hash(own_, k), side = links_.side_;
+        const std::uint32_t u = k % side, v = k / side;
+        const glm::vec2 cell((u + 3 * v + own_) % side, (3 * u + 2 * v + (own_ >> 16)) % side);
+        return links_.place_.starts.start(
+            lumel_,
+            (cell + glm::vec2(to_unit(key, kStart), to_unit(key, kStartAcross))) / float(side));
+    }
+    RaySpan ray(const RayOrigin& start, const glm::vec3& direction, std::uint32_t k) const
+    {
+        return ray_out(start.position, direction, PathSamples::hash(own_, k));
+    }
+
+private:
+    const LumelLinks& links_;
+    std::size_t lumel_;
+    std::uint32_t own_;
+    glm::mat3 frame_;
+};
+
+LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side,
+                       std::uint32_t seed, const StoredLinks* kept, const ProgressCallback& watch)
+    : place_(place),
+      near_(place.scene, atlas, place.lumels),
+      side_(side),
+      seed_(seed),
+      lumels_(std::uint32_t(place.lumels.lumels.size())),
+      links_(std::size_t(lumels_) * rays()),
+      on_thing_(lumels_ + 2, DynamicRayScene::kStatic),
+      sky_light_(lumels_),
+      white_sky_light_(lumels_)
+{
+    for (std::uint32_t i = 0; i < lumels_; ++i)
+        on_thing_[i] = place_.object_of(i);
+    for (std::uint32_t i = 0; i < place_.scene.instances.size(); ++i)
+        on_thing_.push_back(place_.rays.object_of(i));
+    if (kept)
+        if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
+            take_over(*kept, changes, watch);
+            return;
+        }
+    trace_all(watch);
+}
+
+void LumelLinks::trace_all(const ProgressCallback& watch)
+{
+    parallel_steps(
+        lumels_, kStep, kGrain,
+        [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i)
+                trace(i);
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels_));
+            return true;
+        });
+    traced_.started = links_.size();
+}
+
+/// Traces what has changed. What light the sky brings is left to find_sky().
+void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
+                           const ProgressCallback& watch)
+{
+    links_ = kept.links;  // of which some may be StoredLinks::gone()
+    std::mutex adding;
+    parallel_steps(
+        lumels_, kStep, kFollowed,
+        [&](std::size_t first, std::size_t last) {
+            Retraced sum;
+            for (std::size_t i = first; i < last; ++i)
+                sum += take_over(i, changes);
+            const std::lock_guard lock(adding);
+            traced_ += sum;
+        },
+        [&](std::size_t done) {
+            tell(watch, double(done) / double(lumels_));
+            return true;
+        });
+    find_sky();
+}
+
+/// A link changes only where it starts elsewhere, ended on what changed, or meets what moved where
+/// that is now.
+Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
+{
+    Retraced count;
+    if (changes.starts[i]) {
+        trace(i);
+        count.started = rays();
+        return count;
+    }
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return count;
+    std::uint32_t* links = &links_[i * rays()];
+    const Rays rays_of(*this, i);
+    for (std::uint32_t k = 0; k < rays(); ++k)
+        if (changes.ends[links[k]]) {
+            links[k] = end_of(rays_of, k);
+            ++count.ended;
+        }
+    for (const LinkChanges::Moved& moved : changes.moved)
+        for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
+            const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
+            if (moved.tree.passing(ray) != glm::vec3(0.0f))
+                return;
+            links[k] = end_of(rays_of, k);
+            ++count.crossed;
+        });
+    return count;
+}
+
+/// Visits the rays of a lumel that may meet something in a box.
+template <class Visit>
+void LumelLinks::for_rays_towards(const Rays& rays_of, std::size_t i, const Box& box,
+                                  const Visit& visit) const
+{
+    const float reach = place_.reach(i);
+    const glm::vec3& centre = place_.world[i].centre;
+    const glm::mat3 into = glm::transpose(rays_of.frame());
+    const glm::vec3 half = 0.5f * (box.high - box.low) + reach;
+    const glm::mat3 sides(half.x * into[0], half.y * into[1], half.z * into[2]);
+    const DirectionCells cells = cells_towards(into * (box.centre() - centre), sides, side_);
+    cells.for_each(side_, [&](std::uint32_t k) {
+        const glm::vec3 direction = rays_of.direction(k);
+        if (box.may_meet(centre, direction, std::numeric_limits<float>::max(), reach))
+            visit(k, direction);
+    });
+}
+
+void LumelLinks::find_sky()
+{
+    parallel_for(lumels_, kGrain, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            if (!(place_.lumels.lumels[i].flags & kLumelBuried))
+                find_sky(Rays(*this, i), i);
+    });
+}
+
+void LumelLinks::keep(StoredLinks& kept) const
+{
+    kept.rays = rays();
+    kept.seed = seed_;
+    kept.ray_offset = place_.ray_offset;
+    kept.lumels = lumel_hashes(place_.world, place_.lumels);
+    kept.instances = instance_hashes(place_.scene);
+    kept.links = links_;
+}
+
+glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
+{
+    return Rays(*this, lumel).direction(ray);
+}
+
+/// Where ray k of a lumel ends.
+std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
+{
+    const RayOrigin start = rays.start(k);
+    const RaySpan ray = rays.ray(start, rays.direction(k), k);
+    if (!(start.cosine(ray.direction) > 0.0f))
+        return lost();
+    RayHit hit;
+    return place_.rays.closest(ray, hit) ? end_at(hit) : sky();
+}
+
+/// Where it ends if it meets this thing. What it meets there is the first, unless something lies
+/// before; to learn that is less than to find what it is.
+std::optional<std::uint32_t> LumelLinks::end_by(const Rays& rays, std::uint32_t k,
+                                                const glm::vec3& direction, std::uint32_t thing,
+                                                Misses misses) const
+{
+    const RayOrigin start = rays.start(k);
+    RaySpan ray = rays.ray(start, direction, k);
+    RayHit hit;
+    const bool is_above = start.cosine(ray.direction) > 0.0f;
+    if (is_above && place_.rays.closest_on(thing, ray, hit)) {
+        ray.far = hit.distance;
+        return place_.rays.is_clear_but_for(thing, ray) ? end_at(hit) : end_of(rays, k);
+    }
+    if (misses == Misses::stay)
+        return std::nullopt;
+    if (!is_above)
+        return lost();
+    return place_.rays.closest_but_for(thing, ray, hit) ? end_at(hit) : sky();
+}
+
+std::uint32_t LumelLinks::end_at(const RayHit& hit) const
+{
+    const std::size_t surface = place_.surfaces.index(hit.instance, hit.primitive);
+    const bool reflects = hit.front || place_.surfaces.all()[surface].double_sided;
+    const std::uint32_t lumel = reflects ? near_.lumel(hit) : kNoLumel;
+    if (lumel != kNoLumel)
+        return lumel;
+    return lost_on(hit.instance);
+}
+
+void LumelLinks::trace(std::size_t i)
+{
+    std::uint32_t* links = &links_[i * rays()];
+    if (place_.lumels.lumels[i].flags & kLumelBuried) {
+        std::fill(links, links + rays(), lost());
+        return;
+    }
+    const Rays rays_of(*this, i);
+    for (std::uint32_t k = 0; k < rays(); ++k)
+        links[k] = end_of(rays_of, k);
+    find_sky(rays_of, i);
+}
+
+void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
+{
+    if (place_.scene.sky.empty())
+        return;
+    glm::vec3 sums[2] = {glm::vec3(0.0f), glm::vec3(0.0f)};
+    const std::span<const std::uint32_t> links = of(i);
+    for (std::uint32_t k = 0; k < rays(); ++k)
+        if (links[k] == sky())
+            sums[half_of(k)] += place_.sources.dim_sky(rays_of.direction(k));
+    const float share = std::numbers::pi_v<float> / float(rays());
+    sky_light_[i] = share * (sums[0] + sums[1]);
+    white_sky_light_[i] = share * sums[0];
+}
+
+/// What one ray brings from the sky, if it meets it, as if it were all [lx].
+glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
+{
+    if (place_.scene.sky.empty())
+        return glm::vec3(0.0f);
+    return std::numbers::pi_v<float> * place_.sources.dim_sky(direction(lumel, ray));
+}
+
+/// Of the random numbers of a lumel. Its number may be another once things appear or vanish.
+std::uint32_t LumelLinks::key_of(std::size_t i) const
+{
+    const Lumel& lumel = place_.lumels.lumels[i];
+    const auto width = std::uint32_t(place_.lumels.width);
+    return PathSamples::hash(
+        PathSamples::hash(PathSamples::hash(seed_, lumel.texel % width), lumel.texel / width),
+        lumel.flags & kLumelBack ? 1u : 0u);
+}
+
+std::uint32_t LumelLinks::quarter_of(std::size_t lumel, std::uint32_t ray) const
+{
+    const std::uint32_t u = ray % side_, v = ray / side_;
+    const std::uint32_t four = PathSamples::hash(key_of(lumel), v / 2 * side_ + u / 2);
+    return 2 * half_of(ray) + ((u ^ (PathSamples::hash(four, kQuarter) >> half_of(ray))) & 1u);
+}
+
+Retraced LumelLinks::follow(std::uint32_t thing, std::span<const std::uint32_t> lumels)
+{
+    const Box box = place_.rays.box(thing);
+    std::vector<Retraced> blocks((lumels.size() + kFollowed - 1) / kFollowed);
+    parallel_for(blocks.size(), 1, [&](std::size_t from, std::size_t to) {
+        for (std::size_t b = from; b < to; ++b)
+            for (const std::uint32_t i :
+                 lumels.subspan(b * kFollowed)
+                     .first(std::min(kFollowed, lumels.size() - b * kFollowed)))
+                blocks[b] += follow(i, thing, box);
+    });
+    Retraced sum;
+    for (const Retraced& block : blocks)
+        sum += block;
+    return sum;
+}
+
+Retraced LumelLinks::follow(std::size_t i, std::uint32_t thing, const Box& box)
+{
+    Retraced count;
+    if (place_.lumels.lumels[i].flags & kLumelBuried)
+        return count;
+    if (on_thing_[i] == thing) {
+        trace(i);
+        count.started = rays();
+        return count;
+    }
+    std::uint32_t* links = &links_[i * rays()];
+    const Rays rays_of(*this, i);
+    bool sky_changed = false;
+    const auto set = [&](std::uint32_t k, std::uint32_t end) {
+        sky_changed |= links[k] != end && (links[k] == sky() || end == sky());
+        links[k] = end;
+    };
+    for (std::uint32_t k = 0; k < rays(); ++k)
+        if (on_thing_[links[k]] == thing) {
+            set(k, *end_by(rays_of, k, rays_of.direction(k), thing, Misses::go_on));
+            ++count.ended;
+        }
+    for_rays_towards(rays_of, i, box, [&](std::uint32_t k, const glm::vec3& direction) {
+        if (on_thing_[links[k]] == thing)
+            return;
+        if (const std::optional<std::uint32_t> end =
+                end_by(rays_of, k, direction, thing, Misses::stay)) {
+            set(k, *end);
+            ++count.crossed;
+        }
+    });
+    if (sky_changed)
+        find_sky(rays_of, i);
+    return count;
+}
+
+}  // namespace lumel

@@ -1,0 +1,106 @@
+#include "links/trace/final_gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/packing.hpp>
+
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Random streams of parts and of links.
+constexpr std::uint32_t kPartStream = 1, kLinkStream = 3;
+/// Blocks of lumels that one step traces: a million rays.
+constexpr std::size_t kBlocksPerStep = 64;
+/// Deviation of what one ray brings, as a part of the mean of all light, in the furnished room of
+/// scenes/; other rooms have less.
+constexpr double kDeviation = 0.5;
+constexpr double kMinRays = 64.0, kMaxRays = 4096.0;
+/// Error that is aimed at where none is asked for.
+constexpr double kUsualError = 0.015;
+
+std::vector<char> buried(const Lumels& lumels)
+{
+    std::vector<char> result;
+    for (const Lumel& lumel : lumels.lumels)
+        result.push_back((lumel.flags & kLumelBuried) != 0);
+    return result;
+}
+
+}  // namespace
+
+std::uint32_t gather_rays(double error)
+{
+    const double root = kDeviation / (error > 0.0 ? error : kUsualError);
+    return std::uint32_t(std::clamp(root * root, kMinRays, kMaxRays));
+}
+
+FinalGather::FinalGather(const DirectRays& direct, std::vector<glm::vec3> received,
+                         std::uint32_t rays, std::uint32_t seed)
+    : direct_(direct),
+      sent_(std::move(received)),
+      parts_(direct.world(), direct.cells(), direct.place().rays, buried(direct.place().lumels),
+             PathSamples::hash(seed, kPartStream)),
+      tracer_(direct.place(), direct.sources(), direct.world(), direct.starts(), direct.cells(),
+              parts_, direct.finder(), direct.order(), seed),
+      rounds_((rays + kGatherRays - 1) / kGatherRays),
+      gathered_(parts_.count()),
+      sum_(sent_.size(), glm::vec3(0.0f)),
+      rays_(sent_.size(), 0)
+{
+    for (std::size_t i = 0; i < sent_.size(); ++i)
+        sent_[i] *= direct.place().lumels.lumels[i].albedo;
+}
+
+void FinalGather::step()
+{
+    if (block_ == 0) {
+        gathered_ = LinkSet(parts_.count());
+        gathered_.rounds.emplace_back(tracer_.blocks());
+    }
+    const std::size_t last = std::min(block_ + kBlocksPerStep, tracer_.blocks());
+    const std::vector<std::uint16_t> rays(sent_.size(), kGatherRays);
+    tracer_.trace(block_, last, {rays, kLinkStream + round_, nullptr}, gathered_);
+    take(last);
+    block_ = last;
+    if (block_ == tracer_.blocks()) {
+        block_ = 0;
+        ++round_;
+    }
+}
+
+/// Adds what the rays of blocks up to `last` met.
+void FinalGather::take(std::size_t last)
+{
+    for (std::size_t b = block_; b < last; ++b) {
+        LinkBlock& block = gathered_.rounds.back()[b];
+        const std::size_t end = std::min((b + 1) * kLinkBlock, sent_.size());
+        std::size_t row = 0;
+        for (std::size_t n = b * kLinkBlock; n < end; ++n) {
+            const std::uint32_t i = direct_.order()[n];
+            for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
+                rays_[i] += gathered_.rays[p];
+                sum_[i] += gathered_.reflected[p];
+                for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+                    sum_[i] += sent_[parts_.lumel(block.target[k])];
+                for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1]; ++k)
+                    sum_[i] += sent_[parts_.lumel(block.weak[k].part)] *
+                               glm::unpackF3x9_E1x5(block.weak[k].weight);
+            }
+        }
+        block = {};
+    }
+}
+
+std::vector<glm::vec3> FinalGather::irradiance() const
+{
+    std::vector<glm::vec3> light(sum_.size(), glm::vec3(0.0f));
+    for (std::size_t i = 0; i < light.size(); ++i)
+        if (rays_[i] > 0)
+            light[i] = sum_[i] / float(rays_[i]);
+    return light;
+}
+
+}  // namespace lumel

@@ -1,0 +1,630 @@
+// Radiosity over links: all light that a lumel receives is direct light D, which rays to points on
+// light sources find, and what rays spread by the cosine bring. Each of these is traced once. The
+// part of a lumel that it meets is kept, a link of four bytes, and
+//
+//     H = D + X,    X_p = (1/n_p) Σ_k ρ (D + X)[target_pk]  + sky,
+//
+// is solved over the links, sweep by sweep, for all bounces at once (links/trace/sweeps.cpp). The
+// cost grows with the number of lumels, as there is no shooter whose light falls off with the
+// square of the distance.
+//
+// Three solutions have links of their own, and direct light is found in two halves. The result is
+// the mean of the solutions, filtered over charts. The weights of the filter for two of them, A and
+// B, come from the third, so that the error of the filtered A', B' can be stated: their variance is
+// in A' - B', and the square of what the filter gets wrong is the mean of (A' - A)(B' - B). See
+// links/filter/filter.h, links/filter/mean.h.
+//
+// A lumel is too coarse where light changes within it: it has a grid of cells for direct light, and
+// parts, each with an X of its own, where geometry cuts it (atlas/cells/cells.h).
+
+#include "links/trace/links.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "atlas/cells/order.h"
+#include "base/core/error.h"
+#include "base/core/log.h"
+#include "base/core/state_bytes.h"
+#include "links/direct/deviation.h"
+#include "links/trace/shared_directions.h"
+#include "rays/device/query_caster.h"
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+/// Rays of a lumel in each solution of the first round; powers of two stratify best.
+constexpr std::uint32_t kFirstRays = 8;
+/// A later round has at least this share of the rays so far, and so many rays of a lumel at most.
+constexpr double kMinMore = 0.4, kMaxMore = 3.0;
+/// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
+constexpr double kAdaptiveGain = 0.6;
+constexpr std::uint32_t kMaxRays = 4096;
+/// Of a lumel in all solutions, for a stated error of 5 %: 24 in Cornell's box, 34 in Sponza, 74 in
+/// the town of scenes/town.py.
+constexpr double kLikelyRays = 64.0;
+/// [bytes] A link; what a part keeps of each round in each solution: where its links begin.
+constexpr double kLinkBytes = sizeof(std::uint32_t), kPartBytes = 2 * sizeof(std::uint32_t);
+/// Lumels whose direct light differs from cell to cell: most that was seen.
+constexpr double kVarying = 0.1;
+/// Share of its rays that go to all lumels alike.
+constexpr double kEvenShare = 0.25;
+/// Blocks of links that one step traces at the first round's number of rays.
+constexpr std::size_t kBlocksPerStep = 128;
+/// The same where they are drawn, which costs the same for more of them: a million rays (200 MB).
+constexpr std::size_t kBlocksPerDrawing = 512;
+/// Direct light is found better if its variance is so many times what it should be; in one go at
+/// most to this share of what it is.
+constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
+/// A ray of a link costs so many times one to a source, sweeps and filter included.
+constexpr double kCostOfLink = 1.5;
+/// Bounds of direct light's share in the variance that is asked for.
+constexpr double kMinShare = 0.1, kMaxShare = 0.6;
+/// Part of the first round that direct light takes, for the bar only.
+constexpr double kDirectOfRound = 0.5;
+/// Mean albedo of rooms whose level is balanced.
+constexpr double kBrightRoom = 0.95;
+/// Lumels that are darker than this share of the mean are dark.
+constexpr double kDark = 1.0 / 3.0;
+/// None counts as darker than this share of the mean where rays are shared out.
+constexpr double kDarkest = 1e-2;
+/// Random streams: of directions that are shared, of parts, of direct light, and of links of the
+/// solutions.
+constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
+
+std::vector<char> buried(const Lumels& lumels)
+{
+    std::vector<char> result(lumels.lumels.size());
+    std::transform(lumels.lumels.begin(), lumels.lumels.end(), result.begin(),
+                   [](const Lumel& lumel) { return (lumel.flags & kLumelBuried) != 0; });
+    return result;
+}
+
+/// What something makes; null, and a word of it, where the device cannot.
+template <class Make>
+auto unless_refused(const Make& make) -> decltype(make())
+{
+    try {
+        return make();
+    } catch (const Error& error) {
+        log_info(std::string("the host casts the rays: ") + error.what());
+        return nullptr;
+    }
+}
+
+std::unique_ptr<BundleCaster> bundles_for(const gpu::Device& device, const RayScene& rays,
+                                          Rays wanted)
+{
+    const auto make = [&] { return std::make_unique<BundleCaster>(device, rays); };
+    if (wanted == Rays::raster)
+        return make();
+    const bool draws = !device.can_query_rays() && device.info().type != "cpu";
+    return wanted == Rays::automatic && draws ? unless_refused(make) : nullptr;
+}
+
+std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene& rays, Rays wanted)
+{
+    const auto make = [&] { return cast_by_queries(device, rays); };
+    if (wanted == Rays::query)
+        return make();
+    if (wanted == Rays::automatic && device.can_query_rays() && device.info().type != "cpu")
+        if (auto queries = unless_refused(make))
+            return queries;
+    return cast_on_host(rays);
+}
+
+/// Adds the time that something takes to a stage [ms].
+class Clock {
+public:
+    explicit Clock(double& sum) : sum_(sum) {}
+    ~Clock()
+    {
+        sum_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_)
+                    .count();
+    }
+    Clock(const Clock&) = delete;
+    Clock& operator=(const Clock&) = delete;
+
+private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+LinkRadiosity::LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
+                             const LinksOptions& options, const SolveLimits& limits, Parts parts)
+    : options_(options),
+      target_error_(limits.target_error),
+      target_dark_error_(limits.target_dark_error),
+      most_shots_(limits.max_shots),
+      most_bytes_(limits.max_bytes),
+      parts_wanted_(parts),
+      lumels_(lumels),
+      surfaces_(host.scene),
+      bundles_(bundles_for(device, host.rays, options.rays)),
+      caster_(caster_for(device, host.rays, options.rays)),
+      place_{host.scene, surfaces_, host.rays, *caster_, bundles_.get(), host.atlas, lumels},
+      world_(host.scene, host.rays, lumels),
+      cells_(world_),
+      starts_(world_, &cells_, host.rays.ray_offset(), options.rule == SampleRule::centre),
+      sources_(host.scene, surfaces_, glm::distance(host.rays.low(), host.rays.high())),
+      order_(order_in_space(world_))
+{
+}
+
+LinkRadiosity::~LinkRadiosity() = default;
+
+std::uint64_t LinkRadiosity::first_bytes(std::size_t lumels)
+{
+    return std::uint64_t(kSolutions * double(lumels) * (kFirstRays * kLinkBytes + kPartBytes));
+}
+
+std::uint64_t LinkRadiosity::likely_bytes(std::size_t lumels, std::uint64_t shots)
+{
+    constexpr double kFirst = kSolutions * kFirstRays;
+    const double rays = shots > 0 ? std::min(double(shots), kLikelyRays) : kLikelyRays;
+    double rounds = 1.0;
+    for (double traced = kFirst; traced < rays; traced *= 1.0 + kMinMore)
+        ++rounds;
+    return std::uint64_t(double(lumels) * (rays * kLinkBytes + rounds * kSolutions * kPartBytes));
+}
+
+std::uint64_t LinkRadiosity::host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels)
+{
+    constexpr std::size_t kOfGathered =
+        2 * sizeof(glm::vec3) + sizeof(std::uint32_t) + sizeof(float);
+    constexpr std::size_t kOfMean = sizeof(glm::vec3) + 2 * sizeof(float);
+    constexpr std::size_t kOfOrder = sizeof(std::uint32_t), kOfGroups = sizeof(std::uint32_t);
+    const std::size_t of_parts = kSolutions * (kOfGathered + sizeof(glm::vec3)) + kOfGroups;
+    const std::size_t of_lumels = sizeof(WorldLumel) + kOfOrder + kOfMean + sizeof(std::uint16_t);
+    const auto varying = std::size_t(kVarying * double(lumels));
+    return lumels * (of_lumels + of_parts) + pieces * (sizeof(Piece) + sizeof(Facet)) +
+           Cells::bytes(lumels) + SubLumels::bytes(lumels, lumels) +
+           DirectEstimator::bytes(lumels, varying) + NearLumels::bytes(texels);
+}
+
+std::uint64_t LinkRadiosity::sweep_bytes(std::size_t lumels, std::size_t texels)
+{
+    const std::uint64_t sweep = lumels * 2 * sizeof(glm::vec4);
+    const std::uint64_t mean = lumels * (kSolutions * sizeof(glm::vec3) + sizeof(float)) +
+                               ChartFilter::bytes(lumels, texels);
+    return std::max(sweep, mean);
+}
+
+void LinkRadiosity::step()
+{
+    switch (stage_) {
+    case Stage::begin: {
+        const Clock clock(times_["parts of lumels"]);
+        cut();
+        stage_ = Stage::direct;
+        break;
+    }
+    case Stage::direct: {
+        const Clock clock(times_["direct light"]);
+        if (direct_->step())
+            break;
+        if (state_.shots == 0) {
+            begin_round();
+        } else {
+            estimate();
+            go_on();
+        }
+        break;
+    }
+    case Stage::links: {
+        const Clock clock(times_["links"]);
+        trace();
+        if (traced_ == tracer_->blocks())
+            stage_ = Stage::solve;
+        break;
+    }
+    case Stage::solve: {
+        const Clock clock(times_["sweeps"]);
+        end_round();
+        break;
+    }
+    }
+    ++state_.iterations;
+    state_.begun = begun();
+}
+
+/// All that changes once the lumels are cut, which is done anew.
+template <class Archive>
+void LinkRadiosity::state(Archive& archive)
+{
+    archive(*direct_, round_, mean_rays_, rays_, traced_, mean_.light, mean_.noise, mean_.wrong,
+            mean_light_, all_, dark_, state_, times_);
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        archive(*gathered_[k], received_[k]);
+}
+
+void LinkRadiosity::write_state(StateWriter& writer)
+{
+    writer(stage_);
+    if (stage_ != Stage::begin)
+        state(writer);
+}
+
+void LinkRadiosity::read_state(StateReader& reader)
+{
+    reader(stage_);
+    if (stage_ == Stage::begin)
+        return;
+    cut();
+    state(reader);
+    state_.full = false;
+    check_sizes();
+}
+
+/// Throws where what was read is of other lumels or parts.
+void LinkRadiosity::check_sizes() const
+{
+    const std::size_t lumels = order_.size(), parts = parts_->count();
+    const auto is = [](std::size_t size, std::size_t wanted) {
+        return size == 0 || size == wanted;
+    };
+    bool fits = direct_->fits() && is(rays_.size(), lumels) && is(mean_.light.size(), lumels) &&
+                is(mean_.noise.size(), lumels) && is(mean_.wrong.size(), lumels) &&
+                traced_ <= tracer_->blocks();
+    for (std::size_t k = 0; k < kSolutions; ++k)
+        fits = fits && gathered_[k]->rays.size() == parts && is(received_[k].size(), parts);
+    if (!fits)
+        throw Error(ErrorKind::input, "checkpoint",
+                    "is of another version of Lumel; bake without --resume");
+}
+
+/// How much of the first round is done.
+double LinkRadiosity::begun() const
+{
+    if (state_.shots > 0)
+        return 1.0;
+    if (stage_ == Stage::direct)
+        return kDirectOfRound * direct_->fraction();
+    return kDirectOfRound + (1.0 - kDirectOfRound) * double(traced_) / double(tracer_->blocks());
+}
+
+void LinkRadiosity::cut()
+{
+    parts_.emplace(world_, cells_, place_.rays, buried(lumels_),
+                   PathSamples::hash(options_.seed, kPartStream));
+    direct_.emplace(place_, sources_, starts_, order_,
+                    PathSamples::hash(options_.seed, kDirectStream));
+    tracer_.emplace(place_, sources_, world_, starts_, cells_, *parts_, *direct_, order_,
+                    options_.seed);
+    solver_.emplace(lumels_, world_, *parts_, order_);
+    for (std::optional<LinkSet>& gathered : gathered_)
+        gathered.emplace(parts_->count());
+}
+
+/// A step of the round's rays.
+void LinkRadiosity::trace()
+{
+    const std::size_t blocks = bundles_ ? kBlocksPerDrawing : kBlocksPerStep;
+    const std::size_t count =
+        std::max(std::size_t(double(blocks * kFirstRays) / mean_rays_), std::size_t(1));
+    const std::size_t last = std::min(traced_ + count, tracer_->blocks());
+    const std::uint32_t side =
+        bundles_ && options_.interleaved == 0 ? kInterleaved : options_.interleaved;
+    for (std::uint32_t k = 0; k < kSolutions; ++k) {
+        const std::uint32_t stream = kLinkStream + kSolutions * round_ + k;
+        std::optional<SharedDirections> shared;
+        if (side > 0)
+            shared.emplace(
+                side, mean_rays_,
+                PathSamples::hash(PathSamples::hash(options_.seed, kSharedStream), stream));
+        tracer_->trace(traced_, last, {rays_, stream, shared ? &*shared : nullptr}, *gathered_[k]);
+    }
+    traced_ = last;
+}
+
+/// As many rays as the error still asks for, within limits.
+void LinkRadiosity::begin_round()
+{
+    mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
+    const double fit = rays_that_fit();
+    if (state_.shots > 0 && fit < kMinMore * double(state_.shots) / double(kSolutions)) {
+        state_.full = true;
+        stage_ = Stage::direct;  // of which there is nothing to do
+        return;
+    }
+    mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
+    if (most_shots_ > state_.shots)
+        mean_rays_ = std::min(mean_rays_, double(most_shots_ - state_.shots) / double(kSolutions));
+    share_out_rays();
+    traced_ = 0;
+    stage_ = Stage::links;
+    for (std::optional<LinkSet>& gathered : gathered_)
+        gathered->rounds.emplace_back(tracer_->blocks());
+}
+
+/// Rays that each solution should have more, for the error that is asked for.
+double LinkRadiosity::more_rays() const
+{
+    const double so_far = double(state_.shots) / double(kSolutions);
+    double more = so_far;
+    if (const std::vector<Wanted> all = wanted(); !all.empty()) {
+        double ratio = 0.0;
+        for (const Wanted& one : all) {
+            const double square = one.error * one.error;
+            const double left = square - std::min(one.now.direct, kMaxShare * square);
+            ratio = std::max(ratio, one.now.rays / left);
+        }
+        more = std::clamp(kAdaptiveGain * so_far * (ratio - 1.0), kMinMore * so_far,
+                          kMaxMore * so_far);
+    }
+    return std::min(more, double(kMaxRays));
+}
+
+/// Rays that each solution can have more, by the memory that their links take.
+double LinkRadiosity::rays_that_fit() const
+{
+    if (most_bytes_ == 0)
+        return kMaxRays;
+    double taken = 0.0;
+    for (const std::optional<LinkSet>& gathered : gathered_)
+        taken += double(gathered->bytes());
+    const double of_ray =
+        state_.shots > 0 ? taken / double(state_.shots) : double(order_.size()) * kLinkBytes;
+    const double starts = kSolutions * double(parts_->count()) * kPartBytes;
+    return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
+}
+
+/// What the square of each lumel's error counts [N]: where dark lumels are asked for, what they
+/// lack counts by their own light, half way.
+std::vector<double> LinkRadiosity::weights() const
+{
+    std::vector<double> weight(order_.size(), 1.0);
+    if (target_dark_error_ > 0.0)
+        for (std::size_t i = 0; i < weight.size(); ++i) {
+            const glm::vec3 all = arrived(i);
+            weight[i] = 1.0 / (double(all.r + all.g + all.b) + kDarkest * mean_light_);
+        }
+    return weight;
+}
+
+/// The sum of variances is least if rays are in proportion to deviations. A part of the rays goes
+/// to all alike, since what has not met any light yet looks quiet.
+void LinkRadiosity::share_out_rays()
+{
+    rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
+    if (state_.shots == 0)
+        return;
+    const std::vector<double> weight = weights();
+    std::vector<double> square(order_.size());
+    for (std::size_t i = 0; i < square.size(); ++i)
+        square[i] = weight[i] * spread(indirect(i, 0), indirect(i, 1), indirect(i, 2));
+    const std::vector<double> deviation = deviation_nearby(square, order_, 0.0);
+    double mean = 0.0, lit = 0.0;
+    for (std::size_t i = 0; i < deviation.size(); ++i)
+        if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+            mean += deviation[i];
+            lit += 1.0;
+        }
+    mean /= std::max(lit, 1.0);
+    if (!(mean > 0.0))
+        return;
+    for (std::size_t i = 0; i < deviation.size(); ++i) {
+        const double share = kEvenShare + (1.0 - kEvenShare) * deviation[i] / mean;
+        rays_[i] = std::uint16_t(std::clamp(std::lround(mean_rays_ * share), 0l, long(kMaxRays)));
+    }
+}
+
+void LinkRadiosity::end_round()
+{
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        solver_->solve(*gathered_[k], received_[k]);
+        balance(k);
+    }
+    state_.shots += std::uint64_t(std::llround(double(kSolutions) * mean_rays_));
+    ++round_;
+    combine();
+    estimate();
+    go_on();
+}
+
+/// In a bright closed room the level of all light has a noise of its own, but what surfaces absorb
+/// is known: all that is sent, Σ A (1 - ρ) (D + X) = Σ A D.
+void LinkRadiosity::balance(std::size_t k)
+{
+    if (!gathered_[k]->is_closed())
+        return;
+    glm::dvec3 absorbed(0.0), reflected(0.0);
+    double area = 0.0, albedo = 0.0;
+    for (std::size_t i = 0; i < lumels_.lumels.size(); ++i) {
+        const Lumel& lumel = lumels_.lumels[i];
+        if (lumel.flags & kLumelBuried)
+            continue;
+        const double a = double(lumel.area);
+        absorbed += a * glm::dvec3((1.0f - lumel.albedo) * indirect(i, k));
+        reflected += a * glm::dvec3(lumel.albedo * direct_->mean(i));
+        area += a;
+        albedo += a * double(lumel.albedo.r + lumel.albedo.g + lumel.albedo.b) / 3.0;
+    }
+    if (albedo < kBrightRoom * area)
+        return;
+    glm::vec3 factor(1.0f);
+    for (int c = 0; c < 3; ++c)
+        if (absorbed[c] > 0.0)
+            factor[c] = float(reflected[c] / absorbed[c]);
+    for (glm::vec3& light : received_[k])
+        light *= factor;
+}
+
+/// The errors that are asked for.
+std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
+{
+    std::vector<Wanted> result;
+    if (target_error_ > 0.0)
+        result.push_back({target_error_, all_});
+    if (target_dark_error_ > 0.0)
+        result.push_back({target_dark_error_, dark_});
+    return result;
+}
+
+/// What comes next: better direct light, or more links.
+void LinkRadiosity::go_on()
+{
+    const std::vector<Wanted> all = wanted();
+    const bool reached = std::all_of(all.begin(), all.end(), [](const Wanted& one) {
+        return one.now.rays + one.now.direct <= one.error * one.error;
+    });
+    if (reached && !all.empty())
+        return;
+    if (refine_direct())
+        stage_ = Stage::direct;
+    else
+        begin_round();
+}
+
+/// The share of direct light in the variance that is asked for. A variance that falls as 1 / rays
+/// is reached at the least cost if its parts are as the roots of variance × cost.
+double LinkRadiosity::share_of_direct(const Errors& now) const
+{
+    const double of_rays = kCostOfLink * now.rays * double(state_.shots * order_.size());
+    const double of_direct = now.direct * double(direct_->rays());
+    const double root = std::sqrt(of_direct), sum = root + std::sqrt(of_rays);
+    return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
+}
+
+/// Prepares to find direct light better, where its noise is what is in the way.
+bool LinkRadiosity::refine_direct()
+{
+    double share = 1.0;
+    const auto cut = [&](double square, const Errors& now) {
+        const double most = share_of_direct(now) * square;
+        if (now.direct > kTooUncertain * most)
+            share = std::min(share, std::max(most / now.direct, kMinDirect));
+    };
+    const std::vector<Wanted> all = wanted();
+    for (const Wanted& one : all)
+        cut(one.error * one.error, one.now);
+    if (all.empty())
+        cut(all_.rays + all_.direct, all_);
+    return share < 1.0 && direct_->refine(share, state_.shots * order_.size(), weights());
+}
+
+/// What rays brought to a lumel in one solution, of the parts of light that are wanted [lx].
+glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
+{
+    glm::vec3 sky(0.0f);
+    std::uint32_t rays = 0;
+    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+        rays += gathered_[k]->rays[p];
+        sky += gathered_[k]->sky[p];
+    }
+    if (rays > 0)
+        sky /= float(rays);
+    switch (parts_wanted_) {
+    case Parts::all:
+        return indirect(i, k);
+    case Parts::direct:
+        return sky;
+    case Parts::indirect:
+        return indirect(i, k) - sky;
+    }
+    return {};
+}
+
+/// All that rays brought to a lumel in one solution [lx].
+glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
+{
+    glm::vec3 sum(0.0f);
+    std::uint32_t rays = 0;
+    for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p) {
+        rays += gathered_[k]->rays[p];
+        sum += float(gathered_[k]->rays[p]) * received_[k][p];
+    }
+    return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
+}
+
+/// How near the rays of each lumel met anything [N] [m].
+std::vector<float> LinkRadiosity::nearest() const
+{
+    std::vector<float> nearest(lumels_.lumels.size(), std::numeric_limits<float>::max());
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+        for (std::uint32_t p = parts_->first(i); p < parts_->end(i); ++p)
+            for (const std::optional<LinkSet>& gathered : gathered_)
+                nearest[i] = std::min(nearest[i], gathered->nearest[p]);
+    return nearest;
+}
+
+/// Takes the mean of the solutions.
+void LinkRadiosity::combine()
+{
+    Solutions found;
+    for (std::size_t k = 0; k < kSolutions; ++k) {
+        found[k].resize(lumels_.lumels.size());
+        for (std::size_t i = 0; i < found[k].size(); ++i)
+            found[k][i] = brought(i, k);
+    }
+    const std::vector<float> near = nearest();
+    std::optional<ChartFilter> filter;
+    if (options_.filter)
+        filter.emplace(place_, world_, *parts_, near);
+    mean_ = mean_of(found, filter ? &*filter : nullptr);
+}
+
+/// Beside the error of what rays brought, that of direct light: the difference of two independent
+/// halves has four times the variance of their mean.
+void LinkRadiosity::estimate()
+{
+    struct Sums {
+        SquaredError rays;
+        double direct = 0.0, light = 0.0, count = 0.0;
+
+        /// √(Σ d² / 3n) / (Σ H / 3n), squared
+        double relative(double squares) const
+        {
+            return light > 0.0 ? 3.0 * count * squares / (light * light) : 0.0;
+        }
+        Errors errors() const { return {relative(rays.sum()), relative(direct)}; }
+    };
+    const auto add = [&](Sums& sums, std::size_t i, double light) {
+        const glm::vec3 d = 0.5f * (direct_->half(0)[i] - direct_->half(1)[i]);
+        sums.direct += parts_wanted_ == Parts::indirect ? 0.0 : double(glm::dot(d, d));
+        if (!mean_.light.empty())
+            sums.rays.add(mean_, i);
+        sums.light += light;
+        sums.count += 1.0;
+    };
+    const auto visit = [&](const auto& what) {
+        for (std::size_t i = 0; i < lumels_.lumels.size(); ++i)
+            if (!(lumels_.lumels[i].flags & kLumelBuried)) {
+                const glm::vec3 all = arrived(i);
+                what(i, double(all.r + all.g + all.b));
+            }
+    };
+    Sums all, dark;
+    visit([&](std::size_t i, double light) { add(all, i, light); });
+    mean_light_ = all.light / std::max(all.count, 1.0);
+    visit([&](std::size_t i, double light) {
+        if (light < kDark * mean_light_)
+            add(dark, i, light);
+    });
+    all_ = all.errors();
+    dark_ = dark.errors();
+    state_.error = std::sqrt(all_.rays + all_.direct);
+    state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
+}
+
+/// At a lumel, of the parts of light that are wanted [lx].
+glm::vec3 LinkRadiosity::arrived(std::size_t i) const
+{
+    const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f) : direct_->mean(i);
+    return mean_.light.empty() ? direct : direct + mean_.light[i];
+}
+
+std::vector<glm::vec3> LinkRadiosity::irradiance()
+{
+    std::vector<glm::vec3> result(lumels_.lumels.size(), glm::vec3(0.0f));
+    if (direct_)
+        for (std::size_t i = 0; i < result.size(); ++i)
+            result[i] = arrived(i);
+    return result;
+}
+
+}  // namespace lumel

@@ -1,0 +1,301 @@
+#include "links/trace/sweeps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/core/error.h"
+#include "base/core/frame.h"
+#include "base/core/parallel.h"
+
+namespace lumel {
+namespace {
+
+/// The scene is cut into this many cells a side for the groups.
+constexpr int kGroupCells = 4;
+/// Sweeps before groups are made.
+constexpr int kPlainSweeps = 10;
+/// What is left to come may be this share of a part's own light, in the mean of squares; parts
+/// darker than kDarkest of the mean count as if they had that.
+constexpr double kStill = 1e-3, kDarkest = 1e-4;
+constexpr int kMaxSweeps = 2000;
+/// A correction changes a group by this factor at most.
+constexpr double kMaxFactor = 64.0;
+/// Of a group [m²], where one has none.
+constexpr double kMinArea = 1e-30;
+/// Blocks of one task.
+constexpr std::size_t kGrain = 4;
+/// Changes count as shrinking by this factor at least.
+constexpr double kSlowest = 1.0 - 1e-6;
+/// A pivot this small: all that a group sends comes back to it.
+constexpr double kSingular = 1e-7;
+
+/// Σ over channels, in the mean of all parts.
+double mean_of(const std::vector<glm::vec4>& sent)
+{
+    double sum = 0.0;
+    for (const glm::vec4& light : sent)
+        sum += double(light.x + light.y + light.z);
+    return sum / double(std::max<std::size_t>(sent.size(), 1));
+}
+
+}  // namespace
+
+/// Corrects the level of groups after a sweep x → y of what parts send: with K_ab the share of what
+/// group a receives that comes from b, times ρ, and r_a the mean change of a, the change still to
+/// come is (1 - K)⁻¹ K r in the mean of a. Parts get it in proportion to what they send, so that
+/// none comes into dark cavities, which would keep it long.
+class LinkSolver::Groups {
+public:
+    Groups(const LinkSolver& solver, const LinkSet& gathered)
+        : solver_(solver),
+          size_(solver.group_count_)
+    {
+        const std::size_t cells = std::size_t(size_) * size_;
+        for (int c = 0; c < 3; ++c)
+            inverse_[c].assign(cells, 0.0);
+        area_.assign(size_, 0.0);
+        for_each_part([&](std::uint32_t p, double area) { area_[solver.group_[p]] += area; });
+        count_links(gathered);
+        for (int c = 0; c < 3; ++c)
+            invert(inverse_[c]);
+    }
+
+    /// Adds the change still to come to `now`; before: what it was before the sweep. Returns that
+    /// change as a part of what groups send: root of the mean square, by what they send.
+    double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
+    {
+        std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
+        for_each_part([&](std::uint32_t p, double area) {
+            change[solver_.group_[p]] += area * glm::dvec3(now[p] - before[p]);
+            mean[solver_.group_[p]] += area * glm::dvec3(now[p]);
+        });
+        for (std::uint32_t g = 0; g < size_; ++g) {
+            change[g] /= std::max(area_[g], kMinArea);
+            mean[g] /= std::max(area_[g], kMinArea);
+        }
+        // (1 - K)⁻¹ K r = (1 - K)⁻¹ r - r.
+        for (std::uint32_t a = 0; a < size_; ++a)
+            for (int c = 0; c < 3; ++c) {
+                double sum = -change[a][c];
+                for (std::uint32_t b = 0; b < size_; ++b)
+                    sum += inverse_[c][std::size_t(a) * size_ + b] * change[b][c];
+                factor[a][c] = mean[a][c] > 0.0 ? std::clamp(1.0 + sum / mean[a][c],
+                                                             1.0 / kMaxFactor, kMaxFactor)
+                                                : 1.0;
+            }
+        for_each_part(
+            [&](std::uint32_t p, double) { now[p] *= glm::vec4(factor[solver_.group_[p]], 0.0); });
+        double squares = 0.0, sent = 0.0;
+        for (std::uint32_t g = 0; g < size_; ++g)
+            for (int c = 0; c < 3; ++c) {
+                const double weight = area_[g] * mean[g][c];
+                squares += weight * (factor[g][c] - 1.0) * (factor[g][c] - 1.0);
+                sent += weight;
+            }
+        return sent > 0.0 ? std::sqrt(squares / sent) : 0.0;
+    }
+
+private:
+    template <class Visit>
+    void for_each_part(const Visit& visit) const
+    {
+        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
+        for (std::uint32_t i = 0; i < lumels.size(); ++i) {
+            const std::uint32_t first = solver_.parts_.first(i), end = solver_.parts_.end(i);
+            for (std::uint32_t p = first; p < end; ++p)
+                visit(p, double(lumels[i].area) / double(end - first));
+        }
+    }
+
+    /// 1 - K.
+    void count_links(const LinkSet& gathered)
+    {
+        const std::vector<Lumel>& lumels = solver_.lumels_.lumels;
+        for (const std::vector<LinkBlock>& blocks : gathered.rounds)
+            for (std::size_t b = 0; b < blocks.size(); ++b) {
+                std::size_t row = 0;
+                const std::size_t end = std::min((b + 1) * kLinkBlock, solver_.order_.size());
+                for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+                    const std::uint32_t i = solver_.order_[o];
+                    const std::uint32_t first = solver_.parts_.first(i),
+                                        last = solver_.parts_.end(i);
+                    for (std::uint32_t p = first; p < last; ++p, ++row) {
+                        if (gathered.rays[p] == 0)
+                            continue;
+                        const std::uint32_t a = solver_.group_[p];
+                        const double share = double(lumels[i].area) / double(last - first) /
+                                             std::max(area_[a], kMinArea) /
+                                             double(gathered.rays[p]);
+                        const LinkBlock& block = blocks[b];
+                        const auto add = [&](std::uint32_t target, const glm::vec3& weight) {
+                            const std::size_t cell =
+                                std::size_t(a) * size_ + solver_.group_[target];
+                            for (int c = 0; c < 3; ++c)
+                                inverse_[c][cell] -=
+                                    share * double(lumels[i].albedo[c] * weight[c]);
+                        };
+                        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+                            add(block.target[k], glm::vec3(1.0f));
+                        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1];
+                             ++k)
+                            add(block.weak[k].part, glm::unpackF3x9_E1x5(block.weak[k].weight));
+                    }
+                }
+            }
+        for (std::uint32_t g = 0; g < size_; ++g)
+            for (int c = 0; c < 3; ++c)
+                inverse_[c][std::size_t(g) * size_ + g] += 1.0;
+    }
+
+    /// In place, by Gauss-Jordan with the diagonal as pivots: 1 - K is diagonally dominant.
+    void invert(std::vector<double>& m) const
+    {
+        const std::size_t n = size_;
+        for (std::size_t k = 0; k < n; ++k) {
+            const double pivot = m[k * n + k];
+            if (!(pivot > kSingular))
+                throw Error(ErrorKind::input, "albedo 1",
+                            "in a closed room: light that is nowhere absorbed grows without "
+                            "bound; make some surface darker");
+            m[k * n + k] = 1.0;
+            for (std::size_t j = 0; j < n; ++j)
+                m[k * n + j] /= pivot;
+            parallel_for(n, 16, [&](std::size_t first, std::size_t last) {
+                for (std::size_t i = first; i < last; ++i) {
+                    const double factor = m[i * n + k];
+                    if (i == k || factor == 0.0)
+                        continue;
+                    m[i * n + k] = 0.0;
+                    for (std::size_t j = 0; j < n; ++j)
+                        m[i * n + j] -= factor * m[k * n + j];
+                }
+            });
+        }
+    }
+
+    const LinkSolver& solver_;
+    std::uint32_t size_;
+    std::vector<double> inverse_[3];  ///< [groups][groups] (1 - K)⁻¹ of each channel
+    std::vector<double> area_;        ///< [groups] [m²]
+};
+
+LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const SubLumels& parts,
+                       const std::vector<std::uint32_t>& order)
+    : lumels_(lumels),
+      parts_(parts),
+      order_(order),
+      group_(parts.count())
+{
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        low = glm::min(low, world[i].centre);
+        high = glm::max(high, world[i].centre);
+    }
+    const glm::vec3 scale =
+        float(kGroupCells) / glm::max(high - low, glm::vec3(1e-6f * glm::distance(low, high)));
+    std::map<int, std::uint32_t> number;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+        const glm::ivec3 cell =
+            glm::clamp(glm::ivec3((world[i].centre - low) * scale), 0, kGroupCells - 1);
+        const int key = ((cell.z * kGroupCells + cell.y) * kGroupCells + cell.x) * 6 +
+                        cube_side(world[i].normal);
+        const auto [at, is_new] = number.try_emplace(key, std::uint32_t(number.size()));
+        std::fill(group_.begin() + parts.first(i), group_.begin() + parts.end(i), at->second);
+    }
+    group_count_ = std::uint32_t(number.size());
+}
+
+/// X of a block's parts from what all send, and what they send then.
+LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t b, double floor,
+                                           const std::vector<Reflected>& sent,
+                                           std::vector<Reflected>& next,
+                                           std::vector<glm::vec3>& received) const
+{
+    Change change;
+    std::size_t row = 0;
+    const std::size_t end = std::min((b + 1) * kLinkBlock, order_.size());
+    for (std::size_t o = b * kLinkBlock; o < end; ++o) {
+        const std::uint32_t i = order_[o];
+        glm::vec3 of_all(0.0f);
+        std::uint32_t rays = 0;
+        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p, ++row) {
+            const glm::vec3 sum = received_by(gathered, b, row, p, sent);
+            of_all += sum;
+            rays += gathered.rays[p];
+            if (gathered.rays[p] > 0)
+                received[p] = sum / float(gathered.rays[p]);
+        }
+        for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
+            // A part without a ray takes the lumel's mean.
+            if (gathered.rays[p] == 0)
+                received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
+            next[p] = glm::vec4(lumels_.lumels[i].albedo * received[p], 0.0f);
+            const double now = double(next[p].x + next[p].y + next[p].z);
+            const double before = double(sent[p].x + sent[p].y + sent[p].z);
+            if (now > 0.0) {
+                const double relative = (now - before) / (now + floor);
+                change.squares += relative * relative;
+                ++change.count;
+            }
+        }
+    }
+    return change;
+}
+
+/// Σ of all that the rays of part p have brought, in a block's row.
+glm::vec3 LinkSolver::received_by(const LinkSet& gathered, std::size_t b, std::size_t row,
+                                  std::uint32_t p, const std::vector<Reflected>& sent) const
+{
+    glm::vec4 sum(gathered.reflected[p] + gathered.sky[p], 0.0f);
+    for (const std::vector<LinkBlock>& round : gathered.rounds) {
+        const LinkBlock& block = round[b];
+        for (std::uint32_t k = block.first[row]; k < block.first[row + 1]; ++k)
+            sum += sent[block.target[k]];
+        for (std::uint32_t k = block.first_weak[row]; k < block.first_weak[row + 1]; ++k)
+            sum += sent[block.weak[k].part] *
+                   glm::vec4(glm::unpackF3x9_E1x5(block.weak[k].weight), 0.0f);
+    }
+    return glm::vec3(sum);
+}
+
+void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received) const
+{
+    const std::size_t parts = parts_.count(),
+                      blocks = (order_.size() + kLinkBlock - 1) / kLinkBlock;
+    received.resize(parts, glm::vec3(0.0f));
+    std::vector<Reflected> sent(parts), next(parts);
+    for (std::size_t p = 0; p < parts; ++p)
+        sent[p] = glm::vec4(lumels_.lumels[parts_.lumel(p)].albedo * received[p], 0.0f);
+    std::optional<Groups> groups;
+    std::vector<Change> changes(blocks);
+    double before = 0.0, floor = 0.0;
+    for (int sweep = 1; sweep <= kMaxSweeps; ++sweep) {
+        parallel_for(blocks, kGrain, [&](std::size_t first, std::size_t last) {
+            for (std::size_t b = first; b < last; ++b)
+                changes[b] = sweep_block(gathered, b, floor, sent, next, received);
+        });
+        Change all;
+        for (const Change& change : changes) {
+            all.squares += change.squares;
+            all.count += change.count;
+        }
+        const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
+        // Changes that shrink by a factor q leave q / (1 - q) of the last to come.
+        const double factor = std::min(before > 0.0 ? size / before : kSlowest, kSlowest);
+        const double to_come =
+            groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);
+        sent.swap(next);
+        before = size;
+        if (size == 0.0 || (sweep > 1 && to_come < kStill))
+            return;
+        if (sweep == 1)
+            floor = kDarkest * mean_of(sent);
+        if (sweep == kPlainSweeps)
+            groups.emplace(*this, gathered);
+    }
+}
+
+}  // namespace lumel

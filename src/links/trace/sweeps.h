@@ -1,0 +1,52 @@
+#pragma once
+// All bounces of light over stored links.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "links/trace/tracer.h"
+
+namespace lumel {
+
+/// Solves X = C + K ρ X for what parts receive beside direct light:
+///
+///     X_p = (1/n_p) Σ_k (C_pk + w_pk ρ X[target_pk]),
+///
+/// C what the rays met of direct light and sky, w the weight of a link. By sweeps (Jacobi) until
+/// still, and where they are slow, as in bright closed rooms, with a correction by groups of parts
+/// that face alike and lie in one cell of the scene.
+class LinkSolver {
+public:
+    /// What is given must outlive it.
+    LinkSolver(const Lumels& lumels, const WorldLumels& world, const SubLumels& parts,
+               const std::vector<std::uint32_t>& order);
+
+    /// X [P] [lx], beginning from what it holds if that is not empty. Throws Error{input} if the
+    /// light of a closed room is nowhere absorbed.
+    void solve(const LinkSet& gathered, std::vector<glm::vec3>& received) const;
+
+private:
+    class Groups;
+    using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
+    /// What a sweep changed of what parts send, each relative to its own.
+    struct Change {
+        double squares = 0.0;
+        std::size_t count = 0;
+    };
+
+    Change sweep_block(const LinkSet& gathered, std::size_t block, double floor,
+                       const std::vector<Reflected>& sent, std::vector<Reflected>& next,
+                       std::vector<glm::vec3>& received) const;
+    glm::vec3 received_by(const LinkSet& gathered, std::size_t block, std::size_t row,
+                          std::uint32_t part, const std::vector<Reflected>& sent) const;
+
+    const Lumels& lumels_;
+    const SubLumels& parts_;
+    const std::vector<std::uint32_t>& order_;
+    std::vector<std::uint32_t> group_;  ///< [P]
+    std::uint32_t group_count_ = 0;
+};
+
+}  // namespace lumel

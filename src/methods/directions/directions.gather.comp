@@ -1,0 +1,222 @@
+#version 460
+#include "methods/directions/directions.shared.h"
+#include "atlas/packing/lumel.shared.h"
+#include "base/core/hash.glsl"
+#include "raster/world/lumel.glsl"
+#include "raster/world/receiving_point.glsl"
+#include "raster/world/channel.glsl"
+#include "raster/parallel/parallel.glsl"
+#include "raster/parallel/rays_along.glsl"
+
+// Every lumel i looks along K global directions d and takes the light of what it sees first,
+// [TN11] Eq. (2) and Figure 5:
+//
+//     H_i += Σ_k  4 B_j max(n_i · d_k, 0),        j the lumel seen from i along d_k;
+//
+// of the sky, 4π L. The map holds fragments, which name lumels; so emitted and reflected light are
+// gathered apart in one go.
+//
+// Of stochastic layers, (2 neighbours + 1)² pixels are looked up, what lies below the receiver's
+// plane is rejected, and the nearest of the rest is taken. Among slabs, this is done in the map of
+// the receiver's own; what comes first beyond it is known for certain, and one lookup is enough.
+//
+// A list holds every surface on the ray through a pixel's centre, so there the receiving point is
+// moved to where such a ray meets the lumel (first_met.glsl), and what is seen is exact. So it is
+// of peeled layers: they come nearer to the lumel one by one, and the last one above it is kept.
+//
+// Among coloured glass directions take the colour channels in turn.
+
+layout(local_size_x = kGatherGroup) in;
+layout(constant_id = 0) const uint kLayers = kStochasticLayers;
+layout(push_constant, scalar) uniform Params { GatherParams p; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+layout(scalar) readonly buffer Directions { GlobalDirection directions[]; };
+uniform usampler2D illumination_map;
+layout(scalar) readonly buffer Heads { uint heads[]; };
+layout(scalar) readonly buffer Fragments { Fragment fragments[]; };
+layout(scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
+layout(scalar) readonly buffer Emission { vec3 emission[]; };
+layout(scalar) readonly buffer Source { vec3 source[]; };
+layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
+layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
+layout(scalar) buffer Kept { uint kept[]; };  // [K][N] peeled: seen so far
+layout(scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
+layout(scalar) buffer SeenLightOf { SeenLight seen_light_of[]; };
+
+const float kPi = 3.14159265;
+// What lies higher than this above the plane is not the receiver itself [pixels' widths].
+const float kAbovePlane = 0.02;
+
+// From this width on a piece has a ray wherever the grid of pixels lies [pixels].
+const float kWide = 2.0;
+
+// Σ cosθ of 32 directions over the sphere, before which P is taken to be right.
+const float kUsual = 8.0;
+
+// What is seen, and how much it counts.
+struct Seen {
+    uint surface;  // as a Fragment has it; 0: the sky
+    float weight;  // 0: nothing is known
+};
+
+// A receiving point in a view.
+struct InView {
+    vec2 at;         // [pixels]
+    float nearness;
+    // Heights above the receiver's plane, per pixel and per nearness [pixels' widths].
+    vec2 per_pixel;
+    float per_nearness;
+};
+
+InView in_view(ParallelView view, LumelPoint point)
+{
+    const float pixels_per_metre = length(view.right), nearness_per_metre = length(view.toward);
+    const vec3 normal = normalize(point.facing);
+    return InView(place_in(view, point.position), nearness_in(view, point.position),
+                  vec2(dot(normal, view.right), dot(normal, view.up)) / pixels_per_metre,
+                  dot(normal, view.toward) * pixels_per_metre /
+                      (nearness_per_metre * nearness_per_metre));
+}
+
+// The nearest that a map shows within `reach` pixels of the point, or `before`.
+uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
+{
+    const ivec2 corner = ivec2(tile_corner(p.tiling, tile));
+    const int last = int(p.tiling.side) - 1;
+    uvec2 nearest = before;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+            const ivec2 pixel = clamp(ivec2(floor(point.at)) + ivec2(x, y), ivec2(0), ivec2(last));
+            const uvec2 fragment = texelFetch(illumination_map, corner + pixel, 0).xy;
+            const float there = uintBitsToFloat(fragment.y);
+            const float height = dot(point.per_pixel, vec2(pixel) + 0.5 - point.at) +
+                                 point.per_nearness * (there - point.nearness);
+            if (fragment.x != 0u && height > kAbovePlane && there > point.nearness &&
+                there < uintBitsToFloat(nearest.y))
+                nearest = fragment;
+        }
+    return nearest;
+}
+
+Seen see_by_chance(ParallelView view, uint k, LumelPoint receiver)
+{
+    const InView point = in_view(view, receiver);
+    const uint slab = min(uint(max(point.nearness, 0.0) * float(p.slabs)), p.slabs - 1u);
+    const uint tile = k * p.maps + slab;
+    uvec2 nearest = uvec2(0u, floatBitsToUint(2.0));  // the sky: all that is nearer is below 1
+    nearest = nearest_around(point, tile, int(p.neighbours), nearest);
+    if (slab + 1u < p.slabs)
+        nearest = nearest_around(point, tile + p.slabs, 0, nearest);
+    return Seen(nearest.x, 1.0);
+}
+
+uint nearest_listed(PieceInView piece, RayMet ray, uint tile)
+{
+    const uint side = p.tiling.side;
+    uint next = heads[(tile * side + uint(ray.pixel.y)) * side + uint(ray.pixel.x)];
+    uint surface = 0u;
+    float first = 2.0;
+    while (next != kEndOfList) {
+        const Fragment fragment = fragments[next];
+        const bool nearer = fragment.nearness < first ||
+                            (fragment.nearness == first && fragment.surface < surface);
+        if (nearer && !is_first(piece, ray, fragment.nearness)) {
+            first = fragment.nearness;
+            surface = fragment.surface;
+        }
+        next = fragment.next;
+    }
+    return surface;
+}
+
+uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
+{
+    const uint at = tile * p.count + i;
+    if (p.keep == 0u)
+        return kept[at];
+    const ivec2 place = ivec2(tile_corner(p.tiling, tile)) + ivec2(ray.pixel);
+    const uvec2 fragment = texelFetch(illumination_map, place, 0).xy;
+    if (fragment.x != 0u && !is_first(piece, ray, uintBitsToFloat(fragment.y))) {
+        kept[at] = fragment.x;
+        atomicMax(news, 1u);
+    } else if (p.layer == 0u)
+        kept[at] = 0u;
+    return fragment.x;
+}
+
+// A ray that meets the point's piece. Of a thin one any ray stands for as many as meet it, which
+// are `mean` in the mean over all places of the grid.
+bool choose_ray(ParallelView view, PieceInView piece, LumelPoint point, uint random, out RayMet ray)
+{
+    const RaysAlong rays = rays_along(view, p.tiling, pieces[point.piece], piece);
+    if (rays.width > kWide) {
+        const vec2 place = place_in(view, point.position), size = vec2(p.tiling.side);
+        const bool found = find_ray(piece, place, size, ray);
+        ray.chance = 1.0;
+        return found;
+    }
+    const float count = count_rays(rays, p.tiling);
+    if (count == 0.0)
+        return false;
+    ray = RayMet(nth_ray(rays, p.tiling, floor(unit_float(random) * count)), rays.mean / count);
+    return true;
+}
+
+Seen see_exactly(ParallelView view, uint k, LumelPoint point, uint i)
+{
+    const PieceInView piece = piece_along(view, pieces[point.piece]);
+    RayMet ray;
+    if (!choose_ray(view, piece, point, hash(i ^ hash(p.first_point + k)), ray))
+        return Seen(0u, 0.0);
+    return Seen(kLayers == kListedLayers ? nearest_listed(piece, ray, k)
+                                         : nearest_peeled(piece, ray, k, i),
+                1.0 / ray.chance);
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    vec3 of_emission = vec3(0.0), of_source = vec3(0.0);
+    SeenLight light = seen_light_of[i];
+    for (uint k = 0u; k < p.views; ++k) {
+        const GlobalDirection direction = directions[p.first_view + k];
+        const LumelPoint point =
+            receiving_point(lumel, i, p.first_point + k, p.seed, p.centre != 0u);
+        const float cosine = dot(point.normal, direction.toward);
+        if (cosine <= 0.0 || dot(point.facing, direction.toward) <= 0.0)
+            continue;
+        const ParallelView view = views[p.first_view + k];
+        const Seen seen = kLayers == kStochasticLayers ? see_by_chance(view, k, point)
+                                                       : see_exactly(view, k, point, i);
+        if (p.keep != 0u)
+            continue;
+        const vec3 weight = 4.0 * cosine * seen.weight * carried_in_turn(view.channel);
+        light.sought += cosine;
+        light.found += cosine * seen.weight;
+        if (seen.surface == 0u) {
+            of_emission += weight * kPi * direction.sky;
+            continue;
+        }
+        if (seen.surface == kAbsorbing)
+            continue;
+        const uint j = lumel_of[seen.surface - 1u];
+        if (j == kNoLumel)
+            continue;
+        if (p.with_emission != 0u)
+            of_emission += weight * emission[j];
+        if (p.with_source != 0u)
+            of_source += weight * source[j];
+    }
+    if (p.keep != 0u)
+        return;
+    seen_light_of[i] = light;
+    const float correction = (light.sought + kUsual) / (light.found + kUsual);
+    const uint at = p.half_index * p.count + i;
+    direct[at] += correction * of_emission;
+    indirect[at] += correction * of_source;
+}

@@ -1,0 +1,44 @@
+#ifndef LUMEL_METHODS_DIRECTIONS_DIRECTIONS_SHARED_H
+#define LUMEL_METHODS_DIRECTIONS_DIRECTIONS_SHARED_H
+#include "raster/parallel/illumination_maps.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kGatherGroup = 64u;  ///< threads per workgroup of directions.gather.comp
+
+/// A direction that light is gathered from.
+struct GlobalDirection {
+    vec3 toward;  ///< d: unit, from receivers to what they see
+    vec3 sky;     ///< radiance [cd/m²] where nothing is seen
+};
+
+/// How much of the light that a lumel seeks its map shows, over all directions so far. A map shows
+/// the world along d only where one of its rays meets the lumel, which has a chance P that is about
+/// known; Σ sought / Σ found makes up for what is wrong in it.
+struct SeenLight {
+    float sought;  ///< Σ cosθ
+    float found;   ///< Σ cosθ/P where the map tells
+};
+
+/// Push constants of directions.gather.comp.
+struct GatherParams {
+    ParallelLayout tiling;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;        ///< N
+    uint first_view;   ///< views [first_view, first_view + views) in tiles 0, 1, …
+    uint views;        ///< K
+    uint half_index;   ///< 0 or 1: which half-solution takes this batch
+    uint first_point;  ///< numbers the points of a lumel that receive
+    uint seed;
+    uint centre;         ///< 1: receive at the centroid
+    uint neighbours;     ///< lookups to each side of a pixel: 0, 1 or 2
+    uint with_emission;  ///< 0: the source holds the emission, as in the paper
+    uint with_source;    ///< 0: the source is still 0
+    uint layer;          ///< peeled: how many layers are in front of the map's
+    uint keep;           ///< peeled: 1: only keep what the layer shows; 0: add what was kept
+    uint slabs;          ///< S, see IlluminationMaps
+    uint maps;           ///< of a direction
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,201 @@
+#include "methods/directions/leaky_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "atlas/near/still_part.h"
+#include "base/core/error.h"
+
+namespace lumel {
+namespace {
+
+std::vector<char> flags_of(const Scene& scene, const LeakyOptions& options)
+{
+    std::vector<char> flags(scene.instances.size(), char(!options.still && options.movers.empty()));
+    for (const std::uint32_t instance : options.movers) {
+        if (instance >= flags.size())
+            throw Error(ErrorKind::input, "instance " + std::to_string(instance),
+                        "is to move, but the scene has only " + std::to_string(flags.size()));
+        flags[instance] = char(!options.still);
+    }
+    return flags;
+}
+
+Lumels lumels_of(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers)
+{
+    Lumels lumels = make_lumels(scene, atlas);
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+    mark_buried_by_still(scene, movers, lumels);
+    return lumels;
+}
+
+/// The sky is none of the lamps: directions gather it.
+LiveLamps lamps_of(const Scene& scene, const DirectLightOptions& options)
+{
+    Scene lamps;
+    lamps.lights = scene.lights;
+    lamps.profiles = scene.profiles;
+    return {lamps, options};
+}
+
+DirectionsOptions leaky(DirectionsOptions options, double leak)
+{
+    options.iteration = {.scheme = Scheme::paper, .leak = leak};
+    options.sky = true;
+    return options;
+}
+
+void check_factor(std::size_t instances, std::uint32_t instance, const glm::vec3& factor)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= instances)
+        throw Error(ErrorKind::input, name, "is not in the scene");
+    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
+        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
+}
+
+}  // namespace
+
+LeakyScene::LeakyScene(const gpu::Device& device, Scene scene, const LeakyOptions& options)
+    : device_(&device),
+      options_(options),
+      scene_(std::move(scene)),
+      sky_(scene_.sky.radiance),
+      movers_(flags_of(scene_, options)),
+      atlas_(make_atlas(scene_, options.atlas)),
+      lumels_(lumels_of(scene_, atlas_, movers_)),
+      world_(device, scene_, lumels_, &atlas_, movers_),
+      lamps_(lamps_of(scene_, options.lights)),
+      solver_(device, world_, lumels_, leaky(options.solver, options.leak)),
+      requested_(scene_.instances.size()),
+      emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f))
+{
+    lamps_.find(device, world_, lumels_);
+    begin_anew();
+}
+
+void LeakyScene::move(std::uint32_t instance, const glm::mat4& transform)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= movers_.size() || !movers_[instance])
+        throw Error(ErrorKind::input, name, "is not one of those that may move");
+    if (!is_rigid(scene_.instances[instance].transform, transform))
+        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+    requested_[instance] = transform;
+}
+
+void LeakyScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
+{
+    check_factor(emission_factor_.size(), instance, factor);
+    emission_factor_[instance] = factor;
+    changed_ = true;
+}
+
+void LeakyScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
+{
+    check_factor(reflectance_factor_.size(), instance, factor);
+    reflectance_factor_[instance] = factor;
+    changed_ = true;
+}
+
+void LeakyScene::set_light(std::uint32_t light, const glm::vec3& factor)
+{
+    lamps_.set_light(light, factor);
+    changed_ = true;
+}
+
+void LeakyScene::set_sky(const glm::vec3& factor)
+{
+    if (sky_.empty())
+        throw Error(ErrorKind::input, "the sky", "is not in the scene");
+    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
+        throw Error(ErrorKind::input, "the sky", "cannot emit a negative amount of light");
+    for (std::size_t i = 0; i < sky_.size(); ++i)
+        scene_.sky.radiance[i] = factor * sky_[i];
+    changed_ = true;
+}
+
+/// Returns true if anything stands elsewhere now.
+bool LeakyScene::place_what_moved()
+{
+    std::vector<glm::mat4> transforms;
+    bool moved = false;
+    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
+        Instance& instance = scene_.instances[i];
+        if (requested_[i] && *requested_[i] != instance.transform) {
+            instance.transform = *requested_[i];
+            moved = true;
+        }
+        requested_[i].reset();
+        transforms.push_back(instance.transform);
+    }
+    if (moved) {
+        world_.bound(scene_);
+        world_.place(transforms);
+        lamps_.find(*device_, world_, lumels_);
+    }
+    return moved;
+}
+
+/// Hands the solver what shines now; what it has gathered before leaks away.
+void LeakyScene::begin_anew()
+{
+    Lumels lumels = lumels_;
+    direct_ = lamps_.irradiance();
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        Lumel& lumel = lumels.lumels[i];
+        lumel.emission *= emission_factor_[lumel.instance];
+        lumel.albedo =
+            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
+        // Reflected direct light joins the emission of surfaces: directions know no lamps.
+        if (!direct_.empty())
+            lumel.emission += lumel.albedo * direct_[i];
+    }
+    solver_.relight(lumels);
+    changed_ = false;
+    changed_at_ = solver_.state().shots;
+}
+
+LiveState LeakyScene::update(double budget_ms)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    };
+    const bool moved = place_what_moved();
+    if (moved || changed_) {
+        begin_anew();
+        state_.at_rest = false;
+    }
+    while (!state_.at_rest) {
+        solver_.step();
+        const double directions = double(solver_.state().shots - changed_at_);
+        state_.residual = std::pow(1.0 - options_.leak, directions);
+        state_.at_rest = state_.residual <= options_.residual;
+        if (elapsed() >= budget_ms)
+            break;
+    }
+    state_.hemicubes = solver_.state().shots;
+    state_.milliseconds = elapsed();
+    return state_;
+}
+
+LiveState LeakyScene::settle()
+{
+    return update(std::numeric_limits<double>::max());
+}
+
+std::vector<glm::vec3> LeakyScene::irradiance()
+{
+    std::vector<glm::vec3> irradiance = solver_.irradiance();
+    for (std::size_t i = 0; i < direct_.size(); ++i)
+        irradiance[i] += direct_[i];
+    return irradiance;
+}
+
+}  // namespace lumel

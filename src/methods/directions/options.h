@@ -1,0 +1,26 @@
+#pragma once
+// Options of illumination along directions.
+
+#include <cstdint>
+
+#include "atlas/lumels/sample_rule.h"
+#include "raster/parallel/illumination_maps.h"
+#include "solve/shooting/iteration.h"
+
+namespace lumel {
+
+struct DirectionsOptions {
+    std::uint32_t seed = 1;
+    int batch = 16;  ///< K, directions at a time
+    SampleRule rule = SampleRule::area;
+    IterationOptions iteration;
+    Layers layers = Layers::list;  ///< of illumination maps
+    int lookups = 3;               ///< with Layers::stochastic: 1, 3 or 5 pixels wide and high
+    /// With Layers::stochastic: slabs that a direction is cut into; 0: as many as the overdraw
+    /// requires, see IlluminationMaps.
+    std::uint32_t slabs = 0;
+    int map_side = 0;  ///< of an illumination map [pixels], 0: as suits the lumels
+    bool sky = true;   ///< with Scheme::paper: gathers the world's sky
+};
+
+}  // namespace lumel

@@ -1,0 +1,330 @@
+// Gather radiosity.
+//
+//   [CG85]   Cohen, Greenberg. The Hemi-Cube: A Radiosity Solution for Complex Environments. 1985.
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            2013. 2.2.2, 4.2 and Algorithm 4.1.
+//
+//     B ← E
+//     repeat                                                     a bounce
+//         for all lumels i, K at a time:
+//             draw B on a hemicube that stands on i              lit_views.h
+//             H_i ← Σ_q ΔF_q B_q over its pixels q               integrate
+//             B_i ← E_i + ρ_i H_i                                bounce, Eq. (2.2.2)
+//
+// B is one array: lumels see what those before them sent in the same bounce, which is the
+// Gauss-Seidel iteration of [CG85]. Nothing is shared with the solvers that shoot: no form factor,
+// no visibility test, no near field. Cost of a bounce: N hemicubes.
+//
+// Differs from the papers:
+// - Not a number of bounces: they go on until little light is still to come. What moved by |ΔH|
+//   sends ρ|ΔH| on, and no more than that can arrive.
+// - A hemicube sees from a point, while a lumel's value is its mean over the area. Once light has
+//   settled at the lumels' middles, points move from bounce to bounce and H_i is the mean of what
+//   arrived; the difference of two half-solutions of independent points gives its error. With
+//   SampleRule::centre or Scheme::paper points stay, and the stated error is only of light still to
+//   come.
+// - Delta form factors are exact, of the part of a pixel that each of its samples stands for. The
+//   samples are not resolved to pixels first.
+// - Pixels behind the geometric surface are black, where it leans away from the shading normal.
+// - Among coloured glass each lumel has a hemicube for every colour channel.
+
+#include "methods/gather/gather.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "atlas/near/near_field.h"
+#include "raster/eyes/hemicube_tiles.h"
+#include "solve/shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+/// How far eyes are lifted, as a part of the largest coordinate: ten times what rounding may put
+/// them below their own surface.
+constexpr float kLift = 2e-6f;
+/// Nearest distance seen, as a part of the ray_offset: nothing in front of an eye is missed.
+constexpr float kNearPart = 1e-3f;
+/// Pixels of all hemicubes of a batch, which bounds their memory to 320 MiB.
+constexpr std::uint64_t kMaxPixels = 4u << 20;
+/// Light counts as settled once only this part of it is still to come, or a quarter of the target
+/// error.
+constexpr double kSettled = 1e-3, kSettledPart = 0.25;
+
+float lift_of(const World& world)
+{
+    const glm::vec3 most = glm::max(glm::abs(world.low()), glm::abs(world.high()));
+    return kLift * std::max({world.diagonal(), most.x, most.y, most.z, 1e-20f});
+}
+
+std::uint32_t wanted_hemicubes(const GatherOptions& options, std::uint32_t channels)
+{
+    const Tiles tile = hemicube_tiles(std::uint32_t(options.hemicube), 1);
+    const std::uint64_t pixels =
+        std::max<std::uint64_t>(std::uint64_t(tile.width) * tile.height, 1);
+    const std::uint64_t fit = std::max<std::uint64_t>(kMaxPixels / pixels, channels);
+    const auto asked = std::uint32_t(options.batch);
+    return std::uint32_t(std::min<std::uint64_t>(fit, std::max(asked, channels)));
+}
+
+std::vector<std::uint32_t> open_lumels(const Lumels& lumels)
+{
+    std::vector<std::uint32_t> open;
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i)
+        if (!(lumels.lumels[i].flags & kLumelBuried))
+            open.push_back(std::uint32_t(i));
+    return open;
+}
+
+/// [texels][2] as of lumels_by_side; texels without lumels show those of the nearest that has some,
+/// in steps to neighbours.
+std::vector<std::uint32_t> nearest_lumels_by_side(const Lumels& lumels)
+{
+    std::vector<std::uint32_t> of_sides = lumels_by_side(lumels);
+    std::vector<std::uint32_t> found;  // texels
+    for (std::uint32_t texel = 0; texel < of_sides.size() / 2; ++texel)
+        if (of_sides[2 * texel] != kNoLumel)
+            found.push_back(texel);
+    const auto width = std::uint32_t(lumels.width), height = std::uint32_t(lumels.height);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const std::uint32_t texel = found[k], x = texel % width, y = texel / width;
+        const auto pass_on = [&](bool there, std::uint32_t to) {
+            if (!there || of_sides[2 * to] != kNoLumel)
+                return;
+            of_sides[2 * to] = of_sides[2 * texel];
+            of_sides[2 * to + 1] = of_sides[2 * texel + 1];
+            found.push_back(to);
+        };
+        pass_on(x > 0, texel - 1);
+        pass_on(x + 1 < width, texel + 1);
+        pass_on(y > 0, texel - width);
+        pass_on(y + 1 < height, texel + width);
+    }
+    return of_sides;
+}
+
+/// Of a rectangle on a face of the hemicube of half side 1 about the origin, from which +z leads
+/// up: on the front face right × up, on a side face, of which all are alike, right × height.
+float pixel_form_factor(std::uint32_t face, double right0, double right1, double up0, double up1)
+{
+    const auto corner = [&](double right, double up) {
+        return face == 0 ? glm::vec3(-right, up, 1.0) : glm::vec3(right, 1.0, up);
+    };
+    const glm::vec3 corners[] = {corner(right0, up0), corner(right1, up0), corner(right1, up1),
+                                 corner(right0, up1)};
+    return polygon_form_factor(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f), corners, 4);
+}
+
+/// [pixels of a hemicube's tile][kManySamples] ΔF, which add up to 1: the form factors of the parts
+/// of a pixel that its samples stand for. Sample s of standard locations lies in the s-th quarter
+/// of the rows. Near the horizon that counts: the lowest pixels' own factors run from 0 to twice
+/// their mean.
+std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
+{
+    const std::uint32_t samples = gpu::kManySamples;
+    const Tiles tile = hemicube_tiles(side, 1);
+    std::vector<float> factors(std::size_t(tile.width) * tile.height * samples);
+    const double width = 2.0 / double(side);
+    for (std::uint32_t face = 0; face < kHemicubeFaces; ++face) {
+        const auto factor = [&](double right, double up, double height) {
+            return pixel_form_factor(face, right, right + width, up, up + height);
+        };
+        const gpu::Area area = hemicube_face_area(tile.area(0), side, face);
+        for (std::uint32_t y = 0; y < area.height; ++y)
+            for (std::uint32_t x = 0; x < area.width; ++x) {
+                float* of_pixel =
+                    &factors[samples * (std::size_t(area.y + y) * tile.width + area.x + x)];
+                const double right = width * x - 1.0, up = width * y - (face == 0 ? 1.0 : 0.0);
+                const double part = width / samples;
+                for (std::uint32_t s = 0; s < samples; ++s)
+                    of_pixel[s] = standard_samples ? factor(right, up + part * s, part)
+                                                   : factor(right, up, width) / float(samples);
+            }
+    }
+    return factors;
+}
+
+}  // namespace
+
+GatherRadiosity::GatherRadiosity(const gpu::Device& device, const World& world,
+                                 const Lumels& lumels, const GatherOptions& options,
+                                 double target_error)
+    : options_(options),
+      target_error_(target_error),
+      count_(std::uint32_t(lumels.lumels.size())),
+      world_(&world),
+      channels_(world.has_coloured_glass() ? kChannels : 1),
+      ray_offset_(lift_of(world)),
+      eyes_kernel_(device),
+      integrate_(device),
+      bounce_(device),
+      figures_kernel_(device),
+      views_(device, world, std::uint32_t(options.hemicube), kNearPart * ray_offset_,
+             wanted_hemicubes(options, channels_)),
+      batch_(std::max(views_.capacity() / channels_, 1u)),
+      order_(device, view(open_lumels(lumels))),
+      lumel_of_(device, view(nearest_lumels_by_side(lumels))),
+      width_(std::uint32_t(lumels.width)),
+      height_(std::uint32_t(lumels.height)),
+      delta_form_factors_(device, view(delta_form_factors(std::uint32_t(options.hemicube),
+                                                          device.has_standard_samples()))),
+      eyes_(device, views_.capacity()),
+      points_(device, views_.capacity()),
+      gathered_(device, views_.capacity()),
+      surface_(device, view(surfaces_of(lumels))),
+      emission_(device, view(emission_of(lumels))),
+      radiosity_(device, view(emission_of(lumels))),
+      irradiance_(device, count_),
+      change_(device, count_),
+      sums_(device, std::size_t(2) * count_),
+      figures_(device, count_),
+      pacer_(device)
+{
+    pacer_.work("prepare", [&](gpu::Commands& commands) {
+        for (const auto* array : {&irradiance_, &change_, &sums_})
+            commands.fill(array->buffer());
+    });
+}
+
+std::uint64_t GatherRadiosity::device_bytes(const SolveSize& size, const GatherOptions& options)
+{
+    constexpr std::uint64_t kVectors = 4, kHalves = 1;  // arrays of vec3 [N] and [2][N]
+    const auto side = std::uint32_t(options.hemicube);
+    const std::uint32_t views = wanted_hemicubes(options, 1);
+    return LitViews::device_bytes(side, views) +
+           view_pixels(Projection::hemicube, side) * gpu::kManySamples * sizeof(float) +
+           views * (sizeof(Eye) + sizeof(GatheringPoint) + sizeof(glm::vec3)) +
+           size.count() * (sizeof(std::uint32_t) + sizeof(glm::vec4) +
+                           (kVectors + 2 * kHalves) * sizeof(glm::vec3)) +
+           2 * size.texels() * sizeof(std::uint32_t) + LumelSums::device_bytes(size.count());
+}
+
+void GatherRadiosity::step()
+{
+    const auto open = std::uint32_t(order_.size());
+    const std::uint32_t lumels = std::min(batch_, open - next_);
+    if (lumels > 0) {
+        place_eyes(lumels);
+        views_.look_from(pacer_, eyes_, {&lumel_of_, &radiosity_, width_, height_},
+                         lumels * channels_);
+        integrate(lumels * channels_);
+        bounce(lumels);
+    }
+    next_ += lumels;
+    ++state_.iterations;
+    state_.shots += std::uint64_t(lumels) * channels_;
+    if (next_ == open)
+        end_bounce();
+}
+
+void GatherRadiosity::place_eyes(std::uint32_t lumels)
+{
+    const GatherEyesParams params{.first = next_,
+                                  .eyes = lumels * channels_,
+                                  .channels = channels_,
+                                  .point = taken_[half()],
+                                  .seed = 2 * options_.seed + half(),
+                                  .centre = averages_ ? 0u : 1u,
+                                  .ray_offset = ray_offset_};
+    pacer_.work("eyes", [&](gpu::Commands& commands) {
+        commands.dispatch(eyes_kernel_,
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .order = order_,
+                           .eyes = eyes_,
+                           .points = points_},
+                          params, params.eyes);
+    });
+}
+
+void GatherRadiosity::integrate(std::uint32_t eyes)
+{
+    const IntegrateParams params{.views = views_.layout(), .samples = gpu::kManySamples};
+    pacer_.work("integrate", [&](gpu::Commands& commands) {
+        commands.dispatch(integrate_,
+                          {.views = {views_.image(), views_.sampler()},
+                           .points = points_,
+                           .delta_form_factor = delta_form_factors_,
+                           .gathered = gathered_},
+                          params, std::size_t(eyes) * kIntegrateGroup);
+    });
+}
+
+void GatherRadiosity::bounce(std::uint32_t lumels)
+{
+    std::array<std::uint32_t, 2> taken = taken_;
+    ++taken[half()];
+    const BounceParams params{.first = next_,
+                              .lumels = lumels,
+                              .channels = channels_,
+                              .count = count_,
+                              .averaged = averages_ ? 1u : 0u,
+                              .half_index = half(),
+                              .taken = {taken[0], taken[1]}};
+    pacer_.work("bounce", [&](gpu::Commands& commands) {
+        commands.dispatch(bounce_,
+                          {.order = order_,
+                           .gathered = gathered_,
+                           .surface = surface_,
+                           .emission = emission_,
+                           .sums = sums_,
+                           .change = change_,
+                           .irradiance = irradiance_,
+                           .radiosity = radiosity_},
+                          params, lumels);
+    });
+}
+
+/// Hears at once how the bounce went: it took far longer than the answer does.
+void GatherRadiosity::end_bounce()
+{
+    next_ = 0;
+    if (averages_)
+        ++taken_[half()];
+    const Terms terms = figures_.read_now(pacer_, [&](gpu::Commands& commands) {
+        commands.dispatch(figures_kernel_,
+                          {.surface = surface_,
+                           .sums = sums_,
+                           .change = change_,
+                           .irradiance = irradiance_,
+                           .parts = figures_.parts()},
+                          BounceFiguresParams{count_, {taken_[0], taken_[1]}}, count_);
+        figures_.add_up(commands);
+    });
+    const bool points_stay = options_.rule == SampleRule::centre;
+    if (!averages_) {
+        remaining_ = still_to_come(terms);
+        const double settled =
+            target_error_ > 0.0 ? std::max(kSettledPart * target_error_, kSettled) : kSettled;
+        if (points_stay)
+            state_.error = remaining_;
+        else
+            averages_ = remaining_ <= settled;
+    } else if (taken_[1] > 0) {
+        const glm::vec4 sums = terms.column[1];
+        const double light = std::max(double(sums.y), 1e-30);
+        const double apart = std::sqrt(3.0 * double(sums.x) * double(sums.z)) / light;
+        // A few lumels decide, so halves may come close by chance: the worse of two bounces counts.
+        state_.error = std::hypot(std::max(apart, apart_), remaining_);
+        apart_ = apart;
+    }
+}
+
+/// Of the light that arrives, how much more is still to come.
+double GatherRadiosity::still_to_come(const Terms& terms) const
+{
+    const glm::vec4 sums = terms.column[0];
+    const double moved = sums.x, sent_on = sums.y, arrived = sums.z;
+    if (!(moved > 0.0))
+        return 0.0;
+    constexpr double kMin = 1e-3;  // is lost at every bounce, or no number of them would do
+    return sent_on / std::max(1.0 - sent_on / moved, kMin) / arrived;
+}
+
+std::vector<glm::vec3> GatherRadiosity::irradiance()
+{
+    pacer_.finish();
+    return irradiance_.download();
+}
+
+}  // namespace lumel

@@ -1,0 +1,29 @@
+#ifndef LUMEL_METHODS_GLOSSY_EYE_IMAGE_SHARED_H
+#define LUMEL_METHODS_GLOSSY_EYE_IMAGE_SHARED_H
+#include "raster/eyes/eye_views.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kEyeGroup = 64u;
+
+/// A point that an eye sees, on a surface that gloss counts for.
+struct EyePoint {
+    vec3 position;    ///< [m], world
+    vec3 normal;      ///< shading normal, unit, on the eye's side
+    vec3 facing;      ///< of the triangle, unit, on the eye's side
+    vec3 toward_eye;  ///< unit
+    vec3 specular;    ///< ρ_s
+    float shininess;  ///< n
+};
+
+/// Push constants of eye_image.receive.comp.
+struct EyeParams {
+    EyeViewLayout views;
+    uint first;  ///< points [first, last) of this dispatch
+    uint last;
+    uint shots;      ///< K
+    float shooters;  ///< that a point is to meet in all
+    float rays;      ///< that are to leave it along its lobe; 0: none, shooters do it alone
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,18 @@
+#pragma once
+// scene.lumelmat: a Relightable on the disk. See matrix_file.cpp.
+
+#include <string>
+
+#include "methods/matrix/relightable.h"
+
+namespace lumel {
+
+inline constexpr const char* kMatrixFile = "scene.lumelmat";
+
+/// Direct light is written as half floats, all else as it is. Throws Error{output}.
+void write_relightable(const std::string& path, const Relightable& light);
+
+/// Reads it whole. Throws Error{input} if it is missing, damaged, or of another version.
+Relightable read_relightable(const std::string& path);
+
+}  // namespace lumel

@@ -1,0 +1,134 @@
+#pragma once
+// The one table of methods: what each is, the options that it reads, what it needs, how it is made.
+// Command line, help, reports, benchmarks and tests loop over it.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "atlas/near/near_field.h"
+#include "methods/options.h"
+#include "raster/world/world.h"
+#include "scene/values/parts.h"
+#include "solve/solver/inputs.h"
+#include "solve/solver/solve_size.h"
+#include "solve/solver/solver.h"
+
+namespace lumel {
+
+/// An option that a method reads, as text and in its struct.
+struct OptionInfo {
+    const char* name;  ///< as on the command line, without its dashes
+    const char* type;  ///< "N", or the words to choose from: "area|centre"
+    const char* help;
+    /// Only with this other option at this value, or null: "layers", "stochastic".
+    const char* with;
+    const char* with_value;
+    bool is_number;  ///< else one of a few words
+    /// "one of area, centre", "a whole number from 1 to 256"
+    std::string (*range)();
+    // Of a MethodOptions that holds the method's struct.
+    std::string (*get)(const MethodOptions& method);
+    /// False, and nothing changed, if the value is out of range.
+    bool (*set)(MethodOptions& method, const std::string& value);
+};
+
+/// A method of the table: what --solver takes.
+struct MethodInfo {
+    const char* id;
+    const char* title;
+    const char* paper;        ///< keys of docs/references.md
+    const char* shots;        ///< what SolverState::shots counts: "shooters"
+    const char* advice;       ///< when to use it
+    MaterialModel materials;  ///< what it reads of them
+    float near_radius;        ///< NearFieldOptions::radius that suits it; 0: it has no near field
+    bool near_surroundings;   ///< NearFieldOptions::surroundings
+    bool on_device;           ///< needs the scene there
+    bool finds_lights;        ///< of the sky and of lamps itself, and so direct light alone too
+    bool states_dark_error;   ///< SolverState::dark_error
+    bool can_keep_sources;    ///< keeps the light of every source apart, for lumel relight
+    bool can_resume;          ///< can go on from a state that was written, see Solver::write_state
+    MethodOptions (*defaults)();
+    std::span<const OptionInfo> options;
+    std::unique_ptr<Solver> (*make)(const SolverInputs& inputs, const SolverOptions& options);
+
+    /// Device memory of the solver [bytes], roughly, and without the world.
+    std::uint64_t (*device_bytes)(const SolveSize& size, const MethodOptions& options);
+
+    /// Null if it does not read an option of that name.
+    const OptionInfo* option(std::string_view name) const;
+};
+
+/// In the order in which they are listed, the default first.
+std::span<const MethodInfo> methods();
+
+/// The method of that name. Throws Error{input} that lists what there is.
+const MethodInfo& method_of(std::string_view id);
+const MethodInfo& method_of(const MethodOptions& options);
+
+/// The names of all options that methods read, each once, and the methods that read it.
+struct SharedOption {
+    const OptionInfo* info;  ///< of the first method that reads it
+    std::vector<const MethodInfo*> readers;
+};
+std::vector<SharedOption> options_of_methods();
+
+/// The defaults of a method but for what was given, by names of options. Throws Error{input} for
+/// what the method does not read, what does nothing beside the others, and values out of range.
+MethodOptions method_options(std::string_view id, const std::map<std::string, std::string>& given);
+
+/// A method by name with what was given of its options, until all of it is known.
+struct GivenMethod {
+    std::string id = methods().front().id;
+    std::map<std::string, std::string> values;  ///< by names of options
+
+    /// Throws Error{input} for what the method does not read.
+    MethodOptions options() const { return method_options(id, values); }
+};
+
+/// Throws Error{input} for a limit that the method knows nothing of.
+void check_limits(const SolverOptions& options);
+
+/// Sets an option if the method reads it; returns whether it does.
+bool set_option(MethodOptions& method, std::string_view name, const std::string& value);
+
+/// Does the solver find the light of emissive surfaces apart, and so returns SolverInputs::parts?
+/// lumels, known: as make_solver takes them.
+bool finds_emitted(const MethodOptions& method, const Lumels& lumels,
+                   std::span<const glm::vec3> known);
+
+/// Does the solver find the sky's light itself, so that it is not to be among the emission?
+bool gathers_sky(const MethodOptions& method);
+
+/// Does it solve close pairs in a table? Some methods and schemes have none.
+bool has_near_field(const MethodOptions& method);
+
+/// The near field that suits the options: finer where a smaller error is requested.
+NearFieldOptions near_field_options(const SolverOptions& options);
+
+/// Builds it; empty for methods and schemes without a near field. radius:
+/// NearFieldOptions::radius; 0: as suits the method.
+NearField near_field_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                         const SolverOptions& options, float radius = 0.0f);
+
+/// Close pairs of the near field that near_field_for() would build.
+std::uint64_t near_pairs_for(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                             const SolverOptions& options);
+
+/// Device memory [bytes] that make_solver()'s solver takes, roughly, and without the world.
+std::uint64_t solver_bytes(const SolveSize& size, const SolverOptions& options);
+
+/// Steps until a limit of the options is met, that of time not before there is any light, or
+/// `go_on` returns false. Returns true unless go_on ended it.
+bool solve(Solver& solver, const SolverOptions& options,
+           const std::function<bool(const SolverState&)>& go_on = {});
+
+/// The solver of options.method.
+std::unique_ptr<Solver> make_solver(const SolverInputs& inputs, const SolverOptions& options);
+
+}  // namespace lumel

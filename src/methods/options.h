@@ -1,0 +1,56 @@
+#pragma once
+// The options of one method, and when a solve stops.
+
+#include <cstdint>
+#include <variant>
+
+#include "links/trace/links_options.h"
+#include "methods/directions/options.h"
+#include "methods/gather/options.h"
+#include "methods/glossy/options.h"
+#include "methods/matrix/options.h"
+#include "methods/progressive/options.h"
+#include "methods/stochastic/options.h"
+#include "solve/solver/solve_limits.h"
+
+namespace lumel {
+
+using MethodOptions =
+    std::variant<LinksOptions, StochasticOptions, GlossyOptions, DirectionsOptions,
+                 ProgressiveOptions, GatherOptions, MatrixOptions>;
+
+/// A method, and when to stop.
+struct SolverOptions {
+    MethodOptions method = LinksOptions{};
+    std::uint64_t max_shots = 0;     ///< 0: no limit
+    double max_seconds = 0.0;        ///< 0: no limit. Of a bake: from its beginning
+    double target_error = 0.02;      ///< estimated relative error to stop at, 0: never
+    double target_dark_error = 0.0;  ///< the same of dark lumels, see SolverState, 0: never
+    std::uint64_t max_bytes = 0;     ///< of the host that links may take, 0: no limit
+
+    SolveLimits limits() const
+    {
+        return {max_shots, max_seconds, target_error, target_dark_error, max_bytes};
+    }
+};
+
+// What most methods have, and what stands for it in the others.
+
+inline std::uint32_t seed_of(const MethodOptions& method)
+{
+    return std::visit([](const auto& options) { return options.seed; }, method);
+}
+
+/// SampleRule::area of methods that have no other.
+SampleRule rule_of(const MethodOptions& method);
+
+/// The default of methods that do not look from eyes.
+ViewOptions views_of(const MethodOptions& method);
+
+/// K, shooters of one step; 0 of methods without shooters.
+int batch_of(const MethodOptions& method);
+
+/// True for the papers' iteration, which has no near field.
+bool is_papers(const MethodOptions& method);
+
+}  // namespace lumel

@@ -1,0 +1,15 @@
+#pragma once
+// Options of progressive refinement.
+
+#include <cstdint>
+
+#include "raster/eyes/view_options.h"
+
+namespace lumel {
+
+struct ProgressiveOptions {
+    std::uint32_t seed = 1;  ///< of the near field: patches shoot from fixed points
+    ViewOptions views;
+};
+
+}  // namespace lumel

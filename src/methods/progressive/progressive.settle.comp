@@ -1,0 +1,23 @@
+#version 460
+#include "methods/progressive/progressive.shared.h"
+
+// What a batch sent now counts as shot.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { TakeParams p; };
+layout(scalar) readonly buffer Chosen { ChosenPatch chosen[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sending { vec3 sending[]; };
+layout(scalar) buffer Sent { vec3 shot[]; };
+
+void main()
+{
+    const uint k = gl_GlobalInvocationID.x;
+    if (k >= p.batch || chosen[k].chart == kNoPatch)
+        return;
+    const PatchShot s = shots[k];
+    if (chosen[k].index % s.parts != 0u)  // the first point of a lumel counts for all
+        return;
+    for (uint j = s.first; j < s.first + s.count; ++j)
+        shot[j] = chosen[k].send == kSendBack ? vec3(0.0) : shot[j] + sending[j] * float(s.parts);
+}

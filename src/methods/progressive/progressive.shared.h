@@ -1,0 +1,50 @@
+#ifndef LUMEL_METHODS_PROGRESSIVE_PROGRESSIVE_SHARED_H
+#define LUMEL_METHODS_PROGRESSIVE_PROGRESSIVE_SHARED_H
+#include "solve/transport/patch_shots.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kNoLevel = 0xffffffffu;  ///< of a chart that never shot
+
+/// Where shooting goes on: patch `next` of a chart.
+struct Cursor {
+    uint chart;
+    uint level;
+    uint next;
+    uint count;  ///< patches of the chart at that level; next == count: it is done
+    uint send;   ///< kSendUnshot or kSendBack
+};
+
+/// Light of a chart, or of all of them [lm].
+struct ChartLight {
+    float power;     ///< Σ A |𝓛| of what is sent next
+    vec3 unshot;     ///< Σ A B^u
+    vec3 shot;       ///< Σ A B^s
+    vec3 arrived;    ///< Σ A H
+    vec3 reflected;  ///< Σ A ρ H
+};
+
+/// Push constants of progressive.power.comp and progressive.select.comp.
+struct ChooseParams {
+    uint charts;
+    uint batch;         ///< K
+    uint finest;        ///< level at most
+    float patch_share;  ///< a patch is to send no more than this part of all light
+    float area;         ///< Σ A [m²]
+};
+
+/// Push constants of progressive.receive.comp.
+struct PatchReceiveParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint shots;         ///< K
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+/// Push constants of progressive.residual.comp.
+struct ResidualParams {
+    uint count;
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,289 @@
+// Cross-redistribution radiosity.
+//
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            Utrecht University, 2013. Sections 3.3 and 4.5.
+//
+// C is what stays, M what may move. The progressive solver shoots C's light among C alone, as if M
+// were not there: H = T_CC B^s. What M does to C is kept apart, and found anew whenever something
+// moved or more was shot: lamps shoot past M (lamp_shadows.h), then for each patch j of M
+// (Algorithm 4.4):
+//
+//     see the world from the front of j                     look_from
+//     gather what arrives at its lumels                     gather    R_g(C, M), R(M, M)
+//     send all they have                                    send
+//     see C's light, but for lamps, from the back of j      look_from in colour, resolve
+//     for all lumels i of C:                                receive
+//         ΔH_i += F_ij (B_j - P(C, j, i))                   R_p(M, C), R_x(C, C): Eq. (3.3.1)
+//     ΔH takes the place of the former ΔH                   settle
+//
+// Differs from the thesis:
+// - The solution without M is what is kept. Nothing that was done for an old place need be undone,
+//   so there are 2 |M| hemicubes instead of 4 |M|, errors cannot add up, and M need not be removed
+//   before C shoots (section 4.5.2, Error analysis).
+// - Lamps are not crossed. The thesis names undersampling of small lamps as its main artefact.
+// - Patches are blocks of lumels on any triangles; rays go through the lumels, where the thesis
+//   divides a quad into a grid.
+// - Back hemicubes have mipmaps; the level follows from how wide the bundle of rays through a lumel
+//   is where it ends.
+// - Form factors of close pairs are the near field's: no halos where things touch.
+// - M's lumels gather from C's by the depth hemicube of their patch, where the thesis multiplies
+//   a hemicube of radiosity by delta form factors.
+
+#include "methods/redistribution/cross.h"
+
+#include <algorithm>
+
+#include "solve/shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+/// Of a back hemicube's front face [pixels]: the thesis goes as low as 16. Divisible by
+/// 2^kBackLevels, so that faces stay apart in all levels.
+constexpr std::uint32_t kBackSide = 32;
+
+std::uint32_t pixels_of_levels(std::uint32_t side)
+{
+    std::uint32_t sum = 0;
+    for (std::uint32_t level = 0; level < kBackLevels; ++level)
+        sum += 3 * (side >> level) * (side >> level);
+    return sum;
+}
+
+/// Rows of lumels that stay, with columns that move.
+NearField rows_of_still(const NearField& near, const Lumels& lumels)
+{
+    const auto moves = [&](std::uint32_t i) {
+        return (lumels.lumels[i].flags & kLumelMoving) != 0;
+    };
+    NearField rows;
+    rows.first.push_back(0);
+    for (std::uint32_t i = 0; i + 1 < near.first.size(); ++i) {
+        for (std::uint32_t k = near.first[i]; !moves(i) && k < near.first[i + 1]; ++k)
+            if (moves(near.column[k])) {
+                rows.column.push_back(near.column[k]);
+                rows.factor.push_back(near.factor[k]);
+            }
+        rows.first.push_back(std::uint32_t(rows.column.size()));
+    }
+    return rows;
+}
+
+/// Fronts of all moving patches, and backs of those of open meshes.
+std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
+                                        const std::vector<char>& open)
+{
+    std::vector<ChosenPatch> list;
+    for (const std::uint32_t send : {kSendCrossing, kSendBackSide})
+        for (std::uint32_t c = 0; c < layout.charts.size(); ++c) {
+            const PatchChart& chart = layout.charts[c];
+            const bool is_open = open[lumels.lumels[chart.first_lumel].instance] != 0;
+            if (!chart.moving || (send == kSendBackSide && !is_open))
+                continue;
+            for (std::uint32_t index = 0; index < patches_of(chart, 0); ++index)
+                list.push_back({c, 0, index, send});
+        }
+    return list;
+}
+
+}  // namespace
+
+CrossRedistribution::CrossRedistribution(const gpu::Device& device, World& world,
+                                         const Lumels& lumels, ProgressiveRadiosity& solver,
+                                         const std::vector<char>& movers,
+                                         const std::vector<char>& open, std::uint64_t most_bytes)
+    : device_(&device),
+      world_(&world),
+      lumels_(&lumels),
+      solver_(&solver),
+      back_eyes_kernel_(device),
+      part_(device),
+      resolve_(device),
+      gather_(device, std::uint32_t(solver.shots().views().projection())),
+      send_(device),
+      receive_(device, std::uint32_t(solver.shots().views().projection())),
+      settle_(device),
+      lamps_(device, world, lumels, solver, movers, most_bytes),
+      back_views_(device, world, kBackSide, solver.shots().views().layout().near,
+                  solver.shots().batch()),
+      batch_(solver.shots().batch()),
+      back_layout_{kBackSide, pixels_of_levels(kBackSide)},
+      patches_(moving_patches(solver.shots().layout(), lumels, open)),
+      list_(device, view(in_whole_batches(patches_, batch_))),
+      back_eyes_(device, batch_),
+      back_(device, std::size_t(batch_) * back_layout_.per_hemicube),
+      lumel_of_(device, view(lumels_by_side(lumels))),
+      near_first_(device, lumels.lumels.size() + 1),
+      near_column_(device, 1),
+      near_factor_(device, 1),
+      crossed_(device, lumels.lumels.size()),
+      fresh_(device, lumels.lumels.size()),
+      crossing_(device, lumels.lumels.size())
+{
+    solver.pacer().work("prepare",
+                        [&](gpu::Commands& commands) { commands.fill(crossing_.buffer()); });
+}
+
+void CrossRedistribution::set_near_field(const NearField& near)
+{
+    solver_->pacer().finish();
+    const NearField rows = rows_of_still(near, *lumels_);
+    near_first_.upload(rows.first);
+    near_column_ = gpu::Array<std::uint32_t>(*device_, view(rows.column));
+    near_factor_ = gpu::Array<float>(*device_, view(rows.factor));
+}
+
+void CrossRedistribution::begin(const std::vector<MovedBox>& boxes, bool has_moved,
+                                double tolerance)
+{
+    lamps_.begin(boxes, has_moved, tolerance);
+    next_ = 0;
+    under_way_ = true;
+    if (!lamps_.is_under_way())
+        begin_crossing();
+}
+
+void CrossRedistribution::begin_crossing()
+{
+    const auto count = std::uint32_t(lumels_->lumels.size());
+    solver_->pacer().work("prepare", [&](gpu::Commands& commands) {
+        commands.copy(lamps_.light().buffer(), fresh_.buffer(), count * sizeof(glm::vec3));
+        commands.dispatch(
+            part_, {.shot = solver_->light().shot, .is_lamp = lamps_.lamps(), .crossed = crossed_},
+            CrossPartParams{count}, count);
+    });
+}
+
+bool CrossRedistribution::step()
+{
+    if (!under_way_)
+        return false;
+    if (lamps_.is_under_way()) {
+        if (!lamps_.step())
+            begin_crossing();
+        return true;
+    }
+    look_from_fronts();
+    gather();
+    look_from_backs();
+    resolve_backs();
+    receive();
+    hemicubes_ += 2 * std::min<std::uint64_t>(batch_, patches_.size() - next_);
+    next_ += batch_;
+    under_way_ = next_ < list_.size();
+    if (!under_way_) {
+        const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
+        solver_->pacer().work("settle", [&](gpu::Commands& commands) {
+            commands.dispatch(settle_,
+                              {.lumels = world_->lumels(),
+                               .fresh = fresh_,
+                               .crossing = crossing_,
+                               .far = solver_->light().far},
+                              params, params.count);
+        });
+    }
+    return under_way_;
+}
+
+void CrossRedistribution::look_from_fronts()
+{
+    PatchShots& shots = solver_->shots();
+    gpu::Pacer& pacer = solver_->pacer();
+    pacer.work("take", [&](gpu::Commands& commands) {
+        shots.take(commands, solver_->light(), list_, next_);
+        commands.dispatch(back_eyes_kernel_, {.eyes = shots.eyes(), .back_eyes = back_eyes_},
+                          BackEyesParams{batch_}, batch_);
+    });
+    world_->show_movers(true);
+    shots.look(pacer);
+}
+
+void CrossRedistribution::gather()
+{
+    const PatchShots& shots = solver_->shots();
+    const EyeViews& views = shots.views();
+    const ShotLight& light = solver_->light();
+    const CrossGatherParams params{.views = views.layout(),
+                                   .count = std::uint32_t(lumels_->lumels.size()),
+                                   .batch = batch_,
+                                   .near_radius = solver_->near_radius()};
+    solver_->pacer().work("gather", [&](gpu::Commands& commands) {
+        commands.dispatch(gather_,
+                          {.views = {views.image(), views.sampler()},
+                           .lumels = world_->lumels(),
+                           .eyes = shots.eyes(),
+                           .shots = shots.shots(),
+                           .crossed = crossed_,
+                           .fresh = fresh_,
+                           .far = light.far},
+                          params, std::size_t(batch_) * kPatchGroup);
+        commands.dispatch(send_,
+                          {.shots = shots.shots(),
+                           .surface = light.surface,
+                           .emission = light.emission,
+                           .far = light.far,
+                           .near = light.near,
+                           .shot = light.shot,
+                           .crossed = crossed_},
+                          BackEyesParams{batch_}, batch_);
+    });
+}
+
+void CrossRedistribution::look_from_backs()
+{
+    world_->show_movers(false);
+    back_views_.look_from(solver_->pacer(), back_eyes_,
+                          {.lumel_of = &lumel_of_,
+                           .radiosity = &crossed_,
+                           .width = std::uint32_t(lumels_->width),
+                           .height = std::uint32_t(lumels_->height)},
+                          batch_);
+}
+
+void CrossRedistribution::resolve_backs()
+{
+    solver_->pacer().work("resolve", [&](gpu::Commands& commands) {
+        for (std::uint32_t level = 0; level < kBackLevels; ++level) {
+            const std::uint32_t side = kBackSide >> level;
+            commands.dispatch(
+                resolve_, {.views = {back_views_.image(), back_views_.sampler()}, .back = back_},
+                ResolveParams{.views = back_views_.layout(),
+                              .back = back_layout_,
+                              .level = level,
+                              .batch = batch_,
+                              .samples = gpu::kManySamples},
+                std::size_t(batch_) * 3 * side * side);
+        }
+    });
+}
+
+void CrossRedistribution::receive()
+{
+    const PatchShots& shots = solver_->shots();
+    const EyeViews& views = shots.views();
+    solver_->pacer().work("cross to lumels", std::uint32_t(lumels_->lumels.size()), kProbeLumels,
+                          [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                              const CrossReceiveParams params{.views = views.layout(),
+                                                              .back = back_layout_,
+                                                              .first = first,
+                                                              .last = last,
+                                                              .shots = batch_,
+                                                              .near_radius =
+                                                                  solver_->near_radius()};
+                              commands.dispatch(receive_,
+                                                {.lumels = world_->lumels(),
+                                                 .pieces = world_->pieces(),
+                                                 .views = {views.image(), views.sampler()},
+                                                 .near_first = near_first_,
+                                                 .near_column = near_column_,
+                                                 .near_factors = near_factor_,
+                                                 .eyes = shots.eyes(),
+                                                 .shots = shots.shots(),
+                                                 .shot = solver_->light().shot,
+                                                 .back = back_,
+                                                 .fresh = fresh_},
+                                                params, last - first);
+                          });
+}
+
+}  // namespace lumel

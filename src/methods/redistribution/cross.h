@@ -1,0 +1,78 @@
+#pragma once
+// Cross-redistribution radiosity [Hoef13] 4.5: what moves is lit, sends light and hides light, at
+// the cost of hemicubes on what moves alone. See cross.cpp.
+
+#include "methods/progressive/progressive.h"
+#include "methods/redistribution/cross.back_eyes.comp.h"
+#include "methods/redistribution/cross.gather.comp.h"
+#include "methods/redistribution/cross.part.comp.h"
+#include "methods/redistribution/cross.receive.comp.h"
+#include "methods/redistribution/cross.resolve.comp.h"
+#include "methods/redistribution/cross.send.comp.h"
+#include "methods/redistribution/cross.settle.comp.h"
+#include "methods/redistribution/cross.shared.h"
+#include "methods/redistribution/lamp_shadows.h"
+#include "raster/eyes/lit_views.h"
+
+namespace lumel {
+
+/// Redistributes what was shot among what stays, batch by batch.
+class CrossRedistribution {
+public:
+    /// world: the solver's, made with movers, whose lumels are kLumelMoving. open [instances]: 1
+    /// of meshes that show backs without lumels to what is outside. movers [instances]: 1 if it may
+    /// move. most_bytes: VisibilityRows. All but the last three must outlive this.
+    CrossRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
+                        ProgressiveRadiosity& solver, const std::vector<char>& movers,
+                        const std::vector<char>& open, std::uint64_t most_bytes);
+
+    /// Pairs with a moving lumel, with instances where they are next. Nothing may be under way.
+    void set_near_field(const NearField& near);
+    /// Begins to find anew what moving patches do where they now are in the world, inside `boxes`.
+    /// has_moved: since this was last begun. Of the lamps' light no more than `tolerance` may
+    /// change unnoticed. Nothing may be under way.
+    void begin(const std::vector<MovedBox>& boxes, bool has_moved, double tolerance);
+    /// One batch. Returns false once nothing is left to do.
+    bool step();
+    bool is_under_way() const { return under_way_; }
+    /// So far: fronts and backs, and of lamps.
+    std::uint64_t hemicubes() const { return hemicubes_ + lamps_.hemicubes(); }
+
+private:
+    void begin_crossing();
+    void look_from_fronts();
+    void look_from_backs();
+    void resolve_backs();
+    void gather();
+    void receive();
+
+    const gpu::Device* device_;
+    World* world_;
+    const Lumels* lumels_;
+    ProgressiveRadiosity* solver_;
+    gpu::Kernel<shaders::CrossBackEyes> back_eyes_kernel_;
+    gpu::Kernel<shaders::CrossPart> part_;
+    gpu::Kernel<shaders::CrossResolve> resolve_;
+    gpu::Kernel<shaders::CrossGather> gather_;
+    gpu::Kernel<shaders::CrossSend> send_;
+    gpu::Kernel<shaders::CrossReceive> receive_;
+    gpu::Kernel<shaders::CrossSettle> settle_;
+    LampShadows lamps_;
+    LitViews back_views_;
+    std::uint32_t batch_;  ///< K
+    BackLayout back_layout_;
+    std::vector<ChosenPatch> patches_;                    ///< M: all that move
+    gpu::Array<ChosenPatch> list_;                        ///< of them, in whole batches
+    gpu::Array<Eye> back_eyes_;                           ///< [K]
+    gpu::Array<BackPixel> back_;                          ///< [K][pixels of all levels]
+    gpu::Array<std::uint32_t> lumel_of_;                  ///< [texels][2]
+    gpu::Array<std::uint32_t> near_first_, near_column_;  ///< rows of still lumels, moving columns
+    gpu::Array<float> near_factor_;
+    gpu::Array<glm::vec3> crossed_;           ///< [N] B^s without the lamps'
+    gpu::Array<glm::vec3> fresh_, crossing_;  ///< [N] what moving patches do: being found, in force
+    std::uint32_t next_ = 0;                  ///< of the list
+    bool under_way_ = false;
+    std::uint64_t hemicubes_ = 0;
+};
+
+}  // namespace lumel

@@ -1,0 +1,18 @@
+#version 460
+#include "methods/redistribution/cross.shared.h"
+
+// The light that is crossed: all that was shot, but for that of lamps, which is shot past what
+// moves.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { CrossPartParams p; };
+layout(scalar) readonly buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer IsLamp { uint is_lamp[]; };  // [N]
+layout(scalar) writeonly buffer Crossed { vec3 crossed[]; };
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i < p.count)
+        crossed[i] = is_lamp[i] != 0u ? vec3(0.0) : shot[i];
+}

@@ -1,0 +1,170 @@
+#version 460
+#include "methods/redistribution/cross.shared.h"
+#include "atlas/packing/lumel.shared.h"
+#include "solve/shooting/radiosity.glsl"
+#include "raster/world/lumel.glsl"
+#include "raster/eyes/sees.glsl"
+#include "raster/eyes/hemicube.glsl"
+#include "methods/redistribution/cross.back.glsl"
+#include "raster/near/near_pairs.glsl"
+#include "raster/near/near_factor.glsl"
+#include "solve/shooting/receiver.glsl"
+
+// What the patches j of what moves do to the lumels i of what stays [Hoef13] Eq. (3.3.1):
+//
+//     ΔH_i = Σ_j F_ij (B_j - P(C, j, i))
+//
+// They send their own light, R_p(M, C), and hide the light that would pass through them,
+// R_x(C, C): P is the mean of the light behind j that rays from i through the lumels of j meet, as
+// the hemicube on the back of j shows it. F_ij of close pairs is the near field's. Where a mesh is
+// open, the backs of its patches hide light as well; they send none.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
+layout(scalar) readonly buffer Eyes { Eye eyes[]; };
+layout(scalar) readonly buffer Shots { PatchShot shots[]; };
+layout(scalar) readonly buffer Sent { vec3 shot[]; };
+layout(scalar) readonly buffer Back { BackPixel back[]; };
+layout(scalar) buffer Fresh { vec3 fresh[]; };
+
+// Rays through a lumel, along each of its sides, for each radian that it measures from the
+// receiver; and at most.
+const float kRaysPerRadian = 4.0;
+const float kMaxRays = 3.0;
+
+// r² in the weight of a ray is larger by this part of the lumel's area: finite where they touch.
+const float kTouching = 0.01;
+// Distances at which angles are taken are no less [m].
+const float kMinDistance = 1e-6;
+
+ViewPoint point_in(uint side, vec3 direction)
+{
+    return project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
+}
+
+// 1 / distance at the pixel of a back hemicube in direction `direction` (t, b, n of the back eye;
+// n ≥ 0).
+float inverse_behind(uint k, vec3 direction)
+{
+    const ViewPoint f = point_in(p.back.side, direction);
+    return back[back_pixel(p.back, k, 0u, uvec2(face_corner(p.back.side, f) + f.pixel))].inverse;
+}
+
+// Light in that direction, filtered over the four nearest pixels of a level. Faces end at their
+// edges: nothing is mixed across them [Hoef13] 4.5.2.
+vec3 level_behind(uint k, uint level, vec3 direction)
+{
+    const uint side = back_side(p.back, level);
+    const ViewPoint f = point_in(side, direction);
+    const vec2 size = vec2(float(side), f.front ? float(side) : 0.5 * float(side));
+    const vec2 at = clamp(f.at - 0.5, vec2(0.0), size - 1.0);
+    const vec2 low = floor(at), part = at - low, corner = face_corner(side, f);
+    vec3 sum = vec3(0.0);
+    for (uint q = 0u; q < 4u; ++q) {
+        const vec2 step = vec2(q & 1u, q >> 1u);
+        const vec2 weight = mix(1.0 - part, part, step);
+        const uvec2 pixel = uvec2(corner + min(low + step, size - 1.0));
+        sum += weight.x * weight.y * back[back_pixel(p.back, k, level, pixel)].shot;
+    }
+    return sum;
+}
+
+// The same between two levels.
+vec3 behind(uint k, float level, vec3 direction)
+{
+    const uint fine = uint(level);
+    const float part = level - float(fine);
+    const vec3 light = level_behind(k, fine, direction);
+    return part > 0.0 ? mix(light, level_behind(k, fine + 1u, direction), part) : light;
+}
+
+// Light that a ray from x through the point y of a patch meets behind it, if it stands for a bundle
+// `width` wide at y [m]. The depth in the ray's own direction guesses where it ends; the back eye
+// looks there [Hoef13] 4.5.2, Reproject.
+vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
+{
+    const vec3 ray = y - x;
+    const float r = length(ray);
+    const vec3 direction = ray * frame / r;
+    if (direction.z <= 0.0)
+        return vec3(0.0);
+    const float inverse = inverse_behind(k, direction);
+    if (inverse <= 0.0)
+        return vec3(0.0);
+    const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;
+    // As wide is its end as seen from the back eye [rad], and in pixels.
+    const float pixels = width * (inverse + 1.0 / r) * 0.5 * float(p.back.side);
+    const float level = clamp(log2(max(pixels, 1.0)), 0.0, float(kBackLevels - 1u));
+    return toward.z > 0.0 ? behind(k, level, toward) : vec3(0.0);
+}
+
+// P(C, j, i) for the lumel m of the patch: more rays where it is close, each weighted by the light
+// that would pass along it. 0 where it is not needed.
+vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
+{
+    const Eye eye = eyes[k];
+    const mat3 frame = mat3(eye.tangent, -eye.bitangent, -eye.normal);
+    const float wide = m.size / max(distance(r.x, m.position), kMinDistance);  // [rad]
+    const uint side = uint(clamp(ceil(wide * kRaysPerRadian), 1.0, kMaxRays));
+    const uint rays = is_asked ? side * side : 0u;
+    vec3 sum = vec3(0.0);
+    float weights = 0.0;
+    for (uint q = 0u; q < rays; ++q) {
+        const vec2 at = (vec2(q % side, q / side) + 0.5) / float(side);
+        const vec3 y = rays == 1u ? m.position : point_on(m, at.x, at.y).position;
+        const vec3 d = y - r.x;
+        const float r2 = dot(d, d) + kTouching * m.area;
+        const float weight = max(dot(d, r.normal), 0.0) * abs(dot(d, eye.normal)) / (r2 * r2);
+        if (weight > 0.0)
+            sum += weight * light_along(k, frame, r.x, y, m.size / float(side));
+        weights += weight;
+    }
+    return weights > 0.0 ? sum / weights : vec3(0.0);
+}
+
+// F_ij for the lumel j of patch k, of which the receiver sees the patch's eye or not.
+float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
+{
+    const Lumel from = lumels[j];
+    const bool is_back = shots[k].facing < 0.0;
+    if (!is_back && is_near(r.centre, r.size, from.position, from.size, p.near_radius))
+        return near_factor(r.lumel, j);
+    if (!is_eye_seen)
+        return 0.0;
+    // Backs have no near field: the disc of Eq. (2.2.7) keeps close ones finite.
+    const float disc = is_back ? from.area / kPi : 0.0;
+    return from.area / kPi *
+           point_factor(r.x - from.position, shots[k].facing * from.normal, r.normal, disc);
+}
+
+// Of all lumels of patch k.
+vec3 crossing_light(Receiver r, uint k)
+{
+    const PatchShot s = shots[k];
+    const bool is_eye_seen = is_seen(r, eyes[k], k, p.views);
+    vec3 sum = vec3(0.0);
+    for (uint j = s.first; j < s.first + s.count; ++j) {
+        const float factor = factor_of(r, k, j, is_eye_seen);
+        const vec3 sent = s.facing < 0.0 ? vec3(0.0) : shot[j];
+        sum += factor * (sent - light_behind(k, r, lumels[j], factor > 0.0));
+    }
+    return sum;
+}
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
+        return;
+    // From one point, so that what the patches hide fits together.
+    const Receiver r =
+        receiver_at(LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u), lumel, i);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < p.shots; ++k)
+        if (shots[k].count > 0u)
+            sum += crossing_light(r, k);
+    fresh[i] += sum;
+}

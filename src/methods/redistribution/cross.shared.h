@@ -1,0 +1,64 @@
+#ifndef LUMEL_METHODS_REDISTRIBUTION_CROSS_SHARED_H
+#define LUMEL_METHODS_REDISTRIBUTION_CROSS_SHARED_H
+#include "solve/transport/patch_shots.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kMaxBlock = 16u;   ///< lumels of a patch at most: the cells of its grid
+LUMEL_CONST uint kBackLevels = 4u;  ///< of the mipmaps of back hemicubes
+
+/// What a back hemicube shows at a pixel.
+struct BackPixel {
+    vec3 shot;      ///< B^s of what is seen [lm/m²]
+    float inverse;  ///< 1 / distance [1/m], 0: nothing is seen
+};
+
+/// The mipmaps of back hemicubes, one after another: of each hemicube all levels.
+struct BackLayout {
+    uint side;          ///< of the front face at level 0 [pixels]
+    uint per_hemicube;  ///< pixels of all levels
+};
+
+/// Push constants of cross.back_eyes.comp.
+struct BackEyesParams {
+    uint batch;  ///< K
+};
+
+/// Push constants of cross.resolve.comp: one level of all hemicubes.
+struct ResolveParams {
+    EyeViewLayout views;
+    BackLayout back;
+    uint level;
+    uint batch;    ///< K
+    uint samples;  ///< of a pixel of the image
+};
+
+/// Push constants of cross.gather.comp.
+struct CrossGatherParams {
+    EyeViewLayout views;
+    uint count;         ///< N lumels
+    uint batch;         ///< K
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+/// Push constants of cross.receive.comp.
+struct CrossReceiveParams {
+    EyeViewLayout views;
+    BackLayout back;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint shots;         ///< K
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+/// Push constants of cross.part.comp.
+struct CrossPartParams {
+    uint count;  ///< N lumels
+};
+
+/// Push constants of cross.settle.comp.
+struct CrossSettleParams {
+    uint count;  ///< N lumels
+};
+
+LUMEL_SHARED_END
+#endif

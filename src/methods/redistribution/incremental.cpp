@@ -1,0 +1,250 @@
+// Incremental radiosity.
+//
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            Utrecht University, 2013. Sections 3.1, 3.2 and 4.4.
+//
+// What is kept is H = T B^s (progressive.cpp). After a move T is T', and
+//
+//     H' = H - T B^s + T' B^s                                              Eq. (3.2.1)
+//
+// restricted to the pairs that differ: those that moved, and those that what moved came between or
+// left. [Hoef13] section 3.1 names them by who shoots and who receives, C still and M moved:
+//
+//     R(M, C)   the light of M is taken back from where it was, and sent from where it is
+//     R(C, M)   M forgets what arrived, and all is shot to it anew (reshooting, Eq. (4.4.1))
+//     R(M, M)   the same
+//     R(C, C)   taken back with the views of before, sent with those of after: the four cases of
+//               section 4.4.1 with the visibility of each
+//
+// T never changes, so errors do not accumulate over many moves.
+//
+// Differs from the thesis:
+// - What a patch sees is kept, a bit for each lumel (visibility_rows.h). The thesis renders two
+//   hemicubes for each patch; here the one of before is needed only where nothing is kept yet, and
+//   light is found only where a bit changes.
+// - Light not shot yet is not sent along. It is shot afterwards over the bits kept, without further
+//   hemicubes (remaining_light.h).
+// - Pairs whose line of sight stays clear of what moved are not looked up.
+//
+// Patches without rows, and all where none may be kept, have the thesis' two hemicubes.
+
+#include "methods/redistribution/incremental.h"
+
+#include <algorithm>
+
+#include "solve/shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+/// Pixels by which an edge may seem to stand out: the test of visibility reads pixels around a
+/// point.
+constexpr float kEdgePixels = 3.0f;
+
+/// Do all corners of the box lie behind the plane through x?
+bool is_behind(const MovedBox& box, const glm::vec3& x, const glm::vec3& normal, float slack)
+{
+    const glm::vec3 highest = glm::mix(box.low, box.high, glm::greaterThan(normal, glm::vec3(0)));
+    const glm::vec3 reach = glm::max(glm::abs(box.low - x), glm::abs(box.high - x));
+    return glm::dot(highest - x, normal) < -slack * glm::length(reach);
+}
+
+bool has_shot(const std::vector<glm::vec3>& shot, const Patch& patch)
+{
+    const auto first = shot.begin() + patch.first;
+    return std::any_of(first, first + patch.count, [](auto& b) { return b != glm::vec3(0.0f); });
+}
+
+}  // namespace
+
+bool may_see(const Move& move, const Lumels& lumels, const std::vector<glm::mat4>& places,
+             const Patch& patch, float slack)
+{
+    const Lumel& lumel = lumels.lumels[patch.first];
+    if (move.moved[lumel.instance] || (patch.count > 1 && patch.eye != kFromMean))
+        return true;
+    const glm::mat4& place = places[lumel.instance];
+    const glm::vec3 x(place * glm::vec4(lumel.position, 1.0f));
+    const glm::vec3 normal =
+        glm::normalize(glm::inverse(glm::transpose(glm::mat3(place))) * lumel.normal);
+    return !std::all_of(move.boxes.begin(), move.boxes.end(),
+                        [&](const MovedBox& box) { return is_behind(box, x, normal, slack); });
+}
+
+float edge_slack(const EyeViewLayout& views)
+{
+    return kEdgePixels * 2.0f / float(views.side);
+}
+
+IncrementalRedistribution::IncrementalRedistribution(const gpu::Device& device, World& world,
+                                                     const Lumels& lumels,
+                                                     ProgressiveRadiosity& solver,
+                                                     VisibilityRows& rows, Projection projection)
+    : device_(&device),
+      world_(&world),
+      lumels_(&lumels),
+      solver_(&solver),
+      rows_(&rows),
+      receive_(device, std::uint32_t(projection)),
+      reset_(device),
+      moved_(device, world.placements().size()),
+      boxes_(device, 1),
+      before_list_(rows.list_of({})),
+      back_list_(rows.list_of({})),
+      after_list_(rows.list_of({}))
+{
+}
+
+bool IncrementalRedistribution::begin(Move move)
+{
+    gpu::Pacer& pacer = solver_->pacer();
+    pacer.finish();
+    move_ = std::move(move);
+    before_.clear();
+    for (const Placement& placement : world_->placements())
+        before_.push_back(placement.now);
+    Patches3 patches = patches_to_shoot();
+    moved_.upload(move_.moved);
+    boxes_ = gpu::Array<MovedBox>(*device_, view(move_.boxes));
+    before_list_ = rows_->list_of(std::move(patches.unknown));
+    back_list_ = rows_->list_of(std::move(patches.moving));
+    after_list_ = rows_->list_of(std::move(patches.all));
+    go_to(Phase::before);
+    return is_under_way();
+}
+
+IncrementalRedistribution::Patches3 IncrementalRedistribution::patches_to_shoot()
+{
+    const Patches& layout = solver_->shots().layout();
+    const std::vector<std::uint32_t> levels = solver_->shots().levels().download();
+    const std::vector<glm::vec3> shot = solver_->light().shot.download();
+    const float slack = edge_slack(solver_->shots().views().layout());
+    rows_->follow(levels);
+    Patches3 found;
+    for (std::uint32_t c = 0; c < levels.size(); ++c) {
+        const std::uint32_t count =
+            levels[c] == kNoLevel ? 0 : patches_of(layout.charts[c], levels[c]);
+        const bool moves = move_.moved[lumels_->lumels[layout.charts[c].first_lumel].instance] != 0;
+        for (std::uint32_t index = 0; index < count; ++index) {
+            const ChosenPatch chosen{c, levels[c], index, kSendShot};
+            const Patch patch = patch_of(layout, chosen);
+            if (!may_see(move_, *lumels_, before_, patch, slack))
+                continue;
+            if (!has_shot(shot, patch)) {
+                rows_->forget(chosen);
+                continue;
+            }
+            found.all.push_back(chosen);
+            if (!rows_->knows(chosen))
+                found.unknown.push_back(chosen);
+            if (moves && rows_->row_of(chosen) != kNoRow)
+                found.moving.push_back(chosen);
+        }
+    }
+    return found;
+}
+
+const ShotList& IncrementalRedistribution::list() const
+{
+    return phase_ == Phase::before ? before_list_
+           : phase_ == Phase::back ? back_list_
+                                   : after_list_;
+}
+
+/// Skips phases that have nothing to do.
+void IncrementalRedistribution::go_to(Phase phase)
+{
+    phase_ = phase;
+    next_ = 0;
+    if (phase == Phase::before && before_list_.empty())
+        return go_to(Phase::back);
+    if (phase == Phase::back && back_list_.empty())
+        return go_to(Phase::after);
+    if (phase != Phase::after)
+        return;
+    gpu::Pacer& pacer = solver_->pacer();
+    pacer.work("redistribute", [&](gpu::Commands& commands) {
+        commands.dispatch(
+            reset_, {.lumels = world_->lumels(), .moved = moved_, .far = solver_->light().far},
+            ResetParams{std::uint32_t(world_->lumels().size())}, world_->lumels().size());
+    });
+    pacer.finish();
+    world_->place(move_.transforms);
+    if (after_list_.empty())
+        phase_ = Phase::none;
+}
+
+void IncrementalRedistribution::look()
+{
+    solver_->shots().look(solver_->pacer());
+    hemicubes_ += solver_->shots().batch();
+}
+
+bool IncrementalRedistribution::step()
+{
+    if (!is_under_way())
+        return false;
+    PatchShots& shots = solver_->shots();
+    solver_->pacer().work("redistribute", [&](gpu::Commands& commands) {
+        shots.take(commands, solver_->light(), list().chosen, next_);
+    });
+    if (phase_ == Phase::before) {
+        look();
+        rows_->record(list(), next_);
+        receive(-1.0f);
+    } else if (phase_ == Phase::back) {
+        rows_->shoot(list(), next_, -1.0f);
+    } else {
+        look();
+        receive(1.0f);
+    }
+    next_ += shots.batch();
+    if (next_ < list().patches.size())
+        return true;
+    go_to(phase_ == Phase::before ? Phase::back
+          : phase_ == Phase::back ? Phase::after
+                                  : Phase::none);
+    return is_under_way();
+}
+
+void IncrementalRedistribution::receive(float sign)
+{
+    const std::vector<ChosenPatch>& patches = list().patches;
+    const PatchShots& shots = solver_->shots();
+    const auto first_place = patches.begin() + next_;
+    if (sign < 0.0f && std::none_of(first_place, first_place + shots.batch(), [&](auto& patch) {
+            return patch.chart != kNoPatch && rows_->row_of(patch) == kNoRow;
+        }))
+        return;
+    const EyeViews& views = shots.views();
+    solver_->pacer().work(
+        "redistribute to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
+        [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+            const RedistributeParams params{.views = views.layout(),
+                                            .first = first,
+                                            .last = last,
+                                            .count = std::uint32_t(world_->lumels().size()),
+                                            .shots = shots.batch(),
+                                            .first_place = next_,
+                                            .near_radius = solver_->near_radius(),
+                                            .boxes = std::uint32_t(boxes_.size()),
+                                            .slack = edge_slack(views.layout()),
+                                            .sign_factor = sign,
+                                            .keeps = 1};
+            commands.dispatch(receive_,
+                              {.lumels = world_->lumels(),
+                               .pieces = world_->pieces(),
+                               .views = {views.image(), views.sampler()},
+                               .eyes = shots.eyes(),
+                               .shots = shots.shots(),
+                               .sending = shots.sending(),
+                               .row_of = list().rows,
+                               .seen = rows_->seen(),
+                               .far = solver_->light().far,
+                               .moved = moved_,
+                               .boxes = boxes_},
+                              params, last - first);
+        });
+}
+
+}  // namespace lumel

@@ -1,0 +1,204 @@
+// Lamps shot past what moves.
+//
+//   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
+//            Utrecht University, 2013. Sections 3.2, 4.4 and 4.5.2.
+//
+// Cross projection sees a lamp through a small hemicube on the back of each moving patch, and the
+// thesis names the undersampling of small lamps as its main artefact (sections 4.5.2, 5.2.1). Here
+// the patches of lamps send their light past what moves, as in incremental radiosity: R(C, M), and
+// R(C, C) of lamps alone. The rest, which is spread evenly, is crossed.
+//
+// Without movers a lamp sees the same for ever: its rows are kept. Where movers stand still and
+// lamps hardly change, what was found is used again.
+
+#include "methods/redistribution/lamp_shadows.h"
+
+#include <algorithm>
+
+#include "base/core/luminance.h"
+#include "solve/shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+/// A lamp throws the shadows of what moves from so many points at least, if it has shot from as
+/// many.
+constexpr std::uint32_t kMinPoints = 64;
+
+std::vector<std::uint32_t> lumels_of_lamps(const Patches& layout, const Lumels& lumels)
+{
+    std::vector<std::uint32_t> flags(lumels.lumels.size(), 0);
+    for (const PatchChart& chart : layout.charts) {
+        const auto first = lumels.lumels.begin() + chart.first_lumel;
+        const bool shines = std::any_of(first, first + chart.lumel_count, [](const Lumel& lumel) {
+            return lumel.emission != glm::vec3(0.0f);
+        });
+        if (shines && chart.moving == 0)
+            std::fill_n(flags.begin() + chart.first_lumel, chart.lumel_count, 1u);
+    }
+    return flags;
+}
+
+std::vector<std::uint32_t> words_of(const std::vector<char>& flags)
+{
+    return {flags.begin(), flags.end()};
+}
+
+/// How much the lamps' light differs, as a part of it.
+double change(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& now,
+              const std::vector<std::uint32_t>& is_lamp)
+{
+    double change = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (!is_lamp[i])
+            continue;
+        change += luminance(glm::abs(now[i] - before[i]));
+        sum += luminance(now[i]);
+    }
+    return sum > 0.0 ? change / sum : change;
+}
+
+}  // namespace
+
+LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
+                         ProgressiveRadiosity& solver, std::vector<char> movers,
+                         std::uint64_t most_bytes)
+    : device_(&device),
+      world_(&world),
+      lumels_(&lumels),
+      solver_(&solver),
+      rows_(device, world, solver, solver.shots().views().projection(), most_bytes),
+      movers_(std::move(movers)),
+      lamp_of_(lumels_of_lamps(solver.shots().layout(), lumels)),
+      receive_(device, std::uint32_t(solver.shots().views().projection())),
+      is_lamp_(device, view(lamp_of_)),
+      moved_(device, view(words_of(movers_))),
+      boxes_(device, 1),
+      light_(device, lumels.lumels.size())
+{
+}
+
+void LampShadows::begin(const std::vector<MovedBox>& boxes, bool has_moved, double tolerance)
+{
+    gpu::Pacer& pacer = solver_->pacer();
+    pacer.finish();
+    std::vector<glm::vec3> shot = solver_->light().shot.download();
+    if (!has_moved && !shot_.empty() && change(shot_, shot, lamp_of_) <= tolerance)
+        return;
+    shot_ = std::move(shot);
+    const Move around{.moved = words_of(movers_), .transforms = {}, .boxes = boxes};
+    boxes_ = gpu::Array<MovedBox>(*device_, view(boxes));
+    pacer.work("prepare", [&](gpu::Commands& commands) { commands.fill(light_.buffer()); });
+    list_ = rows_.list_of(patches_to_shoot(around));
+    next_ = 0;
+    if (list_->empty())
+        list_.reset();
+}
+
+/// [C] at which lamps shoot here; kNoLevel: no lamp's. As what is found does not add up over moves,
+/// it need not be what they shot at before.
+std::vector<std::uint32_t> LampShadows::levels() const
+{
+    const Patches& layout = solver_->shots().layout();
+    std::vector<std::uint32_t> levels = solver_->shots().levels().download();
+    for (std::uint32_t c = 0; c < levels.size(); ++c) {
+        const PatchChart& chart = layout.charts[c];
+        if (!lamp_of_[chart.first_lumel])
+            levels[c] = kNoLevel;
+        while (levels[c] != kNoLevel && levels[c] > 0 &&
+               patches_of(chart, levels[c] - 1) >= kMinPoints)
+            --levels[c];
+    }
+    return levels;
+}
+
+std::vector<ChosenPatch> LampShadows::patches_to_shoot(const Move& around)
+{
+    const Patches& layout = solver_->shots().layout();
+    const std::vector<std::uint32_t> levels = this->levels();
+    std::vector<glm::mat4> places;
+    for (const Placement& placement : world_->placements())
+        places.push_back(placement.now);
+    const float slack = edge_slack(solver_->shots().views().layout());
+    rows_.follow(levels);
+    std::vector<ChosenPatch> list;
+    for (std::uint32_t c = 0; c < levels.size(); ++c) {
+        if (levels[c] == kNoLevel)
+            continue;
+        for (std::uint32_t index = 0; index < patches_of(layout.charts[c], levels[c]); ++index) {
+            const ChosenPatch chosen{c, levels[c], index, kSendShot};
+            if (may_see(around, *lumels_, places, patch_of(layout, chosen), slack))
+                list.push_back(chosen);
+        }
+    }
+    return list;
+}
+
+void LampShadows::look(bool shows_movers)
+{
+    world_->show_movers(shows_movers);
+    solver_->shots().look(solver_->pacer());
+    hemicubes_ += solver_->shots().batch();
+}
+
+bool LampShadows::step()
+{
+    if (!is_under_way())
+        return false;
+    PatchShots& shots = solver_->shots();
+    solver_->pacer().work("take", [&](gpu::Commands& commands) {
+        shots.take(commands, solver_->light(), list_->chosen, next_);
+    });
+    const auto first = list_->patches.begin() + next_;
+    if (std::any_of(first, first + shots.batch(), [&](const ChosenPatch& patch) {
+            return patch.chart != kNoPatch && !rows_.knows(patch);
+        })) {
+        look(false);
+        rows_.record(*list_, next_);
+        receive(-1.0f);
+    }
+    look(true);
+    receive(1.0f);
+    next_ += shots.batch();
+    if (next_ >= list_->patches.size()) {
+        solver_->pacer().finish();
+        list_.reset();
+    }
+    return is_under_way();
+}
+
+void LampShadows::receive(float sign)
+{
+    const PatchShots& shots = solver_->shots();
+    const EyeViews& views = shots.views();
+    solver_->pacer().work("lamps to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
+                          [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
+                              const RedistributeParams params{
+                                  .views = views.layout(),
+                                  .first = first,
+                                  .last = last,
+                                  .count = std::uint32_t(world_->lumels().size()),
+                                  .shots = shots.batch(),
+                                  .first_place = next_,
+                                  .near_radius = solver_->near_radius(),
+                                  .boxes = std::uint32_t(boxes_.size()),
+                                  .slack = edge_slack(views.layout()),
+                                  .sign_factor = sign,
+                                  .keeps = 0};
+                              commands.dispatch(receive_,
+                                                {.lumels = world_->lumels(),
+                                                 .pieces = world_->pieces(),
+                                                 .views = {views.image(), views.sampler()},
+                                                 .eyes = shots.eyes(),
+                                                 .shots = shots.shots(),
+                                                 .sending = shots.sending(),
+                                                 .row_of = list_->rows,
+                                                 .seen = rows_.seen(),
+                                                 .far = light_,
+                                                 .moved = moved_,
+                                                 .boxes = boxes_},
+                                                params, last - first);
+                          });
+}
+
+}  // namespace lumel

@@ -1,0 +1,26 @@
+#version 460
+#include "methods/redistribution/live.shared.h"
+#include "atlas/packing/lumel.shared.h"
+
+// Irradiance of the lumels, and the same as texels of the atlas. Backs of double-sided surfaces
+// share their texels with the fronts, which are shown.
+
+layout(local_size_x = kShowGroup) in;
+layout(push_constant, scalar) uniform Params { ShowParams p; };
+layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
+layout(scalar) readonly buffer Far { vec3 far[]; };
+layout(scalar) readonly buffer Near { vec3 near[]; };
+layout(scalar) writeonly buffer Shown { vec3 shown[]; };
+layout(scalar) writeonly buffer Texels { vec4 texels[]; };
+layout(scalar) readonly buffer Direct { vec3 direct[]; };
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count)
+        return;
+    const vec3 irradiance = far[i] + near[i] + direct[i];
+    shown[i] = irradiance;
+    if ((lumels[i].flags & kLumelBack) == 0u)
+        texels[lumels[i].texel] = vec4(irradiance, 1.0);
+}

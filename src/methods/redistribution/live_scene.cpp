@@ -1,0 +1,453 @@
+#include "methods/redistribution/live_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "atlas/near/still_part.h"
+#include "base/core/error.h"
+#include "methods/methods.h"
+#include "methods/redistribution/live.shared.h"
+#include "solve/shooting/lumel_arrays.h"
+
+namespace lumel {
+namespace {
+
+gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
+{
+    return {device, gpu::Pixel::rgba32, std::uint32_t(atlas.width), std::uint32_t(atlas.height)};
+}
+
+/// Batches between two looks at how much light is still to be shot: looking costs a wait.
+constexpr int kBatchesALook = 8;
+
+/// Where no more than this part of all light is still to be shot, the patches that have most of it
+/// shoot it one by one; else charts do, and choose how finely.
+constexpr double kMaxToCorrect = 0.1;
+/// Of the light that may stay unshot, this part is left outside the patches chosen: theirs is
+/// reflected in turn.
+constexpr double kLeftOutside = 0.5;
+
+std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
+{
+    if (options.still)
+        return std::vector<char>(scene.instances.size(), 0);
+    std::vector<char> flags(scene.instances.size(), char(options.movers.empty()));
+    for (const std::uint32_t instance : options.movers) {
+        if (instance >= flags.size())
+            throw Error(ErrorKind::input, "instance " + std::to_string(instance),
+                        "is to move, but the scene has only " + std::to_string(flags.size()));
+        flags[instance] = 1;
+    }
+    return flags;
+}
+
+Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers,
+                     Redistribution redistribution)
+{
+    Lumels lumels = make_lumels(scene, atlas);
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+    mark_buried_by_still(scene, movers, lumels);
+    if (redistribution == Redistribution::cross)
+        for (Lumel& lumel : lumels.lumels)
+            if (movers[lumel.instance])
+                lumel.flags |= kLumelMoving;
+    return lumels;
+}
+
+NearFieldOptions near_field_options(const LiveOptions& options)
+{
+    return near_field_options(
+        SolverOptions{.method = options.solver, .target_error = options.target_error});
+}
+
+/// Of the area of all surfaces.
+double share_of(const std::vector<char>& movers, const Lumels& lumels)
+{
+    double moving = 0.0, all = 0.0;
+    for (const Lumel& lumel : lumels.lumels) {
+        all += double(lumel.area);
+        moving += movers[lumel.instance] ? double(lumel.area) : 0.0;
+    }
+    return moving / all;
+}
+
+std::vector<char> open_meshes(const Scene& scene)
+{
+    std::vector<char> open;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        open.push_back(is_open(scene, i) ? 1 : 0);
+    return open;
+}
+
+/// With cross redistribution: of pairs that stay, as if nothing else were there.
+NearField near_field_of_still(const Scene& scene, const Lumels& lumels,
+                              const std::vector<char>& movers, const LiveOptions& options)
+{
+    if (options.redistribution == Redistribution::incremental)
+        return {};
+    const Scene still = without(scene, movers);
+    std::vector<char> stays;
+    for (const Lumel& lumel : lumels.lumels)
+        stays.push_back(!movers[lumel.instance]);
+    return build_near_field_among(stays, still, RayScene(still), lumels,
+                                  near_field_options(options));
+}
+
+/// Of all pairs; with cross redistribution of those that move.
+MovingNearField near_field_of_moving(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                                     const std::vector<char>& movers, const LiveOptions& options)
+{
+    NearFieldOptions near = near_field_options(options);
+    if (options.redistribution == Redistribution::incremental)
+        return {scene, rays, lumels, near, movers, NearPairsOf::all};
+    near.most_pairs = std::numeric_limits<std::size_t>::max();  // as with those that stay
+    return {scene, rays, lumels, near, movers, NearPairsOf::movers};
+}
+
+/// Rows of lumels that stay from the one, rows of those that move from the other.
+NearField joined(const NearField& still, const NearField& moving, const Lumels& lumels)
+{
+    NearField rows;
+    rows.radius = still.radius;
+    rows.first.push_back(0);
+    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
+        const NearField& from = lumels.lumels[i].flags & kLumelMoving ? moving : still;
+        rows.column.insert(rows.column.end(), from.column.begin() + from.first[i],
+                           from.column.begin() + from.first[i + 1]);
+        rows.factor.insert(rows.factor.end(), from.factor.begin() + from.first[i],
+                           from.factor.begin() + from.first[i + 1]);
+        rows.first.push_back(std::uint32_t(rows.column.size()));
+    }
+    return rows;
+}
+
+}  // namespace
+
+LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& options)
+    : device_(&device),
+      options_(options),
+      scene_(std::move(scene)),
+      movers_(flags_of(scene_, options)),
+      atlas_(make_atlas(scene_, options.atlas)),
+      lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
+      rays_(scene_, movers_),
+      still_near_(near_field_of_still(scene_, lumels_, movers_, options)),
+      near_(near_field_of_moving(scene_, rays_, lumels_, movers_, options)),
+      world_(device, scene_, lumels_, &atlas_, movers_),
+      lamps_(scene_, options.lights),
+      solver_(device, world_, lumels_,
+              options.redistribution == Redistribution::cross ? still_near_ : near_.table(),
+              options.solver),
+      rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
+      remaining_(solver_, rows_),
+      requested_(scene_.instances.size()),
+      emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
+      direct_(device, lumels_.lumels.size()),
+      shown_(device, lumels_.lumels.size()),
+      texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
+      images_{image_of(device, atlas_), image_of(device, atlas_)},
+      show_(device)
+{
+    solver_.pacer().work("prepare", [&](gpu::Commands& commands) {
+        commands.fill(texels_.buffer());
+        commands.fill(direct_.buffer());
+    });
+    if (options.redistribution == Redistribution::cross)
+        cross_.emplace(device, world_, lumels_, solver_, movers_, open_meshes(scene_),
+                       options.visibility_bytes);
+    else
+        incremental_.emplace(device, world_, lumels_, solver_, rows_,
+                             options.solver.views.projection);
+    moving_share_ = share_of(movers_, lumels_);
+    if (!lamps_.empty()) {
+        lamps_.find(device, world_, lumels_);
+        upload_surfaces();
+    }
+    world_.show_movers(!cross_);
+    show();
+}
+
+void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= movers_.size() || !movers_[instance])
+        throw Error(ErrorKind::input, name, "is not one of those that may move");
+    if (!is_rigid(scene_.instances[instance].transform, transform))
+        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+    requested_[instance] = transform;
+}
+
+void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
+                           const glm::vec3& factor)
+{
+    const std::string name = "instance " + std::to_string(instance);
+    if (instance >= factors.size())
+        throw Error(ErrorKind::input, name, "is not in the scene");
+    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
+        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
+    factors[instance] = factor;
+    light_changes();
+}
+
+void LiveScene::light_changes()
+{
+    surfaces_changed_ = true;
+    corrects_ = false;
+    state_.residual = 1.0;
+}
+
+void LiveScene::set_light(std::uint32_t light, const glm::vec3& factor)
+{
+    lamps_.set_light(light, factor);
+    light_changes();
+}
+
+void LiveScene::set_sky(const glm::vec3& factor)
+{
+    lamps_.set_sky(factor);
+    light_changes();
+}
+
+/// To find what lamps send with things where they are now.
+void LiveScene::begin_lamps()
+{
+    if (lamps_.empty())
+        return;
+    world_.show_movers(true);
+    lamps_.begin(*device_, world_, lumels_);
+}
+
+void LiveScene::upload_surfaces()
+{
+    Lumels lumels = lumels_;
+    for (Lumel& lumel : lumels.lumels) {
+        lumel.emission *= emission_factor_[lumel.instance];
+        lumel.albedo =
+            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
+    }
+    solver_.pacer().finish();
+    // Reflected direct light joins the emission of surfaces: the solver handles no lamps.
+    if (const std::vector<glm::vec3> direct = lamps_.irradiance(); !direct.empty()) {
+        for (std::size_t i = 0; i < direct.size(); ++i)
+            lumels.lumels[i].emission += lumels.lumels[i].albedo * direct[i];
+        direct_.upload(direct);
+    }
+    solver_.light().emission.upload(emission_of(lumels));
+    solver_.light().surface.upload(surfaces_of(lumels));
+    surfaces_changed_ = false;
+}
+
+void LiveScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
+{
+    set_factor(emission_factor_, instance, factor);
+}
+
+void LiveScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
+{
+    set_factor(reflectance_factor_, instance, factor);
+}
+
+bool LiveScene::is_move_requested() const
+{
+    return std::any_of(requested_.begin(), requested_.end(), [](auto& move) { return bool(move); });
+}
+
+bool LiveScene::is_under_way() const
+{
+    return lamps_.is_under_way() || is_redistributing();
+}
+
+bool LiveScene::is_redistributing() const
+{
+    return cross_ ? cross_->is_under_way() : incremental_->is_under_way();
+}
+
+bool LiveScene::is_at_rest() const
+{
+    return !is_under_way() && !is_move_requested() && state_.residual <= options_.residual &&
+           (!cross_ || is_crossed());
+}
+
+/// Movers meet their share of what is shot, and change as much by what they hide as by what they
+/// send on: so much of it is less than what may be left to be shot.
+bool LiveScene::is_crossed() const
+{
+    return crossed_ && 2.0 * moving_share_ * uncrossed_ <= options_.residual;
+}
+
+void LiveScene::begin_move()
+{
+    move_ = {};
+    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
+        Instance& instance = scene_.instances[i];
+        const bool moves = requested_[i] && *requested_[i] != instance.transform;
+        move_.moved.push_back(moves ? 1 : 0);
+        if (moves) {
+            const MovedBox before = box_of(scene_, i, instance.transform);
+            instance.transform = *requested_[i];
+            const MovedBox after = box_of(scene_, i, instance.transform);
+            const std::vector<MovedBox> boxes = around(before, after);
+            move_.boxes.insert(move_.boxes.end(), boxes.begin(), boxes.end());
+        }
+        move_.transforms.push_back(instance.transform);
+        requested_[i].reset();
+    }
+    world_.bound(scene_);
+    if (!cross_) {
+        if (!move_.boxes.empty() && !incremental_->begin(move_))
+            end_move();
+        return;
+    }
+    if (!move_.boxes.empty()) {
+        world_.place(move_.transforms);
+        follow_move();
+    }
+    if (!move_.boxes.empty() || !knows_crossing_pairs_) {
+        solver_.set_near_field(joined(still_near_, near_.table(), lumels_));
+        cross_->set_near_field(near_.table());
+        knows_crossing_pairs_ = true;
+    }
+    std::vector<MovedBox> boxes;
+    for (std::uint32_t i = 0; i < movers_.size(); ++i)
+        if (movers_[i])
+            boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
+    cross_->begin(boxes, !move_.boxes.empty(), options_.residual);
+}
+
+/// Rays and close pairs, at the cost of what has moved.
+void LiveScene::follow_move()
+{
+    std::vector<std::uint32_t> moved;
+    for (std::uint32_t i = 0; i < move_.moved.size(); ++i)
+        if (move_.moved[i])
+            moved.push_back(i);
+    std::vector<Box> boxes;
+    for (const MovedBox& box : move_.boxes)
+        boxes.push_back({box.low, box.high});
+    rays_.place(moved);
+    near_.follow(scene_, rays_, moved, boxes);
+}
+
+void LiveScene::end_move()
+{
+    if (cross_) {
+        crossed_ = true;
+        uncrossed_ = 0.0;
+    } else {
+        follow_move();
+        solver_.set_near_field(near_.table());
+    }
+    if (!move_.boxes.empty())
+        begin_lamps();
+    if (!lamps_.is_under_way())
+        settle_move();
+}
+
+/// What is left to be shot once lamps are known.
+void LiveScene::settle_move()
+{
+    state_.residual = solver_.residual();
+    corrects_ = state_.residual <= kMaxToCorrect;
+    unseen_ = true;
+    remaining_.drop();
+}
+
+void LiveScene::work()
+{
+    if (lamps_.is_under_way()) {
+        if (!lamps_.step()) {
+            upload_surfaces();
+            settle_move();
+        }
+    } else if (is_redistributing()) {
+        if (cross_ ? !cross_->step() : !incremental_->step())
+            end_move();
+    } else if (is_move_requested() ||
+               (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
+        if (unseen_)
+            show();  // what never stops is seen all the same
+        begin_move();
+    } else {
+        shoot();
+    }
+    solver_.pacer().finish();
+}
+
+void LiveScene::shoot()
+{
+    world_.show_movers(!cross_);
+    if (corrects_ && !remaining_.is_under_way())
+        corrects_ = remaining_.begin(kLeftOutside * options_.residual / state_.residual);
+    if (!corrects_) {
+        crossed_ = false;
+        solver_.step();
+        if (++batches_ % kBatchesALook == 0)
+            state_.residual = solver_.residual();
+        return;
+    }
+    remaining_.step();
+    if (!remaining_.is_under_way()) {
+        const double before = state_.residual;
+        state_.residual = solver_.residual();
+        uncrossed_ += before;  // all of it, as a part may since have been reflected
+    }
+}
+
+LiveState LiveScene::update(double budget_ms)
+{
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    };
+    if (surfaces_changed_)
+        upload_surfaces();
+    if (!is_at_rest()) {
+        do
+            work();
+        while (!is_at_rest() && elapsed() < budget_ms);
+        if (!is_under_way())
+            show();
+    }
+    state_.under_way = is_under_way();
+    state_.at_rest = is_at_rest();
+    state_.hemicubes = solver_.state().shots + remaining_.hemicubes() +
+                       (cross_ ? cross_->hemicubes() : incremental_->hemicubes());
+    state_.milliseconds = elapsed();
+    return state_;
+}
+
+LiveState LiveScene::settle()
+{
+    return update(std::numeric_limits<double>::max());
+}
+
+void LiveScene::show()
+{
+    unseen_ = false;
+    gpu::Pacer& pacer = solver_.pacer();
+    pacer.work("show", [&](gpu::Commands& commands) {
+        const ShowParams params{std::uint32_t(lumels_.lumels.size())};
+        commands.dispatch(show_,
+                          {.lumels = world_.lumels(),
+                           .far = solver_.light().far,
+                           .near = solver_.light().near,
+                           .shown = shown_,
+                           .texels = texels_,
+                           .direct = direct_},
+                          params, params.count);
+        shown_image_ = 1 - shown_image_;
+        commands.copy(texels_.buffer(), images_[shown_image_]);
+    });
+    pacer.finish();
+}
+
+std::vector<glm::vec3> LiveScene::irradiance() const
+{
+    return shown_.download();
+}
+
+}  // namespace lumel

@@ -1,0 +1,24 @@
+#ifndef LUMEL_LIVE_VISIBILITY_ROWS_GLSL
+#define LUMEL_LIVE_VISIBILITY_ROWS_GLSL
+
+// V of patches and lumels, as it was when the patch last looked: a bit for each pair. 32 patches
+// share the word of a lumel, and only the lumel's own invocation writes it. Declares the rows of a
+// list of patches and the bits.
+
+#include "methods/redistribution/visibility_rows.shared.h"
+
+layout(scalar) readonly buffer RowOf { uint row_of[]; };   // [list] row, or kNoRow
+layout(scalar) buffer Seen { uint seen[]; };               // [rows / 32][N]
+
+bool was_seen(uint row, uint lumel, uint count)
+{
+    return (seen[row / kRowsInAWord * count + lumel] & (1u << (row % kRowsInAWord))) != 0u;
+}
+
+void keep_seen(uint row, uint lumel, uint count, bool is_seen_now)
+{
+    const uint word = row / kRowsInAWord * count + lumel, bit = 1u << (row % kRowsInAWord);
+    seen[word] = is_seen_now ? seen[word] | bit : seen[word] & ~bit;
+}
+
+#endif

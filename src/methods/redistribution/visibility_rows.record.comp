@@ -1,0 +1,33 @@
+#version 460
+#include "methods/redistribution/visibility_rows.shared.h"
+#include "atlas/packing/lumel.shared.h"
+#include "base/core/hash.glsl"
+#include "solve/shooting/radiosity.glsl"
+#include "raster/world/lumel.glsl"
+#include "raster/world/receiving_point.glsl"
+#include "raster/eyes/sees.glsl"
+#include "solve/transport/patch_light.glsl"
+#include "methods/redistribution/visibility_rows.glsl"
+
+// Keeps V of all lumels as the patches of a batch see them.
+
+layout(local_size_x = kPatchGroup) in;
+layout(push_constant, scalar) uniform Params { RowsParams p; };
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    for (uint k = 0u; k < p.shots; ++k) {
+        const uint row = row_of[p.first_place + k];
+        if (row == kNoRow)
+            continue;
+        const Receiver r =
+            receiver_at(receiving_point(lumel, i, shots[k].number, 0u, false), lumel, i);
+        keep_seen(row, i, p.count, is_seen(r, eyes[k], k, p.views));
+    }
+}

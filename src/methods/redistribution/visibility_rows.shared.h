@@ -1,0 +1,22 @@
+#ifndef LUMEL_METHODS_REDISTRIBUTION_VISIBILITY_ROWS_SHARED_H
+#define LUMEL_METHODS_REDISTRIBUTION_VISIBILITY_ROWS_SHARED_H
+#include "solve/transport/patch_shots.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kRowsInAWord = 32u;
+LUMEL_CONST uint kNoRow = 0xffffffffu;  ///< of a patch that has none
+
+/// Push constants of visibility_rows.record.comp and visibility_rows.shoot.comp.
+struct RowsParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;         ///< N lumels
+    uint shots;         ///< K
+    uint first_place;   ///< of the batch in its list
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float sign_factor;  ///< -1: takes light back, 1: sends it
+};
+
+LUMEL_SHARED_END
+#endif

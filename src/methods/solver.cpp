@@ -1,0 +1,37 @@
+#include "solve/solver/solver.h"
+
+#include <chrono>
+
+#include "methods/options.h"
+
+namespace lumel {
+
+bool solve(Solver& solver, const SolverOptions& options,
+           const std::function<bool(const SolverState&)>& go_on)
+{
+    const auto start = std::chrono::steady_clock::now();
+    for (;;) {
+        const SolverState state = solver.state();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (go_on && !go_on(state))
+            return false;
+        if (options.max_shots > 0 && state.shots >= options.max_shots)
+            return true;
+        // Before there is light, an end would be of no use.
+        if (options.max_seconds > 0.0 && seconds >= options.max_seconds && state.shots > 0)
+            return true;
+        const auto met = [](double error, double target) {
+            return target <= 0.0 || (error >= 0.0 && error <= target);
+        };
+        if ((options.target_error > 0.0 || options.target_dark_error > 0.0) &&
+            met(state.error, options.target_error) &&
+            met(state.dark_error, options.target_dark_error))
+            return true;
+        if (state.full)
+            return true;
+        solver.step();
+    }
+}
+
+}  // namespace lumel

@@ -1,0 +1,58 @@
+#pragma once
+// Stochastic radiosity by perspective ray bundles [BJ04], [BSS05]. See stochastic.cpp.
+
+#include "gpu/pacer.h"
+#include "methods/stochastic/options.h"
+#include "methods/stochastic/stochastic.receive.comp.h"
+#include "methods/stochastic/stochastic.shared.h"
+#include "raster/eyes/eye_views.h"
+#include "solve/shooting/iteration.h"
+#include "solve/shooting/power_pyramid.h"
+#include "solve/shooting/shooters.select.comp.h"
+#include "solve/solver/solve_size.h"
+#include "solve/solver/solver.h"
+
+namespace lumel {
+
+/// Shooters drawn by power send their light to all lumels that they see, at once.
+class StochasticRadiosity final : public Solver {
+public:
+    StochasticRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
+                        const NearField& near, const StochasticOptions& options,
+                        std::span<const glm::vec3> known = {});
+
+    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
+
+    void step() override;
+    SolverState state() const override { return iteration_.state(); }
+    std::vector<glm::vec3> irradiance() override { return iteration_.irradiance(pacer_); }
+    const gpu::StageTimes& times() const override { return pacer_.times(); }
+    double longest_submission() const override { return pacer_.longest_ms(); }
+
+private:
+    void select(std::uint32_t emission_shots);
+    void receive(std::uint32_t emission_shots);
+    void build_source_pyramid();
+    std::uint32_t emission_shots_of_batch();
+
+    StochasticOptions options_;
+    std::uint32_t atlas_width_;  ///< [texels]
+    bool paper_;
+    float near_radius_;
+    float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
+
+    const World* world_;
+    gpu::Kernel<shaders::ShootersSelect> select_;
+    gpu::Kernel<shaders::StochasticReceive> receive_;
+    EyeViews views_;
+    std::uint32_t batch_;  ///< K
+    gpu::Array<Eye> eyes_;
+    gpu::Array<Shot> shots_;
+    Iteration iteration_;
+    PowerPyramid emission_power_pyramid_, source_power_pyramid_;
+    gpu::Pacer pacer_;            ///< after all that its work uses: it waits when it ends
+    double emission_owed_ = 0.0;  ///< fraction of a shooter carried to the next batch
+};
+
+}  // namespace lumel

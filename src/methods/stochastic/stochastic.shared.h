@@ -1,0 +1,24 @@
+#ifndef LUMEL_METHODS_STOCHASTIC_STOCHASTIC_SHARED_H
+#define LUMEL_METHODS_STOCHASTIC_STOCHASTIC_SHARED_H
+#include "solve/shooting/shooters.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kReceiveGroup = 64u;
+
+/// Push constants of stochastic.receive.comp.
+struct ReceiveParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint count;           ///< N
+    uint shots;           ///< K
+    uint emission_shots;  ///< the first of them
+    uint half_index;      ///< 0 or 1: which half-solution takes this batch
+    uint iteration;       ///< numbers the batches
+    uint seed;
+    uint centre;        ///< 1: receive at the centroid
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+LUMEL_SHARED_END
+#endif

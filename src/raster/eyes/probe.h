@@ -1,0 +1,20 @@
+#pragma once
+// The visibility that eyes find, brought to the host: for tests and benchmarks.
+
+#include <vector>
+
+#include "raster/eyes/eye_views.h"
+#include "raster/eyes/probe.shared.h"
+
+namespace lumel {
+
+/// An eye at a surface point, its frame at any angle about the normal (length 1).
+Eye eye_at(const glm::vec3& position, const glm::vec3& normal);
+
+/// Tests every point from every eye. Blocks.
+/// eyes: on the device, those that `views` last looked from. Returns [eyes][questions], 1: seen.
+std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const EyeViews& views,
+                                            const gpu::Array<Eye>& eyes,
+                                            const gpu::Array<Question>& questions);
+
+}  // namespace lumel

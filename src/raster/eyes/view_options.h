@@ -1,0 +1,14 @@
+#pragma once
+// How finely shooters see.
+
+#include "raster/eyes/eye_views.h"
+
+namespace lumel {
+
+struct ViewOptions {
+    Projection projection = Projection::hemicube;
+    int hemicube = 256;  ///< side of the front face [pixels], see EyeViews
+    int batch = 16;      ///< K, eyes at a time
+};
+
+}  // namespace lumel

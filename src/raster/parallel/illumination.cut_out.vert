@@ -1,0 +1,22 @@
+#version 460
+#include "raster/parallel/illumination_maps.shared.h"
+#include "raster/parallel/parallel.glsl"
+#include "raster/parallel/illumination.depth.glsl"
+
+// illumination.vert for surfaces with alpha: also hands on where the texture is read.
+
+layout(push_constant, scalar) uniform Params { IlluminationParams p; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 place;
+layout(location = 2) in vec3 look;  // u, v, alpha factor
+layout(location = 0) out vec2 place_out;
+layout(location = 1) out vec3 look_out;
+
+void main()
+{
+    gl_Position = through_parallel(views[p.view], p.tiling, position);
+    gl_Position.z = depth_of(p, gl_Position.z);
+    place_out = place;
+    look_out = look;
+}

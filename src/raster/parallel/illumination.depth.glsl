@@ -1,0 +1,18 @@
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
+
+// Depths in an illumination map, which may show a part of what lies along the direction only.
+
+#include "raster/parallel/illumination_maps.shared.h"
+
+float depth_of(IlluminationParams p, float nearness)
+{
+    return p.depth_scale * nearness + p.depth_shift;
+}
+
+float nearness_at(IlluminationParams p, float depth)
+{
+    return (depth - p.depth_shift) / p.depth_scale;
+}
+
+#endif

@@ -1,0 +1,21 @@
+#version 460
+#include "raster/parallel/illumination_maps.shared.h"
+#include "base/core/hash.glsl"
+#include "raster/parallel/illumination.depth.glsl"
+#include "raster/parallel/illumination.glsl"
+#include "raster/parallel/illumination.stochastic.glsl"
+
+// A pixel of an illumination map with stochastic depths, [TN11] Figure 4: of all surfaces
+// on the pixel's ray the one with the largest random number stays. With ordinary depths it is the
+// nearest beyond a region.
+
+layout(push_constant, scalar) uniform Params { IlluminationParams p; };
+layout(scalar) readonly buffer Views { ParallelView views[]; };
+layout(location = 0) in vec2 place;
+layout(location = 0) out uvec2 fragment;
+
+void main()
+{
+    fragment = uvec2(surface_at(p, place), floatBitsToUint(nearness_at(p, gl_FragCoord.z)));
+    gl_FragDepth = deciding_depth(p, fragment, views[p.view].random);
+}

@@ -1,0 +1,24 @@
+#ifndef LUMEL_VISIBILITY_ILLUMINATION_STOCHASTIC_GLSL
+#define LUMEL_VISIBILITY_ILLUMINATION_STOCHASTIC_GLSL
+
+// Stochastic depths [TN11].
+
+#include "base/core/hash.glsl"
+#include "raster/parallel/illumination_maps.shared.h"
+
+// A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the
+// depth, which is behind everything.
+float random_depth(uvec2 fragment, uint random)
+{
+    const uvec2 pixel = uvec2(gl_FragCoord.xy);
+    const uint here = hash(pixel.x ^ hash(pixel.y ^ hash(fragment.y ^ hash(fragment.x))));
+    return 1.0 - unit_float(hash(here ^ random));
+}
+
+// The depth that decides whether the fragment stays: random within a region, ordinary beyond it.
+float deciding_depth(IlluminationParams p, uvec2 fragment, uint random)
+{
+    return p.ordinary != 0u ? gl_FragCoord.z : random_depth(fragment, random);
+}
+
+#endif

@@ -1,0 +1,125 @@
+#pragma once
+// Illumination maps: all surfaces that lie along a direction, by parallel projection.
+//
+//   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
+
+#include <cstdint>
+#include <variant>
+
+#include "gpu/pacer.h"
+#include "raster/parallel/illumination.list.cut_out.raster.h"
+#include "raster/parallel/illumination.list.raster.h"
+#include "raster/parallel/illumination.peel.cut_out.raster.h"
+#include "raster/parallel/illumination.peel.raster.h"
+#include "raster/parallel/illumination.stochastic.cut_out.raster.h"
+#include "raster/parallel/illumination.stochastic.raster.h"
+#include "raster/parallel/illumination_maps.shared.h"
+#include "raster/parallel/parallel_views.h"
+#include "raster/world/surface_rasters.h"
+#include "raster/world/world.h"
+
+namespace lumel {
+
+enum class Layers : std::uint32_t {
+    stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
+    list = kListedLayers,            ///< every surface, in a list for each pixel
+    peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
+};
+
+/// Maps of a direction that is cut into this number of slabs: one of each slab, and
+/// one of what lies beyond each but the nearest to the light.
+constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
+{
+    return 2 * slabs - 1;
+}
+
+/// Maps of `capacity` directions, side by side. Fragments name lumels, by side and texel, not
+/// colours: so one map serves emitted and reflected light.
+///
+/// Regions after [TN11] section 6 are slabs of equal thickness along the direction. Slab s of S
+/// holds nearness s/S to (s + 1)/S, and has a map in which only its own surfaces compete by chance.
+/// Beyond it ordinary depth tells what comes first, in a map of its own: in one with the slab's,
+/// the surfaces of the slab would hide what lies beyond it from one another. A direction has
+/// maps_of_slabs(S) tiles: those of slabs 0, 1, … S - 1, and those beyond slabs 0, 1, … S - 2.
+class IlluminationMaps {
+public:
+    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must hold.
+    /// slabs: 1 unless layers are stochastic. The capacity given is what fits the device and is at
+    /// most the one requested. Throws Error{device} if the device cannot keep lists, or the maps of
+    /// one direction do not fit its images.
+    IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
+                     std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
+                     std::uint32_t height, std::uint32_t slabs = 1);
+
+    /// Bytes on a device whose images and arrays may be as large as is wanted.
+    static std::uint64_t device_bytes(Layers layers, std::uint32_t side, std::uint32_t capacity,
+                                      std::uint32_t slabs = 1);
+
+    std::uint32_t capacity() const { return capacity_; }  ///< directions
+    std::uint32_t slabs() const { return slabs_; }
+    const ParallelLayout& layout() const { return layout_; }
+    /// Stochastic: (surface, nearness). Peeled: of that layer, or of the one two before.
+    const gpu::Target& image(std::uint32_t layer = 0) const
+    {
+        return layer % 2 == 0 ? image_ : odd_image_;
+    }
+    const gpu::Sampler& sampler() const { return sampler_; }
+    const gpu::Array<std::uint32_t>& heads() const { return heads_; }     ///< of lists
+    const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< of lists
+
+    /// Draws views [first, first + count), each into its tiles. With Layers::peel: what lies behind
+    /// the layer before, which was the last to be drawn; layer 0 is what the direction's light
+    /// meets first.
+    void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
+                    std::uint32_t count, std::uint32_t layer = 0);
+
+    /// Share of its fragments that lists had room for in the worst of all calls so far. Waits for
+    /// the device.
+    double kept() const;
+
+    /// Layers::stochastic: K, the surfaces that compete for a covered pixel, mean over the slabs'
+    /// maps of the first `count` directions as they were last drawn; 0 if nothing is covered. Waits
+    /// for the device, whose work must have been submitted.
+    double overdraw(std::uint32_t count) const;
+
+private:
+    using StochasticRasters =
+        SurfaceRasters<shaders::IlluminationStochastic, shaders::IlluminationStochasticCutOut>;
+    using ListRasters = SurfaceRasters<shaders::IlluminationList, shaders::IlluminationListCutOut>;
+    using PeelRasters = SurfaceRasters<shaders::IlluminationPeel, shaders::IlluminationPeelCutOut>;
+    using Rasters = std::variant<StochasticRasters, ListRasters, PeelRasters>;
+
+    /// A pass over what a layer shows.
+    struct Pass {
+        gpu::Commands& commands;
+        const gpu::Array<ParallelView>& views;
+        const IlluminationParams& params;
+    };
+
+    static Rasters make_rasters(const gpu::Device& device, Layers layers);
+    auto use_opaque(const Pass& pass, const StochasticRasters& rasters) const;
+    auto use_opaque(const Pass& pass, const ListRasters& rasters) const;
+    auto use_opaque(const Pass& pass, const PeelRasters& rasters) const;
+    auto use_cut_out(const Pass& pass, const StochasticRasters& rasters,
+                     const CutOutDraw& cut_out) const;
+    auto use_cut_out(const Pass& pass, const ListRasters& rasters, const CutOutDraw& cut_out) const;
+    auto use_cut_out(const Pass& pass, const PeelRasters& rasters, const CutOutDraw& cut_out) const;
+    void draw(gpu::Commands& commands, const gpu::Array<ParallelView>& views,
+              const IlluminationParams& params);
+    bool lists() const { return layers_ == Layers::list; }
+    bool peels() const { return layers_ == Layers::peel; }
+
+    const World* world_;
+    Layers layers_;
+    ParallelLayout layout_;
+    std::uint32_t slabs_, capacity_, width_, height_;
+    gpu::Target image_, odd_image_, depth_;
+    gpu::Sampler sampler_;
+    gpu::Array<std::uint32_t> heads_;
+    gpu::Array<Fragment> fragments_;
+    gpu::Array<std::uint32_t> none_;  ///< a count of no fragments
+    gpu::Array<FragmentCount> count_;
+    Rasters rasters_;
+};
+
+}  // namespace lumel

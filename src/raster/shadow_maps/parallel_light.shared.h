@@ -1,0 +1,28 @@
+#ifndef LUMEL_RASTER_SHADOW_MAPS_PARALLEL_LIGHT_SHARED_H
+#define LUMEL_RASTER_SHADOW_MAPS_PARALLEL_LIGHT_SHARED_H
+#include "raster/parallel/parallel_views.shared.h"
+#include "raster/shadow_maps/light_sums.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kParallelGroup = 64u;  ///< threads per workgroup of parallel_light.receive.comp
+
+/// Light from infinitely far away along one direction.
+struct ParallelSource {
+    vec3 toward;       ///< unit, from the scene to the light
+    vec3 illuminance;  ///< [lx] on a surface that faces it
+};
+
+/// Push constants of parallel_light.receive.comp.
+struct ParallelReceiveParams {
+    ParallelLayout tiling;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint first_view;  ///< views [first_view, first_view + views), drawn into tiles 0, 1, …
+    uint views;
+    uint views_per_source;  ///< that follow one another
+    uint seed;
+    uint centre;  ///< 1: receive at the centroid
+};
+
+LUMEL_SHARED_END
+#endif

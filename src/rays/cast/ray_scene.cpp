@@ -1,0 +1,326 @@
+#include "rays/cast/ray_scene.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "rays/cast/embree_trees.h"
+
+namespace lumel {
+
+namespace {
+
+/// Rays start this share of the scene's size off their surface: far above the rounding of a hit's
+/// position (about 1e-7 of it), far below anything one could see.
+constexpr float kLift = 1e-5f;
+
+/// Coloured glass that a ray went through.
+struct PassedGlass {
+    std::uint32_t part = 0, triangle = 0;
+    float distance = 0.0f;
+    glm::vec3 tint{1.0f};
+};
+
+/// Embree's context of a query, with what a cut-out needs to decide.
+struct QueryContext {
+    RTCIntersectContext embree;  // first, so that Embree's pointer is also ours
+    std::uint32_t seed;
+    std::vector<PassedGlass> passed;  ///< in any order, and beyond the hit as well
+
+    /// Embree may test a triangle more than once.
+    void pass(const PassedGlass& glass)
+    {
+        const auto same = [&](const PassedGlass& other) {
+            return other.part == glass.part && other.triangle == glass.triangle;
+        };
+        if (std::none_of(passed.begin(), passed.end(), same))
+            passed.push_back(glass);
+    }
+
+    /// Multiplied in the order of the parts: that in which they are met differs from tree to tree.
+    glm::vec3 tint_before(float distance)
+    {
+        std::sort(passed.begin(), passed.end(), [](const PassedGlass& a, const PassedGlass& b) {
+            return std::pair(a.part, a.triangle) < std::pair(b.part, b.triangle);
+        });
+        glm::vec3 tint(1.0f);
+        for (const PassedGlass& glass : passed)
+            if (glass.distance < distance)
+                tint *= glass.tint;
+        return tint;
+    }
+};
+
+/// A well-mixed number in [0, 1) for three integers.
+float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    std::uint32_t state = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu ^ c * 0xc2b2ae35u;
+    state = (state ^ (state >> 16)) * 0x7feb352du;
+    state = (state ^ (state >> 15)) * 0x846ca68bu;
+    state ^= state >> 16;
+    return float(state >> 8) * 0x1p-24f;
+}
+
+/// Look of a surface at a point of one of its triangles.
+MaterialSample look_at(const TracedPart& part, std::uint32_t triangle, float u, float v)
+{
+    const Primitive& source = *part.source;
+    const std::uint32_t* corner = source.indices.data() + std::size_t(triangle) * 3;
+    const auto blend = [&](const auto& values) {
+        return values[corner[0]] * (1.0f - u - v) + values[corner[1]] * u + values[corner[2]] * v;
+    };
+    glm::vec2 texcoord[kTexcoordSets]{};
+    for (int set = 0; set < kTexcoordSets; ++set)
+        if (!source.texcoords[set].empty())
+            texcoord[set] = blend(source.texcoords[set]);
+    const glm::vec4 color = source.colors.empty() ? glm::vec4(1.0f) : blend(source.colors);
+    return sample_material(*part.scene, source.material, texcoord, color);
+}
+
+/// The tint of what passes a triangle; empty if a ray of this seed meets it.
+std::optional<glm::vec3> tint_through(const TracedPart& part, std::uint32_t triangle,
+                                      const glm::vec2& barycentric, std::uint32_t seed)
+{
+    const MaterialSample look = look_at(part, triangle, barycentric.x, barycentric.y);
+    if (look.opacity >= 1.0f || hash_to_unit(seed, part.number, triangle) < look.opacity)
+        return std::nullopt;
+    return look.tint;
+}
+
+/// Embree's filter: does this candidate hit count?
+void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
+{
+    if (candidate->valid[0] != -1)
+        return;
+    const TracedPart& part = *static_cast<const TracedPart*>(candidate->geometryUserPtr);
+    const std::uint32_t triangle = RTCHitN_primID(candidate->hit, candidate->N, 0);
+    auto& context = *reinterpret_cast<QueryContext*>(candidate->context);
+    const std::optional<glm::vec3> tint = tint_through(
+        part, triangle,
+        {RTCHitN_u(candidate->hit, candidate->N, 0), RTCHitN_v(candidate->hit, candidate->N, 0)},
+        context.seed);
+    if (!tint)
+        return;
+    candidate->valid[0] = 0;
+    if (*tint != glm::vec3(1.0f))
+        context.pass({part.number, triangle, RTCRayN_tfar(candidate->ray, candidate->N, 0), *tint});
+}
+
+QueryContext query_context(std::uint32_t seed)
+{
+    QueryContext context{};
+    rtcInitIntersectContext(&context.embree);
+    context.seed = seed;
+    return context;
+}
+
+RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float near, float far)
+{
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = near;
+    ray.tfar = far;
+    ray.mask = ~0u;
+    return ray;
+}
+
+std::vector<std::uint32_t> all_instances(const Scene& scene)
+{
+    std::vector<std::uint32_t> all(scene.instances.size());
+    std::iota(all.begin(), all.end(), 0u);
+    return all;
+}
+
+/// The tint of what passes along the ray; 0 if it meets something.
+glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
+{
+    QueryContext context = query_context(seed);
+    rtcOccluded1(tree, &context.embree, &ray);
+    const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
+    return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
+}
+
+}  // namespace
+
+RayScene::RayScene(const Scene& scene) : RayScene(scene, all_instances(scene), {}) {}
+
+RayScene::RayScene(const Scene& scene, std::span<const std::uint32_t> instances)
+    : RayScene(scene, instances, {})
+{
+}
+
+RayScene::RayScene(const Scene& scene, const std::vector<char>& movers)
+    : RayScene(scene, all_instances(scene), movers)
+{
+}
+
+RayScene::RayScene(const Scene& scene, std::span<const std::uint32_t> instances,
+                   const std::vector<char>& movers)
+    : trees_(std::make_unique<EmbreeTrees>(scene, instances, movers, pass_through_cut_outs))
+{
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+void RayScene::place(std::span<const std::uint32_t> instances)
+{
+    trees_->place(instances);
+}
+
+RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed)
+{
+    const glm::vec3 path = to - from;
+    const float distance = glm::length(path);
+    if (distance <= 2.0f * offset)
+        return {.origin = from, .seed = seed};
+    return {from, offset, path / distance, distance - offset, seed};
+}
+
+RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed)
+{
+    return {from, 0.0f, direction, std::numeric_limits<float>::max(), seed};
+}
+
+glm::vec3 RayScene::passing(const RaySpan& ray) const
+{
+    if (!(ray.far > ray.near))
+        return glm::vec3(1.0f);
+    return tint_along(trees_->top(), make_ray(ray.origin, ray.direction, ray.near, ray.far),
+                      ray.seed);
+}
+
+glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
+                            std::uint32_t seed) const
+{
+    return passing(ray_between(from, to, offset, seed));
+}
+
+glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,
+                                std::uint32_t seed) const
+{
+    return passing(ray_out(from, direction, seed));
+}
+
+bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
+                    std::uint32_t seed) const
+{
+    return passing(from, to, offset, seed) != glm::vec3(0.0f);
+}
+
+bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const
+{
+    return passing_out(from, direction, seed) != glm::vec3(0.0f);
+}
+
+bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
+                       std::uint32_t seed, RayHit& hit) const
+{
+    // Made in place: a copy would wait for what was just written.
+    RTCRayHit query{.ray = make_ray(origin, direction, near, far), .hit = {}};
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    QueryContext context = query_context(seed);
+    rtcIntersect1(trees_->top(), &context.embree, &query);
+    hit.tint = context.tint_before(query.ray.tfar);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+
+    const TracedPart& part = trees_->part(query.hit);
+    hit.instance = part.instance;
+    hit.primitive = part.primitive;
+    hit.triangle = query.hit.primID;
+    hit.barycentric = {query.hit.u, query.hit.v};
+    hit.distance = query.ray.tfar;
+    hit.normal =
+        part.winding * glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
+    hit.front = glm::dot(hit.normal, direction) < 0.0f;
+    return true;
+}
+
+std::size_t RayScene::parts() const
+{
+    return trees_->parts().size();
+}
+
+std::vector<glm::vec3> RayScene::positions(std::size_t part) const
+{
+    const TracedPart& from = trees_->parts()[part];
+    std::vector<glm::vec3> positions;
+    positions.reserve(from.source->positions.size());
+    for (const glm::vec3& position : from.source->positions)
+        positions.push_back(from.to_world(position));
+    return positions;
+}
+
+std::span<const std::uint32_t> RayScene::corners(std::size_t part) const
+{
+    return trees_->parts()[part].source->indices;
+}
+
+bool RayScene::may_let_pass(std::size_t part) const
+{
+    const TracedPart& from = trees_->parts()[part];
+    return may_be_transparent(from.scene->materials[from.source->material], *from.source);
+}
+
+std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t triangle,
+                                           const glm::vec2& barycentric, std::uint32_t seed) const
+{
+    return tint_through(trees_->parts()[part], triangle, barycentric, seed);
+}
+
+RayHit RayScene::hit(std::size_t number, std::uint32_t triangle, const glm::vec2& barycentric,
+                     float distance, const glm::vec3& direction) const
+{
+    const TracedPart& part = trees_->parts()[number];
+    glm::vec3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = part.to_world(
+            part.source->positions[part.source->indices[3 * std::size_t(triangle) + k]]);
+    const glm::vec3 normal =
+        part.winding * glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
+    return {.instance = part.instance,
+            .primitive = part.primitive,
+            .triangle = triangle,
+            .barycentric = barycentric,
+            .distance = distance,
+            .normal = normal,
+            .front = glm::dot(normal, direction) < 0.0f};
+}
+
+std::uint64_t RayScene::bytes() const
+{
+    return trees_->bytes();
+}
+
+glm::vec3 RayScene::low() const
+{
+    return trees_->low();
+}
+
+glm::vec3 RayScene::high() const
+{
+    return trees_->high();
+}
+
+float RayScene::ray_offset() const
+{
+    const glm::vec3 reach = glm::max(glm::abs(low()), glm::abs(high()));
+    return kLift * std::max({reach.x, reach.y, reach.z, glm::length(high() - low())});
+}
+
+std::string embree_version()
+{
+    return RTC_VERSION_STRING;
+}
+
+}  // namespace lumel

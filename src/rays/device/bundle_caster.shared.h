@@ -1,0 +1,56 @@
+#ifndef LUMEL_RAYS_DEVICE_BUNDLE_CASTER_SHARED_H
+#define LUMEL_RAYS_DEVICE_BUNDLE_CASTER_SHARED_H
+#include "base/core/shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kBundleGroup = 64u;
+LUMEL_CONST uint kNoneListed = 0xffffffffu;  ///< end of a list, or no triangle
+
+/// A parallel view of the scene, a square of pixels: x falls on ((right, up)·x - low) · scale.
+struct BundleView {
+    vec3 right;
+    vec3 up;
+    vec3 along;   ///< of the rays, unit
+    vec2 low;     ///< [m]
+    float scale;  ///< [pixels / m]
+};
+
+/// A triangle that touches a pixel.
+struct Listed {
+    uint triangle;
+    uint next;  ///< of the same pixel: index of Listed, or kNoneListed
+};
+
+struct BundleRay {
+    vec3 origin;  ///< [m]
+    float near;   ///< [m]
+    float far;    ///< [m]
+    uint view;
+};
+
+struct BundleHit {
+    uint triangle;     ///< kNoneListed: none so far
+    float distance;    ///< [m]
+    vec2 barycentric;  ///< weights of its 2nd and 3rd vertex
+};
+
+/// Push constants of bundle_caster.vert and .frag. Views lie below one another in an image.
+struct BundleDrawParams {
+    uint view;
+    uint slot;       ///< where it lies
+    uint slots;      ///< of the image
+    uint side;       ///< of a view [pixels]
+    uint triangles;  ///< of the scene; the next view follows after them
+    uint capacity;   ///< of the lists
+};
+
+/// Push constants of bundle_caster.cast.comp.
+struct BundleCastParams {
+    uint first;       ///< ray
+    uint count;       ///< rays
+    uint first_view;  ///< the one in slot 0
+    uint side;        ///< of a view [pixels]
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,47 @@
+#version 460
+#extension GL_EXT_ray_query : require
+#include "rays/device/query_caster.shared.h"
+
+// Casts rays at the triangles of a scene. Geometry 0 are the solid ones, geometry 1 those that may
+// let light pass; which rays they do let pass is decided by who asks.
+
+layout(local_size_x = kCastGroup) in;
+layout(push_constant, scalar) uniform Params { CastParams p; };
+uniform accelerationStructureEXT triangles;
+layout(scalar) readonly buffer Rays { CastRay rays[]; };
+layout(scalar) writeonly buffer Hits { CastHit hits[]; };
+
+uint flags_of(uint wanted)
+{
+    switch (wanted) {
+    case kAnySolid:
+        return gl_RayFlagsCullNoOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT;
+    case kNearestPassable:
+        return gl_RayFlagsCullOpaqueEXT;
+    default:
+        return gl_RayFlagsOpaqueEXT;
+    }
+}
+
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.rays)
+        return;
+    const CastRay ray = rays[i];
+    const uint any_mask = 0xffu;
+    rayQueryEXT query;
+    rayQueryInitializeEXT(query, triangles, flags_of(p.wanted), any_mask, ray.origin, ray.near,
+                          ray.direction, ray.far);
+    while (rayQueryProceedEXT(query))
+        rayQueryConfirmIntersectionEXT(query);
+    if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) {
+        hits[i] = CastHit(kNoTriangle, ray.far, vec2(0.0));
+        return;
+    }
+    const bool solid = rayQueryGetIntersectionGeometryIndexEXT(query, true) == 0;
+    hits[i] = CastHit(uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, true)) +
+                          (solid ? 0u : p.solid),
+                      rayQueryGetIntersectionTEXT(query, true),
+                      rayQueryGetIntersectionBarycentricsEXT(query, true));
+}

@@ -1,0 +1,201 @@
+// The device knows triangles only. Surfaces that may let light pass are decided about here, by the
+// rule and the random numbers of RayScene, so that both casters agree; a ray that passes goes on
+// from just behind.
+
+#include "rays/device/query_caster.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "gpu/commands.h"
+#include "gpu/triangle_tree.h"
+#include "rays/cast/device_triangles.h"
+#include "rays/device/query_caster.cast.comp.h"
+
+namespace lumel {
+namespace {
+
+/// Enough to keep a device busy for longer than it takes to begin.
+constexpr std::size_t kBatch = std::size_t(1) << 15;
+/// Rays of one dispatch, at most.
+constexpr std::size_t kMaxRays = 4 * kBatch;
+/// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
+/// not meet it again.
+constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
+constexpr float kFar = std::numeric_limits<float>::max();
+
+gpu::TriangleTree make_tree(const gpu::Device& device, const RayScene& rays,
+                            const DeviceTriangles& triangles)
+{
+    if (!device.can_query_rays())
+        throw Error(ErrorKind::device, "--rays query",
+                    device.info().name +
+                        " has no ray queries (VK_KHR_ray_query); use --rays host, or choose a "
+                        "device that has them with --device");
+    const DeviceTriangles::Mesh mesh = triangles.mesh(rays);
+    const std::span<const std::uint32_t> all(mesh.corners);
+    const std::size_t solid = 3 * std::size_t(triangles.solid());
+    const gpu::TriangleTree::Triangles lists[] = {{.corners = all.first(solid), .opaque = true},
+                                                  {.corners = all.subspan(solid), .opaque = false}};
+    return {device, mesh.positions, lists};
+}
+
+/// Rays that are still on their way, of a longer list.
+struct Going {
+    std::vector<CastRay> rays;
+    std::vector<std::uint32_t> which;  ///< [rays] in that list
+
+    void add(std::uint32_t i, const RaySpan& ray, float near)
+    {
+        if (!(ray.far > near))
+            return;
+        // What lies at the very end of a ray counts, as it does on the host.
+        rays.push_back({ray.origin, near, ray.direction, std::min(kBehind * ray.far, kFar)});
+        which.push_back(i);
+    }
+};
+
+class QueryCaster final : public RayCaster {
+public:
+    QueryCaster(const gpu::Device& device, const RayScene& rays)
+        : rays_(rays),
+          triangles_(rays),
+          tree_(make_tree(device, rays, triangles_)),
+          cast_(device),
+          commands_(device, gpu::Timing::off),
+          sent_(device, kMaxRays, gpu::Buffer::Place::host, "rays to cast"),
+          asked_(device, kMaxRays, "rays being cast"),
+          found_(device, kMaxRays, "hits of rays"),
+          returned_(device, kMaxRays, gpu::Buffer::Place::host, "hits that return")
+    {
+    }
+
+    void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const override;
+    void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const override;
+    std::size_t batch() const override { return kBatch; }
+    const char* name() const override { return "query"; }
+
+private:
+    bool has_passable() const { return triangles_.solid() < triangles_.count(); }
+    /// The tint of what gets through; empty if the ray ends here.
+    std::optional<glm::vec3> passing(const CastHit& hit, std::uint32_t seed) const
+    {
+        const auto [part, triangle] = triangles_.place(hit.triangle);
+        return rays_.passing(part, triangle, hit.barycentric, seed);
+    }
+    std::vector<CastHit> cast(std::span<const CastRay> rays, std::uint32_t wanted) const;
+    void cast_at_once(std::span<const CastRay> rays, std::uint32_t wanted,
+                      std::span<CastHit> hits) const;
+
+    const RayScene& rays_;
+    DeviceTriangles triangles_;
+    gpu::TriangleTree tree_;
+    gpu::Kernel<shaders::QueryCasterCast> cast_;
+    mutable std::mutex mutex_;  ///< of what follows, and of the device
+    mutable gpu::Commands commands_;
+    mutable gpu::Array<CastRay> sent_, asked_;
+    mutable gpu::Array<CastHit> found_, returned_;
+};
+
+void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const
+{
+    assert(rays.size() == hits.size());
+    Going going;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        hits[i].distance = kNothing;
+        hits[i].tint = glm::vec3(1.0f);
+        going.add(i, rays[i], rays[i].near);
+    }
+    while (!going.rays.empty()) {
+        const std::vector<CastHit> found = cast(going.rays, kNearestOfAll);
+        Going next;
+        for (std::size_t n = 0; n < found.size(); ++n) {
+            const CastHit& one = found[n];
+            if (one.triangle == kNoTriangle)
+                continue;
+            const std::uint32_t i = going.which[n];
+            if (one.triangle >= triangles_.solid())
+                if (const auto tint = passing(one, rays[i].seed)) {
+                    hits[i].tint *= *tint;
+                    next.add(i, rays[i], kBehind * one.distance);
+                    continue;
+                }
+            const auto [part, triangle] = triangles_.place(one.triangle);
+            const glm::vec3 tint = hits[i].tint;
+            hits[i] = rays_.hit(part, triangle, one.barycentric, one.distance, rays[i].direction);
+            hits[i].tint = tint;
+        }
+        going = std::move(next);
+    }
+}
+
+void QueryCaster::passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const
+{
+    assert(rays.size() == passing.size());
+    Going all, going;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        passing[i] = glm::vec3(1.0f);
+        all.add(i, rays[i], rays[i].near);
+    }
+    const std::vector<CastHit> solid = cast(all.rays, kAnySolid);
+    for (std::size_t n = 0; n < solid.size(); ++n) {
+        const std::uint32_t i = all.which[n];
+        if (solid[n].triangle != kNoTriangle)
+            passing[i] = glm::vec3(0.0f);
+        else if (has_passable())
+            going.add(i, rays[i], rays[i].near);
+    }
+    while (!going.rays.empty()) {
+        const std::vector<CastHit> found = cast(going.rays, kNearestPassable);
+        Going next;
+        for (std::size_t n = 0; n < found.size(); ++n) {
+            if (found[n].triangle == kNoTriangle)
+                continue;
+            const std::uint32_t i = going.which[n];
+            const std::optional<glm::vec3> tint = this->passing(found[n], rays[i].seed);
+            passing[i] *= tint.value_or(glm::vec3(0.0f));
+            if (tint)
+                next.add(i, rays[i], kBehind * found[n].distance);
+        }
+        going = std::move(next);
+    }
+}
+
+std::vector<CastHit> QueryCaster::cast(std::span<const CastRay> rays, std::uint32_t wanted) const
+{
+    std::vector<CastHit> hits(rays.size());
+    for (std::size_t first = 0; first < rays.size(); first += kMaxRays) {
+        const std::size_t count = std::min(kMaxRays, rays.size() - first);
+        cast_at_once(rays.subspan(first, count), wanted, std::span(hits).subspan(first, count));
+    }
+    return hits;
+}
+
+void QueryCaster::cast_at_once(std::span<const CastRay> rays, std::uint32_t wanted,
+                               std::span<CastHit> hits) const
+{
+    const std::lock_guard lock(mutex_);
+    sent_.upload(rays);
+    commands_.stage("rays");
+    commands_.copy(sent_.buffer(), asked_.buffer(), rays.size_bytes());
+    commands_.dispatch(
+        cast_, {.triangles = tree_, .rays = asked_, .hits = found_},
+        {.rays = std::uint32_t(rays.size()), .wanted = wanted, .solid = triangles_.solid()},
+        rays.size());
+    commands_.copy(found_.buffer(), returned_.buffer(), hits.size_bytes());
+    commands_.run();
+    std::copy_n(returned_.mapped(), hits.size(), hits.begin());
+}
+
+}  // namespace
+
+std::unique_ptr<RayCaster> cast_by_queries(const gpu::Device& device, const RayScene& rays)
+{
+    return std::make_unique<QueryCaster>(device, rays);
+}
+
+}  // namespace lumel

@@ -1,0 +1,31 @@
+#pragma once
+// Where the light of sky, sun and lamps comes from. See light_directions.cpp.
+
+#include <functional>
+#include <vector>
+
+#include "atlas/lumels/sample_rule.h"
+#include "atlas/packing/atlas.h"
+#include "rays/cast/ray_scene.h"
+#include "results/directional/directional_fit.h"
+
+namespace lumel {
+
+struct LightDirectionsOptions {
+    SampleRule rule = SampleRule::area;
+    std::uint32_t seed = 1;
+};
+
+/// Are there lights that are no surfaces?
+bool has_far_lights(const Scene& scene);
+
+/// Adds their light to coefficients [4 or 9][N] of radiance [cd/m²], by rays on the host. normals
+/// [N]: unit, in the world. `go_on` is given the fraction done and returns false to stop early,
+/// which leaves out the light of some lumels; then this returns false.
+bool add_light_directions(const Scene& scene, const RayScene& rays, const Lumels& lumels,
+                          const std::vector<glm::vec3>& normals, const DirectionalFit& fit,
+                          const LightDirectionsOptions& options,
+                          std::vector<std::vector<glm::vec3>>& coefficients,
+                          const std::function<bool(double)>& go_on = {});
+
+}  // namespace lumel

@@ -1,0 +1,358 @@
+#include "results/files/glb_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "base/core/error.h"
+#include "base/images/image_files.h"
+#include "scene/gltf/accessor.h"
+#include "scene/gltf/page_parts.h"
+#include "scene/load/webp_image.h"
+
+namespace lumel {
+namespace {
+
+constexpr std::uint32_t kMagic = 0x46546C67;  // "glTF"
+constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
+constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
+constexpr std::size_t kAlignment = 4;  // of chunks, and of every view: that of floats
+constexpr int kLinear = 9729, kClampToEdge = 33071;
+
+// Stand-ins for what is released and gets no successor; nothing refers to them.
+const Json kEmptyAccessor = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
+const Json kEmptyView = {{"buffer", 0}, {"byteLength", 1}};
+
+// What is no index is passed over: extras and unknown extensions may use the same names.
+void insert_index(const Json& parent, const char* key, std::set<std::size_t>& indices)
+{
+    const auto found = parent.find(key);
+    if (found == parent.end())
+        return;
+    if (const auto index = whole_number(*found); index && *index >= 0)
+        indices.insert(std::size_t(*index));
+}
+
+void insert_members(const Json& parent, const char* key, std::set<std::size_t>& indices)
+{
+    const auto found = parent.find(key);
+    if (found != parent.end() && found->is_object())
+        for (const auto& [name, index] : found->items())
+            insert_index(*found, name.c_str(), indices);
+}
+
+/// Only indices below `size` remain. Parts that the reader does not look at may name others.
+void drop_from(std::set<std::size_t>& indices, std::size_t size)
+{
+    indices.erase(indices.lower_bound(size), indices.end());
+}
+
+const Json& list(const Json& parent, const char* key)
+{
+    static const Json kNone = Json::array();
+    const auto found = parent.find(key);
+    return found != parent.end() && found->is_array() ? *found : kNone;
+}
+
+std::set<std::size_t> used_views(const Json& json)
+{
+    std::set<std::size_t> views;
+    for_objects(json, [&](const Json& object) { insert_index(object, "bufferView", views); });
+    return views;
+}
+
+std::string mime_type_of(const Bytes& file)
+{
+    struct Signature {
+        std::string_view bytes;
+        std::size_t offset;
+        const char* type;
+    };
+    constexpr std::array<Signature, 4> kSignatures = {{
+        {"\x89PNG", 0, "image/png"},
+        {"\xFF\xD8\xFF", 0, "image/jpeg"},
+        {"WEBP", 8, "image/webp"},
+        {"\xABKTX 20\xBB", 0, "image/ktx2"},
+    }};
+    for (const Signature& s : kSignatures)
+        if (file.size() >= s.offset + s.bytes.size() &&
+            std::memcmp(file.data() + s.offset, s.bytes.data(), s.bytes.size()) == 0)
+            return s.type;
+    return {};
+}
+
+/// The PNG that stands for a WebP picture, which plain glTF does not have; nothing for what is none
+/// or cannot be decoded.
+std::optional<Bytes> plain_picture(const Bytes& file, const std::string& place)
+{
+    if (!is_webp(file))
+        return std::nullopt;
+    try {
+        const Texture texture = decode_webp(file, place);
+        return encode_png(texture.rgba, texture.width, texture.height);
+    } catch (const Error&) {
+        return std::nullopt;  // the scene was read without it, so light does not depend on it
+    }
+}
+
+void append_word(std::vector<std::uint8_t>& out, std::size_t word)
+{
+    for (int shift = 0; shift < 32; shift += 8)
+        out.push_back(static_cast<std::uint8_t>(word >> shift));
+}
+
+void pad(std::vector<std::uint8_t>& out, std::uint8_t filler)
+{
+    out.resize((out.size() + kAlignment - 1) / kAlignment * kAlignment, filler);
+}
+
+std::size_t put(Json& array, std::set<std::size_t>& free, Json value)
+{
+    if (free.empty()) {
+        array.push_back(std::move(value));
+        return array.size() - 1;
+    }
+    const std::size_t index = *free.begin();
+    free.erase(free.begin());
+    array[index] = std::move(value);
+    return index;
+}
+
+}  // namespace
+
+std::set<std::size_t> used_accessors(const Json& json)
+{
+    std::set<std::size_t> used;
+    for (const Json& mesh : list(json, "meshes"))
+        for (const Json& primitive : list(mesh, "primitives")) {
+            insert_members(primitive, "attributes", used);
+            insert_index(primitive, "indices", used);
+            for (const std::size_t part : accessors_of_parts(primitive))
+                used.insert(part);
+            for (const Json& target : list(primitive, "targets"))
+                for (const auto& [name, index] : target.items())
+                    insert_index(target, name.c_str(), used);
+        }
+    for (const Json& skin : list(json, "skins"))
+        insert_index(skin, "inverseBindMatrices", used);
+    for (const Json& animation : list(json, "animations"))
+        for (const Json& sampler : list(animation, "samplers")) {
+            insert_index(sampler, "input", used);
+            insert_index(sampler, "output", used);
+        }
+    return used;
+}
+
+std::set<std::size_t> images_of(const Json& texture)
+{
+    std::set<std::size_t> images;
+    for_objects(texture, [&](const Json& object) { insert_index(object, "source", images); });
+    return images;
+}
+
+Json& extras_of(Json& part)
+{
+    Json& extras = part["extras"];
+    if (!extras.is_null() && !extras.is_object())
+        extras = Json{{"value", std::move(extras)}};
+    return extras;
+}
+
+GlbBuilder::GlbBuilder(const GltfDocument& document) : json(document.json), document_(document) {}
+
+void GlbBuilder::release()
+{
+    unpack_images();
+    free_accessors();
+    free_views();
+    copy_views();
+    embed_images();
+}
+
+void GlbBuilder::unpack_images()
+{
+    const auto images = json.find("images");
+    for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
+        Json& image = (*images)[i];
+        if (!image.contains("bufferView"))
+            continue;
+        const JsonView view(document_.path, image, "/images/" + std::to_string(i));
+        std::optional<Bytes> png;
+        try {
+            png = plain_picture(buffer_view_bytes(document_, view.get("bufferView")), view.place());
+        } catch (const Error&) {
+            continue;  // as below
+        }
+        if (!png)
+            continue;
+        image.erase("bufferView");
+        unpacked_images_[i] = std::move(*png);
+    }
+}
+
+void GlbBuilder::free_accessors()
+{
+    free_accessors_ = used_accessors(document_.json);
+    drop_from(free_accessors_, list(json, "accessors").size());
+    for (const std::size_t live : used_accessors(json))
+        free_accessors_.erase(live);
+    for (const std::size_t accessor : free_accessors_)
+        json["accessors"][accessor] = kEmptyAccessor;
+}
+
+void GlbBuilder::free_views()
+{
+    free_views_ = used_views(document_.json);
+    drop_from(free_views_, list(json, "bufferViews").size());
+    for (const std::size_t live : used_views(json))
+        free_views_.erase(live);
+    for (const std::size_t view : free_views_)
+        json["bufferViews"][view] = kEmptyView;
+}
+
+void GlbBuilder::copy_views()
+{
+    // Views of the same bytes go on sharing them.
+    std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::size_t> copied;
+    const auto views = json.find("bufferViews");
+    for (std::size_t i = 0; views != json.end() && i < views->size(); ++i) {
+        Json& view = (*views)[i];
+        if (free_views_.contains(i))
+            continue;
+        const auto buffer = view.at("buffer").get<std::size_t>();
+        const auto offset = view.value("byteOffset", std::size_t(0));
+        const auto length = view.at("byteLength").get<std::size_t>();
+        const auto [place, is_new] = copied.try_emplace({buffer, offset, length});
+        if (is_new)
+            place->second = append(std::span(document_.buffers[buffer]).subspan(offset, length));
+        view["buffer"] = 0;
+        view["byteOffset"] = place->second;
+    }
+}
+
+void GlbBuilder::embed_images()
+{
+    const auto images = json.find("images");
+    for (std::size_t i = 0; images != json.end() && i < images->size(); ++i) {
+        Json& image = (*images)[i];
+        if (const auto unpacked = unpacked_images_.find(i); unpacked != unpacked_images_.end()) {
+            image["mimeType"] = "image/png";
+            image["bufferView"] = add_view(unpacked->second, ViewTarget::none);
+        }
+        if (!image.contains("uri"))
+            continue;
+        Bytes file;
+        try {
+            JsonView view(document_.path, image, "/images/" + std::to_string(i));
+            file = read_uri(view.get("uri"), document_.path);
+            if (auto png = plain_picture(file, view.place()))
+                file = std::move(*png);
+        } catch (const Error&) {
+            continue;  // the scene was read without it, so light does not depend on it
+        }
+        std::string type = mime_type_of(file);
+        if (type.empty())
+            type = image.value("mimeType", std::string());
+        if (type.empty())
+            continue;
+        image.erase("uri");
+        image["mimeType"] = type;
+        image["bufferView"] = add_view(file, ViewTarget::none);
+    }
+}
+
+std::size_t GlbBuilder::append(std::span<const std::uint8_t> bytes)
+{
+    pad(binary_, 0);
+    const std::size_t offset = binary_.size();
+    binary_.insert(binary_.end(), bytes.begin(), bytes.end());
+    return offset;
+}
+
+std::size_t GlbBuilder::add_view(std::span<const std::uint8_t> bytes, ViewTarget target,
+                                 std::size_t stride)
+{
+    Json view = {{"buffer", 0}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}};
+    if (stride > 0)
+        view["byteStride"] = stride;
+    if (target != ViewTarget::none)
+        view["target"] = int(target);
+    return put(json["bufferViews"], free_views_, std::move(view));
+}
+
+std::size_t GlbBuilder::add_accessor(Json accessor)
+{
+    return put(json["accessors"], free_accessors_, std::move(accessor));
+}
+
+void GlbBuilder::retire_texture(std::size_t texture)
+{
+    for (const std::size_t image : images_of(json["textures"].at(texture))) {
+        if (!json.contains("images") || image >= json["images"].size())
+            continue;  // of an extension that is not read
+        json["images"][image] = Json::object();
+        free_images_.insert(image);
+    }
+    free_textures_.insert(texture);
+}
+
+std::size_t GlbBuilder::add_image(const std::string& name, const char* type,
+                                  std::span<const std::uint8_t> file)
+{
+    return put(
+        json["images"], free_images_,
+        {{"name", name}, {"mimeType", type}, {"bufferView", add_view(file, ViewTarget::none)}});
+}
+
+std::size_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png,
+                                    std::span<const std::uint8_t> ktx2)
+{
+    const Json sampler = {{"magFilter", kLinear},
+                          {"minFilter", kLinear},
+                          {"wrapS", kClampToEdge},
+                          {"wrapT", kClampToEdge}};
+    Json& samplers = json["samplers"];
+    const auto same = std::find(samplers.begin(), samplers.end(), sampler);
+    const auto sampler_index = std::size_t(same - samplers.begin());
+    if (same == samplers.end())
+        samplers.push_back(sampler);
+
+    Json texture = {
+        {"name", name}, {"sampler", sampler_index}, {"source", add_image(name, "image/png", png)}};
+    if (!ktx2.empty())
+        texture["extensions"]["KHR_texture_basisu"]["source"] = add_image(name, "image/ktx2", ktx2);
+    return put(json["textures"], free_textures_, std::move(texture));
+}
+
+std::vector<std::uint8_t> GlbBuilder::finish()
+{
+    pad(binary_, 0);
+    json["asset"]["generator"] = "Lumel";
+    json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    std::string text = json.dump();
+    text.resize((text.size() + kAlignment - 1) / kAlignment * kAlignment, ' ');
+
+    const std::size_t size =
+        kHeaderSize + kChunkHeaderSize + text.size() + kChunkHeaderSize + binary_.size();
+    if (size > UINT32_MAX)
+        throw Error(ErrorKind::output, document_.path,
+                    "with its lightmap takes more than the 4 GiB that a .glb can hold");
+    std::vector<std::uint8_t> file;
+    file.reserve(size);
+    for (const std::size_t word :
+         {std::size_t(kMagic), std::size_t(kVersion), size, text.size(), std::size_t(kJsonChunk)})
+        append_word(file, word);
+    file.insert(file.end(), text.begin(), text.end());
+    append_word(file, binary_.size());
+    append_word(file, kBinaryChunk);
+    file.insert(file.end(), binary_.begin(), binary_.end());
+    return file;
+}
+
+}  // namespace lumel

@@ -1,0 +1,152 @@
+#include "results/files/gltf_write.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "base/core/error.h"
+#include "base/core/files.h"
+#include "base/images/image_files.h"
+#include "results/files/baked_materials.h"
+#include "results/files/baked_meshes.h"
+#include "results/files/glb_builder.h"
+#include "scene/gltf/baked_lights.h"
+
+namespace lumel {
+namespace {
+
+// A PNG clips where exposure × irradiance is beyond this: a surface of albedo 0.25 is just below
+// white there. To store more would take its few bits away from everything else.
+constexpr float kLargestExposed = 4.0f;
+// Half floats and shared exponents have all their digits down to 2^-14: with no more than this over
+// the 99.9th percentile as the unit, a ten-thousandth of the percentile is off by 0.3 % at most.
+constexpr float kLargestOverHigh = 8.0f;
+constexpr double kHigh = 0.999;
+// Nor may the brightest be beyond what they hold.
+constexpr float kLargestFloat = 65000.0f;
+
+// Irradiance of a white texel.
+float lightmap_scale(const Image& map, std::optional<float> exposure)
+{
+    std::vector<float> lit;
+    for (std::size_t i = 0; i < map.values.size(); i += 4)
+        if (map.values[i + 3] > 0.0f)
+            lit.push_back(std::max({map.values[i], map.values[i + 1], map.values[i + 2], 0.0f}));
+    const float brightest = lit.empty() ? 0.0f : *std::max_element(lit.begin(), lit.end());
+    if (!(brightest > 0.0f))
+        return 1.0f;
+    const auto high = lit.begin() + std::ptrdiff_t(kHigh * double(lit.size() - 1));
+    std::nth_element(lit.begin(), high, lit.end());
+    float scale = brightest;
+    if (const float exposed = exposure.value_or(choose_exposure(map)); exposed > 0.0f)
+        scale = std::min(scale, kLargestExposed / exposed);
+    if (*high > 0.0f)
+        scale = std::min(scale, kLargestOverHigh * *high);
+    return std::max(scale, brightest / kLargestFloat);
+}
+
+// RGB only, multiplied by `scale`: coverage means nothing to a viewer.
+Image without_alpha(const Image& map, float scale)
+{
+    Image rgb(map.width, map.height, 3);
+    for (std::size_t texel = 0; texel < rgb.values.size() / 3; ++texel)
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb.values[texel * 3 + c] = map.values[texel * 4 + c] * scale;
+    return rgb;
+}
+
+// In asset.extras: what a viewer should know of the light that is baked.
+void tell_of_lights(Json& gltf, const SceneLighting& lights)
+{
+    Json told = {{"lightmapUnit", "lx"}};
+    if (lights.exposure)
+        told["exposure"] = *lights.exposure;
+    told["bakedLights"] = lights.keep ? 0 : put_away_lights(gltf);
+    extras_of(gltf["asset"])["lumel"] = std::move(told);
+}
+
+std::size_t add_lightmap(GlbBuilder& builder, const Image& map, float scale,
+                         const std::string& name, LightmapFormat format)
+{
+    const Image texels = without_alpha(map, 1.0f / scale);
+    std::vector<unsigned char> ktx2;
+    if (format == LightmapFormat::ktx2)
+        ktx2 = encode_ktx2(texels, FloatTexel::half);
+    if (format == LightmapFormat::rgb9e5)
+        ktx2 = encode_ktx2(texels, FloatTexel::shared_exponent);
+    return builder.add_texture(name, encode_png(texels, PngEncoding::linear), ktx2);
+}
+
+void write(const std::string& path, GlbBuilder& builder)
+{
+    list_extensions(builder.json, builder.document().json);
+    const std::vector<std::uint8_t> file = builder.finish();
+    write_bytes(path, std::as_bytes(std::span(file)));
+}
+
+/// Of JSON that the reader does not look at, but that what is written is based on.
+[[noreturn]] void fail_to_rewrite(const Scene& scene, const Json::exception& error)
+{
+    throw Error(ErrorKind::input, scene.path,
+                std::string("cannot be written again as it is: ") + error.what());
+}
+
+}  // namespace
+
+void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
+                     const Image& map, const SceneLighting& lights)
+try {
+    const GltfDocument document = load_gltf_document(scene.path);
+    GlbBuilder builder(document);
+    std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
+
+    cut_baked_primitives(builder.json, baked);
+    const auto materials = separate_materials(builder.json, baked);
+    for (const std::size_t old : outdated_lightmaps(builder.json, document.json))
+        builder.retire_texture(old);
+    builder.release();
+    tell_of_lights(builder.json, lights);  // what they refer to is no longer seen from now on
+
+    place_baked_primitives(builder, baked, atlas);
+    const float scale = lightmap_scale(map, lights.exposure);
+    for (std::size_t page = 0; page < materials.size(); ++page) {
+        if (lights.format != LightmapFormat::none)
+            bind_lightmap(builder.json, materials[page],
+                          add_lightmap(builder, cut_page(atlas.pages, int(page), map), scale,
+                                       page_name(atlas.pages, int(page), kLightmapName),
+                                       lights.format),
+                          scale);
+        tell_of_lightmap(builder.json, materials[page], atlas.pages, int(page));
+    }
+    write(path, builder);
+} catch (const Json::exception& error) {
+    fail_to_rewrite(scene, error);
+}
+
+void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
+                     const Image& shown)
+try {
+    const GltfDocument document = load_gltf_document(scene.path);
+    GlbBuilder builder(document);
+    std::vector<BakedPrimitive> baked = list_baked_primitives(document, scene, atlas);
+
+    cut_baked_primitives(builder.json, baked);
+    const auto materials = separate_materials(builder.json, baked);
+    reduce_to_core(builder.json, materials);
+    builder.release();
+
+    place_baked_primitives(builder, baked, atlas);
+    erase_extensions(builder.json);
+    for (std::size_t page = 0; page < materials.size(); ++page) {
+        const Image part = without_alpha(cut_page(atlas.pages, int(page), shown), 1.0f);
+        bind_emission(builder.json, materials[page],
+                      builder.add_texture(page_name(atlas.pages, int(page), "baked light"),
+                                          encode_png(part)));
+    }
+    write(path, builder);
+} catch (const Json::exception& error) {
+    fail_to_rewrite(scene, error);
+}
+
+}  // namespace lumel

@@ -1,0 +1,51 @@
+#pragma once
+// Vertex arrays in a new order, in the number format they came in.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "results/files/glb_builder.h"
+
+namespace lumel {
+
+/// Adds accessors to a builder; each call returns an accessor's index. Arrays that come out alike,
+/// such as those of a mesh under several nodes, are added once.
+class VertexGather {
+public:
+    explicit VertexGather(GlbBuilder& builder) : builder_(builder) {}
+
+    /// Element i of the new accessor is element vertices[i] of `accessor` (a JSON index), byte
+    /// for byte. `semantic` POSITION also gets min and max. Throws Error{input}.
+    std::size_t gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
+                       const std::string& semantic);
+    /// The same as seen from the back: normals and tangents, with the sense of the third vector,
+    /// are turned round, as viewers turn those of double-sided faces.
+    std::size_t gather_turned(const Json& accessor, const std::vector<std::uint32_t>& vertices,
+                              const std::string& semantic);
+    std::size_t add_texcoords(std::span<const glm::vec2> texcoords);
+    /// 16 bits where `vertex_count` allows it, else 32.
+    std::size_t add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count);
+
+private:
+    const AccessorData& data_of(std::size_t accessor);
+    std::size_t gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
+                       const std::string& semantic, bool negated);
+    std::size_t add_gathered(std::size_t source, std::span<const std::uint32_t> vertices,
+                             bool with_bounds, bool negated);
+
+    GlbBuilder& builder_;
+    std::map<std::size_t, AccessorData> read_;
+    std::map<std::vector<std::uint32_t>, std::size_t> orders_;  // each vertex order and its number
+    std::map<std::tuple<std::size_t, std::size_t, bool, bool>, std::size_t> gathered_;
+    std::map<std::pair<std::vector<std::uint32_t>, bool>, std::size_t> indices_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,92 @@
+#include "results/measure/arriving_light.h"
+
+#include <numbers>
+
+#include "atlas/lumels/sides.h"
+#include "base/core/luminance.h"
+#include "lights/shadow_rays.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+/// A back with no more light than this share of its front's is one that no light reaches.
+constexpr double kDark = 0.01;
+
+std::vector<glm::vec3> reflected_by(const Lumels& lumels, std::span<const glm::vec3> irradiance)
+{
+    std::vector<glm::vec3> reflected;
+    reflected.reserve(irradiance.size());
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        reflected.push_back(lumel.flags & kLumelBuried ? glm::vec3(0.0f)
+                                                       : lumel.albedo * irradiance[i]);
+    }
+    return reflected;
+}
+
+/// [N] 1: of a back that no light reaches. The map shows one side of its chart, the front, and the
+/// back receives next to nothing: little gets into a closed solid, by lumels that pass its edges.
+std::vector<char> dark_backs(const Atlas& atlas, const Lumels& lumels,
+                             std::span<const glm::vec3> irradiance)
+{
+    struct Light {
+        double side[2] = {0.0, 0.0};  // front, back [lm]
+    };
+    std::vector<Light> of_charts(atlas.chart_count);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        of_charts[lumel.chart].side[is_back(lumel) ? 1 : 0] +=
+            luminance(irradiance[i]) * double(lumel.area);
+    }
+    std::vector<char> dark;
+    dark.reserve(irradiance.size());
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = lumels.lumels[i];
+        const Light& light = of_charts[lumel.chart];
+        dark.push_back(is_back(lumel) && !has_own_back(atlas.back_shift, lumel.chart) &&
+                       light.side[1] < kDark * light.side[0]);
+    }
+    return dark;
+}
+
+}  // namespace
+
+ArrivingLight::ArrivingLight(const Scene& scene, const RayScene& rays, const Atlas& atlas,
+                             const Lumels& lumels, std::span<const glm::vec3> irradiance)
+    : rays_(rays),
+      surfaces_(scene),
+      sources_(scene, surfaces_, glm::distance(rays.low(), rays.high())),
+      hits_(scene, atlas, lumels),
+      reflected_(reflected_by(lumels, irradiance)),
+      dark_(dark_backs(atlas, lumels, irradiance))
+{
+}
+
+glm::vec3 ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& direction,
+                                   std::uint32_t seed, std::uint32_t& backs) const
+{
+    RayHit hit;
+    if (!rays_.closest(ray_out(position, direction, seed), hit))
+        return kPi * hit.tint * sources_.dim_sky(direction);
+    if (!hit.front && !surfaces_.all()[surfaces_.index(hit.instance, hit.primitive)].double_sided) {
+        ++backs;
+        return glm::vec3(0.0f);
+    }
+    const std::uint32_t lumel = hits_.lumel(hit);
+    if (lumel == HitLumels::kNone)
+        return glm::vec3(0.0f);
+    if (dark_[lumel])
+        ++backs;
+    return hit.tint * reflected_[lumel];
+}
+
+glm::vec3 ArrivingLight::passing(const RayOrigin& start, const SourceSample& sample,
+                                 std::uint32_t seed) const
+{
+    if (sample.irradiance == glm::vec3(0.0f))
+        return glm::vec3(0.0f);
+    return rays_.passing(ray_towards(sample, start, rays_.ray_offset(), seed));
+}
+
+}  // namespace lumel

@@ -1,0 +1,50 @@
+#pragma once
+// What a light meter shows at a point of a solved scene, in the air or on a surface.
+
+#include "results/measure/arriving_light.h"
+
+namespace lumel {
+
+struct LightMeterOptions {
+    std::uint32_t samples = 4096;  ///< rays by the cosine, and as many towards sources
+    std::uint32_t seed = 1;
+};
+
+/// Where a meter is held. It blocks nothing.
+struct MeterPoint {
+    glm::vec3 position{0.0f};            ///< world [m]
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit: what it faces
+};
+
+struct Reading {
+    glm::vec3 light{0.0f};  ///< H, linear RGB [lx]
+    double lux = 0.0;       ///< illuminance: its luminance [lx]
+    double noise = 0.0;     ///< standard error of lux, of the rays alone [lx]
+    bool inside = false;    ///< most of what it faces tells of the inside of something
+};
+
+/// Safe to use from many threads at once.
+class LightMeter {
+public:
+    /// As of ArrivingLight.
+    LightMeter(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
+               std::span<const glm::vec3> irradiance, const LightMeterOptions& options);
+
+    /// number: of the point; others have other random numbers.
+    Reading read(const MeterPoint& point, std::uint32_t number) const;
+
+    /// Is there any light but the sky's?
+    bool has_lamps() const { return light_.sources().count() > 0; }
+
+private:
+    glm::vec3 along_rays(const RayOrigin& start, std::uint32_t stream, std::uint32_t& backs) const;
+    glm::vec3 from_sources(const RayOrigin& start, const RayAllocation& shares,
+                           std::uint32_t stream) const;
+    glm::vec3 from_source(const RayOrigin& start, const RayAllocation::Own& own,
+                          std::uint32_t stream) const;
+
+    ArrivingLight light_;
+    std::uint32_t rays_of_set_, seed_;
+};
+
+}  // namespace lumel

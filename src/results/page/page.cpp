@@ -1,0 +1,160 @@
+#include "results/page/page.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "atlas/packing/pages.h"
+#include "base/core/error.h"
+#include "base/core/files.h"
+#include "base/images/image_files.h"
+#include "base/json/json_file.h"
+#include "results/files/folder.h"
+#include "results/files/glb_builder.h"
+#include "results/page/packed_text.h"
+#include "results/page/viewer.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kReport = "report.json", *kScene = "scene.glb";
+constexpr const char* kLightmap = "MOZ_lightmap";
+
+/// Texels go up to this: shared exponents hold 65408, and have all their digits down to 2^-15.
+constexpr float kBrightestTexel = 1000.0f;
+
+/// scene.glb without its lightmap: the page has one of its own.
+std::vector<std::uint8_t> without_lightmap(const std::string& path)
+{
+    const GltfDocument document = load_gltf_document(path);
+    GlbBuilder builder(document);
+    std::set<std::size_t> textures;
+    if (builder.json.contains("materials"))
+        for (Json& material : builder.json["materials"])
+            if (material.contains("extensions") && material["extensions"].contains(kLightmap)) {
+                textures.insert(material["extensions"][kLightmap]["index"].get<std::size_t>());
+                material["extensions"].erase(kLightmap);
+            }
+    for (const std::size_t texture : textures)
+        builder.retire_texture(texture);
+    builder.release();
+    return builder.finish();
+}
+
+/// The pages of a lightmap, beside and below each other as Pages has them.
+Image whole_map(const std::string& folder, const Pages& pages)
+{
+    Image map;
+    for (int page = 0; page < pages.count; ++page) {
+        const std::string file = page_name(pages, page, kLightmapName) + ".exr";
+        const Image part = read_exr((fs::path(folder) / file).string());
+        if (pages.count == 1)
+            return part;
+        const Pages read{pages.count, part.width};
+        if (page == 0)
+            map = Image(read.map_side(), read.map_side(), part.channels);
+        if (part.height != part.width || read.map_side() != map.width)
+            throw Error(ErrorKind::input, file, "has another size than the other pages");
+        paste_page(read, page, part, map);
+    }
+    return map;
+}
+
+/// A lightmap as shared exponents in KTX2, a fourth of its floats, and the irradiance of a texel
+/// of 1 [lx].
+std::pair<std::vector<unsigned char>, float> small_lightmap(Image map)
+{
+    float brightest = 0.0f;
+    for (std::size_t i = 0; i < map.values.size(); ++i)
+        if (i % 4 < 3)
+            brightest = std::max(brightest, map.values[i]);
+    const float unit = brightest > 0.0f ? brightest / kBrightestTexel : 1.0f;
+    for (float& value : map.values)
+        value /= unit;
+    return {encode_ktx2(map, FloatTexel::shared_exponent), unit};
+}
+
+int pages_in(const std::optional<JsonView>& sizes)
+{
+    const auto pages = sizes ? sizes->find("pages") : std::nullopt;
+    return pages ? int(pages->integer(1, kMaxPages)) : 1;
+}
+
+/// What viewer/bakes.js reads.
+Json page_data(const std::string& folder, const std::string& name)
+{
+    const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
+    const Json report = read_json(in_folder(kReport));
+    const Pages pages{pages_in(JsonView(folder, report).find("sizes")), 0};
+    const auto [lightmap, unit] = small_lightmap(whole_map(folder, pages));
+    return {{"name", name},
+            {"report", report},
+            {"pages_across", pages.across()},
+            {"glb", packed_text(without_lightmap(in_folder(kScene)))},
+            {"lightmap", packed_text(lightmap)},
+            {"unit", shortest(unit)}};
+}
+
+/// What to call the bakes: their folders' names, or all of the paths where these are the same.
+std::vector<std::string> names_of(std::span<const std::string> folders)
+{
+    std::vector<std::string> names;
+    for (const std::string& folder : folders)
+        names.push_back(fs::absolute(fs::path(folder) / "").parent_path().filename().string());
+    if (names.size() > 1 && names[0] == names[1])
+        names.assign(folders.begin(), folders.end());
+    return names;
+}
+
+/// JSON that cannot end the element it is in.
+std::string within_html(const Json& json)
+{
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
+    safe.reserve(text.size());
+    for (const char letter : text)
+        if (letter == '<')
+            safe += "\\u003c";
+        else
+            safe += letter;
+    return safe;
+}
+
+void replace(std::string& page, std::string_view mark, std::string_view content)
+{
+    page.replace(page.find(mark), mark.size(), content);
+}
+
+}  // namespace
+
+void check_viewer()
+{
+    if (page_viewer().empty())
+        throw Error(ErrorKind::input, "",
+                    "this lumel was built without three.js, which its pages need; run tools/web "
+                    "where npm's packages "
+                    "can be had, and build again");
+}
+
+std::size_t write_page(const std::string& path, std::span<const std::string> folders)
+{
+    check_viewer();
+    const std::vector<std::string> names = names_of(folders);
+    Json bakes = Json::array();
+    for (std::size_t i = 0; i < folders.size(); ++i)
+        bakes.push_back(page_data(folders[i], names[i]));
+    std::string page(page_frame());
+    replace(page, "/*style*/", page_style());
+    replace(page, "/*viewer*/", page_viewer());
+    replace(page, "/*bakes*/", within_html(bakes));
+    OutputFile file(path);
+    write_text(file.path(), page);
+    file.commit();
+    return page.size();
+}
+
+}  // namespace lumel

@@ -1,0 +1,240 @@
+// A point x reflects to the eye  ∫ L(y → x) ρ_s f_r cosθ dω.  With ω drawn from the lobe itself,
+// whose density is q_B = f_r max(cosθ, cosθ_eye), one ray estimates it as
+//
+//     w ρ_s L(y → x) cosθ / max(cosθ, cosθ_eye),        w = n_B q_B / (n_A q_A + n_B q_B).
+//
+// What y sends is what it emits and reflects diffusely, from the lightmap. What its lobe sends the
+// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at
+// x if there are no shooters, a second ray to a point drawn by what it sends takes the shooters'
+// place in the weights: Russian roulette makes what few rays go on carry much, and small lamps
+// would be met by few of those. Lamps, which no ray meets, get a ray of their own at each of these
+// points; the sky is what a ray along the lobe finds.
+
+#include "results/picture/lobe_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/core/parallel.h"
+#include "lights/lamp_choice.h"
+#include "methods/glossy/phong.h"
+#include "rays/paths/directions.h"
+#include "rays/paths/samples.h"
+
+namespace lumel {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+/// Lobes that one ray follows at most: mirrors that face each other would hold it for ever.
+constexpr std::uint32_t kMaxLobes = 16;
+/// Throughput below which a ray takes part in Russian roulette: what glazed surfaces reflect. With
+/// more, the few narrow lobes behind one that lead to a lamp would show.
+constexpr float kRouletteBelow = 0.04f;
+/// Dimension pairs of a ray's random numbers: its direction, roulette, the point it aims at, and
+/// which lamp, and where on it.
+constexpr std::uint32_t kPairsPerLobe = 6;
+/// Fewest points worth a task.
+constexpr std::size_t kPointsPerTask = 64;
+/// Points between two progress reports.
+constexpr std::size_t kPointsPerStep = 65536;
+
+class LobeRays {
+public:
+    LobeRays(const RayScene& rays, const Surfaces& surfaces, const LitScene& lit,
+             const PowerDraw& senders, const LobeRayOptions& options)
+        : rays_(rays),
+          surfaces_(surfaces),
+          lit_(lit),
+          senders_(senders),
+          options_(options),
+          ray_offset_(rays.ray_offset())
+    {
+    }
+
+    /// One estimate of what a point reflects to the eye.
+    glm::vec3 estimate(EyePoint x, const PathSamples& samples) const
+    {
+        glm::vec3 sum(0.0f), throughput(1.0f);
+        for (std::uint32_t lobe = 0; lobe < kMaxLobes; ++lobe) {
+            const std::uint32_t pair = kPairsPerLobe * lobe;
+            const Techniques techniques = techniques_at(lobe);
+            const float cos_eye = glm::dot(x.normal, x.toward_eye);
+            if (cos_eye <= 0.0f)
+                break;
+            const glm::vec3 mirror = 2.0f * cos_eye * x.normal - x.toward_eye;
+            if (techniques.seeks)
+                sum += throughput * sought(x, mirror, samples, pair);
+            if (lit_.lamps().count() > 0)
+                sum += throughput * lamplight(x, mirror, samples, pair);
+
+            const glm::vec3 direction = phong_direction(
+                mirror, x.shininess, lobe == 0 ? samples.stratified(pair) : samples.random(pair));
+            const float cos_in = glm::dot(x.normal, direction);
+            RayHit hit;
+            const glm::vec3 origin = x.position + ray_offset_ * x.facing;
+            if (cos_in <= 0.0f || glm::dot(x.facing, direction) <= 0.0f)
+                break;
+            throughput *= x.specular * (cos_in / std::max(cos_in, cos_eye));
+            const bool met =
+                rays_.closest(origin, direction, 0.0f, std::numeric_limits<float>::max(),
+                              samples.bits(pair), hit);
+            throughput *= hit.tint;
+            if (!met) {
+                sum += throughput * lit_.sky(direction);  // no other technique finds it
+                break;
+            }
+            const Shading there = surfaces_.shade(hit);
+            const float rays =
+                techniques.rays * phong_density(glm::dot(mirror, direction), x.shininess);
+            const float others = techniques.others * density(hit, direction);
+            sum += throughput * sent(there, hit) * (rays > 0.0f ? rays / (rays + others) : 0.0f);
+
+            if (there.reflectance.specular == glm::vec3(0.0f))
+                break;
+            throughput *=
+                survival(throughput, there.reflectance.specular, samples.random(pair + 1));
+            if (throughput == glm::vec3(0.0f))
+                break;
+            x = {origin + direction * hit.distance,
+                 there.normal,
+                 there.geometric,
+                 -direction,
+                 there.reflectance.specular,
+                 there.reflectance.shininess};
+        }
+        return sum;
+    }
+
+private:
+    /// The techniques that choose y from a point.
+    struct Techniques {
+        float rays;    ///< how many along its lobe
+        float others;  ///< how many drawn by what they send
+        bool seeks;    ///< the latter by a ray, one for each along the lobe; else by the shooters
+    };
+
+    Techniques techniques_at(std::uint32_t lobe) const
+    {
+        if (lobe == 0 && options_.shooters > 0.0f)
+            return {float(options_.rays), options_.shooters, false};
+        const bool seeks = senders_.power() > 0.0;
+        return {1.0f, seeks ? 1.0f : 0.0f, seeks};
+    }
+
+    /// What y sends equally in all directions [cd/m²].
+    glm::vec3 sent(const Shading& there, const RayHit& hit) const
+    {
+        return there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
+    }
+
+    /// q_A of what a ray hit: with which y is drawn by what it sends [1/sr].
+    float density(const RayHit& hit, const glm::vec3& direction) const
+    {
+        const std::uint32_t j = lit_.lumel(hit);
+        const float cos_there = std::abs(glm::dot(hit.normal, direction));
+        if (!(senders_.power() > 0.0) || j == HitLumels::kNone || cos_there <= 0.0f)
+            return 0.0f;
+        return senders_.density(j) * hit.distance * hit.distance / cos_there;
+    }
+
+    /// What x reflects to the eye of a y drawn by what it sends, weighted against one along the
+    /// lobe.
+    glm::vec3 sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                     std::uint32_t pair) const
+    {
+        const double place = double(samples.random(pair + 2).x) * senders_.power();
+        const std::uint32_t j = senders_.lumel(place);
+        const glm::vec3 origin = x.position + ray_offset_ * x.facing;
+        const glm::vec3 direction =
+            glm::normalize(senders_.point(j, samples.random(pair + 3)).position - origin);
+        const float cos_in = glm::dot(x.normal, direction),
+                    cos_eye = glm::dot(x.normal, x.toward_eye);
+        const float along = phong_density(glm::dot(mirror, direction), x.shininess);
+        if (!(along > 0.0f) || cos_in <= 0.0f || !(glm::dot(x.facing, direction) > 0.0f))
+            return glm::vec3(0.0f);
+        RayHit hit;
+        if (!rays_.closest(origin, direction, 0.0f, std::numeric_limits<float>::max(),
+                           samples.bits(pair + 2), hit) ||
+            lit_.lumel(hit) != j)
+            return glm::vec3(0.0f);
+        const float drawn = density(hit, direction);
+        if (!(drawn > 0.0f))
+            return glm::vec3(0.0f);
+        const float reflects = along * cos_in / std::max(cos_in, cos_eye);
+        return hit.tint * x.specular * sent(surfaces_.shade(hit), hit) *
+               (reflects / (drawn + along));
+    }
+
+    /// What x reflects to the eye of the lamps: one of them, chosen by that.
+    glm::vec3 lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
+                        std::uint32_t pair) const
+    {
+        const Lamps& lamps = lit_.lamps();
+        const glm::vec3 origin = x.position + ray_offset_ * x.facing;
+        const glm::vec2 disc = square_to_disc(samples.random(pair + 4));
+        const float cos_eye = glm::dot(x.normal, x.toward_eye);
+        LampChoice choice(double(samples.random(pair + 5).x));
+        for (std::size_t i = 0; i < lamps.count(); ++i) {
+            const LampSample lamp = lamps.sample(i, origin, disc);
+            const float cos_in = glm::dot(x.normal, lamp.direction);
+            if (cos_in <= 0.0f || glm::dot(x.facing, lamp.direction) <= 0.0f)
+                continue;
+            const float lobe =
+                phong_lobe(cos_in, cos_eye, glm::dot(mirror, lamp.direction), x.shininess);
+            choice.offer(lamp, x.specular * lamp.illuminance * (lobe * cos_in));
+        }
+        if (choice.empty())
+            return glm::vec3(0.0f);
+        return choice.light() * passing(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
+    }
+
+    /// Russian roulette before another lobe: 0, or what makes up for those that end.
+    static float survival(const glm::vec3& throughput, const glm::vec3& specular,
+                          const glm::vec2& random)
+    {
+        const glm::vec3 next = throughput * specular;
+        const float chance = std::min(std::max({next.x, next.y, next.z}) / kRouletteBelow, 1.0f);
+        return random.x < chance ? 1.0f / chance : 0.0f;
+    }
+
+    const RayScene& rays_;
+    const Surfaces& surfaces_;
+    const LitScene& lit_;
+    const PowerDraw& senders_;
+    LobeRayOptions options_;
+    float ray_offset_;  ///< [m]
+};
+
+}  // namespace
+
+std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
+                                          const Surfaces& surfaces, const LitScene& lit,
+                                          const PowerDraw& senders, const LobeRayOptions& options,
+                                          const std::function<bool(double)>& progress)
+{
+    const LobeRays lobes(rays, surfaces, lit, senders, options);
+    std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
+    // One ray of every point at a time: weighted for the requested number, fewer are as correct.
+    std::uint32_t taken = 0;
+    for (bool stopped = false; taken < options.rays && !stopped; ++taken) {
+        const auto follow = [&](std::size_t first, std::size_t last) {
+            for (std::size_t e = first; e < last; ++e) {
+                const std::uint32_t stream = PathSamples::hash(options.seed, std::uint32_t(e));
+                radiance[e] += lobes.estimate(points[e], PathSamples(stream, taken));
+            }
+        };
+        const auto report = [&](std::size_t done) {
+            const double share = double(done) / double(points.size());
+            stopped |= progress && !progress((taken + share) / options.rays);
+            return true;
+        };
+        parallel_steps(points.size(), kPointsPerStep, kPointsPerTask, follow, report);
+    }
+    for (glm::vec3& sum : radiance)
+        sum /= float(std::max(taken, 1u));
+    return radiance;
+}
+
+}  // namespace lumel

@@ -1,0 +1,151 @@
+#include "results/record/light_settings.h"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+
+#include <glm/trigonometric.hpp>
+
+#include "base/core/error.h"
+#include "base/core/number.h"
+#include "base/json/json_file.h"
+
+namespace lumel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kMaxDegrees = 1e6, kRightAngle = 90.0, kHalfTurn = 180.0;
+constexpr double kMax = std::numeric_limits<float>::max();
+
+std::string absolute(const std::string& path)
+{
+    std::error_code error;
+    const fs::path result = fs::absolute(path, error);
+    return error ? path : result.lexically_normal().string();
+}
+
+std::string path_in(const std::string& folder, const std::string& path)
+{
+    return (fs::path(folder) / path).lexically_normal().string();
+}
+
+/// The fewest digits that give the angle back.
+template <class Number>
+double degrees_of(Number radians)
+{
+    constexpr int kMin = 6;
+    for (int digits = kMin; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%.*g", digits, glm::degrees(double(radians)));
+        const auto degrees = number_of(text.data());
+        if (degrees && Number(glm::radians(*degrees)) == radians)
+            return *degrees;
+    }
+    return glm::degrees(double(radians));
+}
+
+Json color_of(const glm::vec3& color)
+{
+    return {shortest(color.r), shortest(color.g), shortest(color.b)};
+}
+
+glm::vec3 color_of(const JsonView& view)
+{
+    glm::vec3 color(0.0f);
+    if (view.as_array().json().size() != 3)
+        view.fail("must hold 3 numbers");
+    view.each([&](const JsonView& channel, std::size_t c) {
+        color[int(c)] = float(channel.number(0.0, kMax));
+    });
+    return color;
+}
+
+double radians_in(const JsonView& object, const char* name, double most)
+{
+    return glm::radians(object.get(name).number(-most, most));
+}
+
+void check_file(const std::string& path)
+{
+    std::error_code ignored;
+    if (!fs::exists(path, ignored))
+        throw Error(ErrorKind::input, path,
+                    "is a light of the bake and is not there any more; put it back, or bake the "
+                    "scene again");
+}
+
+}  // namespace
+
+Json light_settings(const LightOptions& options)
+{
+    Json settings = Json::object();
+    if (!options.sky_file.empty())
+        settings["sky"] = {{"file", absolute(options.sky_file)}};
+    else if (options.sky_color)
+        settings["sky"] = {{"radiance", color_of(*options.sky_color)}};
+    else if (options.overcast)
+        settings["sky"] = {{"overcast", shortest(*options.overcast)}};
+    if (options.sky_scale != 1.0f)
+        settings["sky-scale"] = shortest(options.sky_scale);
+    if (options.sky_rotation != 0.0)
+        settings["sky-rotation"] = degrees_of(options.sky_rotation);
+    if (const auto& sun = options.sun)
+        settings["sun"] = {{"azimuth", degrees_of(sun->azimuth)},
+                           {"elevation", degrees_of(sun->elevation)}};
+    if (const auto& seen = options.sun_seen)
+        settings["sun"].update(
+            {{"latitude", seen->latitude}, {"longitude", seen->longitude}, {"time", seen->time}});
+    if (options.sun_angle)
+        settings["sun-angle"] = degrees_of(*options.sun_angle);
+    if (options.light_radius > 0.0f)
+        settings["light-radius"] = shortest(options.light_radius);
+    for (const LightProfile& profile : options.profiles)
+        settings["ies"].push_back({{"light", profile.light}, {"file", absolute(profile.path)}});
+    return settings;
+}
+
+LightOptions light_options_of(const JsonView& settings, const std::string& folder)
+{
+    LightOptions options;
+    if (const auto sky = settings.find("sky")) {
+        if (const auto file = sky->find("file"))
+            options.sky_file = path_in(folder, file->string());
+        else if (const auto overcast = sky->find("overcast"))
+            options.overcast = float(overcast->number(0.0, kMax));
+        else
+            options.sky_color = color_of(sky->get("radiance"));
+    }
+    if (const auto scale = settings.find("sky-scale"))
+        options.sky_scale = float(scale->number(0.0, kMax));
+    if (settings.find("sky-rotation"))
+        options.sky_rotation = radians_in(settings, "sky-rotation", kMaxDegrees);
+    if (const auto sun = settings.find("sun")) {
+        options.sun = SunPosition{radians_in(*sun, "azimuth", kMaxDegrees),
+                                  radians_in(*sun, "elevation", kRightAngle)};
+        if (const auto time = sun->find("time"))
+            options.sun_seen = {sun->get("latitude").number(-kRightAngle, kRightAngle),
+                                sun->get("longitude").number(-kHalfTurn, kHalfTurn),
+                                time->string()};
+    }
+    if (settings.find("sun-angle"))
+        options.sun_angle = float(radians_in(settings, "sun-angle", kRightAngle));
+    if (const auto radius = settings.find("light-radius"))
+        options.light_radius = float(radius->number(0.0, kMax));
+    settings.each("ies", [&](const JsonView& profile, std::size_t) {
+        options.profiles.push_back(
+            {profile.get("light").string(), path_in(folder, profile.get("file").string())});
+    });
+    return options;
+}
+
+void check_light_files(const LightOptions& options)
+{
+    if (!options.sky_file.empty())
+        check_file(options.sky_file);
+    for (const LightProfile& profile : options.profiles)
+        check_file(profile.path);
+}
+
+}  // namespace lumel

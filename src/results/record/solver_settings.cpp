@@ -1,0 +1,70 @@
+#include "results/record/solver_settings.h"
+
+#include <map>
+
+#include "base/core/number.h"
+#include "results/record/fields.h"
+
+namespace lumel {
+namespace {
+
+constexpr Limits kShots{0.0, 1e15};
+
+template <class Options, class Visit>
+void each_limit(Options& options, const Visit& visit)
+{
+    visit("shots", options.max_shots, kShots);
+    visit("seconds", options.max_seconds);
+    visit("error", options.target_error);
+    visit("dark_error", options.target_dark_error);
+}
+
+/// Numbers as numbers, words as strings.
+Json json_of(const OptionInfo& option, const MethodOptions& method)
+{
+    const std::string text = option.get(method);
+    const auto number = number_of(text);
+    return option.is_number && number ? Json(std::int64_t(*number)) : Json(text);
+}
+
+/// As OptionInfo::set reads it, which refuses what is neither.
+std::string text_of(const Json& value)
+{
+    return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+}  // namespace
+
+Json solver_settings(const SolverOptions& options)
+{
+    const MethodInfo& method = method_of(options.method);
+    Json settings = {{"method", method.id}};
+    each_limit(options, FieldWriter(settings["limits"]));
+    Json& own = settings["options"] = Json::object();
+    for (const OptionInfo& option : method.options)
+        own[option.name] = json_of(option, options.method);
+    return settings;
+}
+
+SolverOptions solver_options_of(const JsonView& settings)
+{
+    SolverOptions options;
+    std::string id;
+    const FieldReader field(settings);
+    field("method", id);
+    try {
+        options.method = method_of(id).defaults();
+    } catch (const Error& error) {
+        settings.get("method").fail(error.what());
+    }
+    const JsonView own = settings.get("options");
+    for (const OptionInfo& option : method_of(id).options) {
+        const JsonView value = own.get(option.name);
+        if (!option.set(options.method, text_of(value.json())))
+            value.fail("must be " + option.range());
+    }
+    each_limit(options, FieldReader(settings.get("limits")));
+    return options;
+}
+
+}  // namespace lumel

@@ -1,0 +1,124 @@
+#include "scene/gltf/baked_lights.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace lumel {
+namespace {
+
+constexpr const char* kLights[] = {"KHR_lights_punctual", "EXT_lights_ies",
+                                   "EXT_lights_image_based"};
+constexpr const char *kExtensions = "extensions", *kExtras = "extras",
+                     *kBaked = "lumel_baked_lights";
+
+/// Moves lights from one member of an object to another. Returns if there were any.
+bool move_lights(Json& from, Json& into)
+{
+    bool any = false;
+    for (const char* name : kLights) {
+        const auto found = from.find(name);
+        if (found == from.end())
+            continue;
+        into[name] = std::move(*found);
+        from.erase(found);
+        any = true;
+    }
+    return any;
+}
+
+bool put_away(Json& object)
+{
+    const auto extensions = object.find(kExtensions);
+    if (extensions == object.end())
+        return false;
+    Json lights = Json::object();
+    if (!move_lights(*extensions, lights))
+        return false;
+    if (extensions->empty())
+        object.erase(kExtensions);
+    Json& extras = object[kExtras];  // moves all that is in `object`
+    if (!extras.is_null() && !extras.is_object())
+        extras = Json{{"value", std::move(extras)}};
+    extras[kBaked] = std::move(lights);
+    return true;
+}
+
+/// The lights that were put away from an object, or null.
+Json* put_away_from(Json& object)
+{
+    if (!object.is_object())
+        return nullptr;
+    const auto extras = object.find(kExtras);
+    if (extras == object.end() || !extras->is_object())
+        return nullptr;
+    const auto found = extras->find(kBaked);
+    return found == extras->end() || !found->is_object() ? nullptr : &*found;
+}
+
+void bring_back(Json& object)
+{
+    Json* found = put_away_from(object);
+    const auto extensions = object.find(kExtensions);
+    if (!found || (extensions != object.end() && !extensions->is_object()))
+        return;
+    Json lights = std::move(*found);
+    Json& extras = object[kExtras];
+    extras.erase(kBaked);
+    if (extras.empty())
+        object.erase(kExtras);
+    move_lights(lights, object[kExtensions]);  // moves all that is in `object`
+}
+
+/// Has a program changed the lists of lights since? What nodes refer to is then not known.
+bool is_outdated(Json& gltf)
+{
+    const Json* lists = put_away_from(gltf);
+    const auto extensions = gltf.find(kExtensions);
+    if (!lists)
+        return true;
+    if (extensions == gltf.end())
+        return false;
+    if (!extensions->is_object())
+        return true;
+    return std::any_of(std::begin(kLights), std::end(kLights), [&](const char* name) {
+        return lists->contains(name) && extensions->contains(name);
+    });
+}
+
+/// Calls visit(list) for the lists of objects that lights can be in, beside the root.
+template <class Visit>
+void for_lists(Json& gltf, const Visit& visit)
+{
+    for (const char* name : {"scenes", "nodes"}) {
+        const auto list = gltf.find(name);
+        if (list != gltf.end() && list->is_array())
+            visit(*list, name);
+    }
+}
+
+}  // namespace
+
+std::size_t put_away_lights(Json& gltf)
+{
+    std::size_t lights = 0;
+    for_lists(gltf, [&](Json& list, const std::string& name) {
+        for (Json& object : list)
+            if (put_away(object) && name == "nodes")
+                ++lights;
+    });
+    put_away(gltf);
+    return lights;
+}
+
+void bring_back_lights(Json& gltf)
+{
+    if (is_outdated(gltf))
+        return;
+    for_lists(gltf, [](Json& list, const std::string&) {
+        for (Json& object : list)
+            bring_back(object);
+    });
+    bring_back(gltf);
+}
+
+}  // namespace lumel

@@ -1,0 +1,235 @@
+#include "scene/gltf/meshopt.h"
+
+#include <array>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include <meshoptimizer.h>
+
+#include "scene/gltf/extensions.h"
+#include "scene/gltf/unpackers.h"
+
+namespace lumel {
+
+namespace {
+
+constexpr std::array<const char*, 2> kNames = {"EXT_meshopt_compression",
+                                               "KHR_meshopt_compression"};
+constexpr std::int64_t kLargestStride = 256;
+constexpr std::int64_t kLargestCount = std::int64_t(1) << 40;
+constexpr std::int64_t kLargestSize = std::int64_t(1) << 50;
+constexpr std::size_t kCornersOfTriangle = 3;
+/// Each component of 64 vertices takes a byte at least, and so does each triangle or index.
+constexpr std::size_t kVerticesPerByte = 64;
+/// First byte of vertices in the newer bitstream of KHR_meshopt_compression.
+constexpr std::uint8_t kNewerVertices = 0xA1;
+
+enum class Mode { attributes, triangles, indices };
+enum class Filter { none, octahedral, quaternion, exponential };
+
+/// What the extension says of a bufferView.
+struct Coded {
+    const std::uint8_t* bytes = nullptr;
+    std::size_t size = 0;
+    Mode mode = Mode::attributes;
+    Filter filter = Filter::none;
+    std::size_t stride = 0;
+    std::size_t count = 0;
+};
+
+std::optional<JsonView> extension_of(const JsonView& view)
+{
+    for (const char* name : kNames)
+        if (const auto extension = view.extension(name))
+            return extension;
+    return std::nullopt;
+}
+
+Mode mode_of(const JsonView& view)
+{
+    const std::string& mode = view.string();
+    if (mode == "ATTRIBUTES")
+        return Mode::attributes;
+    if (mode == "TRIANGLES")
+        return Mode::triangles;
+    if (mode == "INDICES")
+        return Mode::indices;
+    view.fail("is " + quoted(mode) + ", but must be ATTRIBUTES, TRIANGLES or INDICES");
+}
+
+Filter filter_of(const JsonView& extension)
+{
+    const std::string filter = extension.string_or("filter", "NONE");
+    if (filter == "NONE")
+        return Filter::none;
+    if (filter == "OCTAHEDRAL")
+        return Filter::octahedral;
+    if (filter == "QUATERNION")
+        return Filter::quaternion;
+    if (filter == "EXPONENTIAL")
+        return Filter::exponential;
+    extension.get("filter").fail("is " + quoted(filter) + ", which is not read");
+}
+
+/// Strides that the decoders and filters take.
+bool fits(Mode mode, Filter filter, std::size_t stride)
+{
+    if (mode != Mode::attributes)
+        return stride == 2 || stride == 4;
+    switch (filter) {
+    case Filter::octahedral:
+        return stride == 4 || stride == 8;
+    case Filter::quaternion:
+        return stride == 8;
+    case Filter::none:
+    case Filter::exponential:
+        break;
+    }
+    return stride % 4 == 0;
+}
+
+/// Throws unless the coded bytes can hold that much.
+void check_claim(const JsonView& extension, const Coded& coded)
+{
+    const std::size_t most = coded.mode == Mode::attributes  ? coded.size * kVerticesPerByte
+                             : coded.mode == Mode::triangles ? coded.size * kCornersOfTriangle
+                                                             : coded.size;
+    const std::size_t components = coded.mode == Mode::attributes ? coded.stride : 1;
+    if (coded.count > most / components)
+        extension.get("count").fail("is " + std::to_string(coded.count) + ", more than its " +
+                                    std::to_string(coded.size) + " bytes can hold");
+}
+
+/// The stretch of a buffer that is coded.
+std::pair<const std::uint8_t*, std::size_t> stretch_of(const GltfDocument& document,
+                                                       const JsonView& extension)
+{
+    const std::size_t buffer = extension.get("buffer").index(document.buffers.size(), "buffers");
+    const Bytes& bytes = document.buffers[buffer];
+    const auto offset_view = extension.find("byteOffset");
+    const std::int64_t offset = offset_view ? offset_view->integer(0, kLargestSize) : 0;
+    const std::int64_t length = extension.get("byteLength").integer(1, kLargestSize);
+    if (offset + length > std::int64_t(bytes.size()))
+        extension.fail("reaches byte " + std::to_string(offset + length) + " of buffer " +
+                       std::to_string(buffer) + ", which has " + std::to_string(bytes.size()) +
+                       " bytes");
+    return {bytes.data() + offset, std::size_t(length)};
+}
+
+Coded read_coded(const GltfDocument& document, const JsonView& view, const JsonView& extension)
+{
+    Coded coded;
+    coded.mode = mode_of(extension.get("mode"));
+    coded.filter = filter_of(extension);
+    const JsonView stride = extension.get("byteStride");
+    coded.stride = std::size_t(stride.integer(1, kLargestStride));
+    if (!fits(coded.mode, coded.filter, coded.stride))
+        stride.fail("is " + std::to_string(coded.stride) +
+                    ", which this mode and filter cannot have");
+    if (coded.mode != Mode::attributes && coded.filter != Filter::none)
+        extension.get("filter").fail("is only for attributes");
+    const JsonView count = extension.get("count");
+    coded.count = std::size_t(count.integer(1, kLargestCount));
+    if (coded.mode == Mode::triangles && coded.count % kCornersOfTriangle != 0)
+        count.fail("is " + std::to_string(coded.count) + ", which makes no whole triangles");
+    std::tie(coded.bytes, coded.size) = stretch_of(document, extension);
+    check_claim(extension, coded);
+    const JsonView length = view.get("byteLength");
+    if (std::size_t(length.integer(1, kLargestSize)) != coded.count * coded.stride)
+        length.fail("must be count times byteStride of its compressed data, " +
+                    std::to_string(coded.count * coded.stride));
+    return coded;
+}
+
+/// False if the data is broken.
+bool decode(const Coded& coded, Bytes& plain)
+{
+    switch (coded.mode) {
+    case Mode::attributes:
+        return meshopt_decodeVertexBuffer(plain.data(), coded.count, coded.stride, coded.bytes,
+                                          coded.size) == 0;
+    case Mode::triangles:
+        return meshopt_decodeIndexBuffer(plain.data(), coded.count, coded.stride, coded.bytes,
+                                         coded.size) == 0;
+    case Mode::indices:
+        break;
+    }
+    return meshopt_decodeIndexSequence(plain.data(), coded.count, coded.stride, coded.bytes,
+                                       coded.size) == 0;
+}
+
+void unfilter(const Coded& coded, Bytes& plain)
+{
+    switch (coded.filter) {
+    case Filter::none:
+        return;
+    case Filter::octahedral:
+        return meshopt_decodeFilterOct(plain.data(), coded.count, coded.stride);
+    case Filter::quaternion:
+        return meshopt_decodeFilterQuat(plain.data(), coded.count, coded.stride);
+    case Filter::exponential:
+        return meshopt_decodeFilterExp(plain.data(), coded.count, coded.stride);
+    }
+}
+
+Bytes decoded(const GltfDocument& document, const JsonView& view, const JsonView& extension)
+{
+    const Coded coded = read_coded(document, view, extension);
+    if (coded.mode == Mode::attributes && coded.bytes[0] == kNewerVertices)
+        extension.fail("holds vertices of version 1, but only version 0 is read");
+    Bytes plain(coded.count * coded.stride);
+    if (!decode(coded, plain))
+        extension.fail("holds compressed data that is broken");
+    unfilter(coded, plain);
+    return plain;
+}
+
+bool has_plain_data(const GltfDocument& document, const JsonView& view)
+{
+    const std::size_t buffer = view.get("buffer").index(document.buffers.size(), "buffers");
+    return !document.buffers[buffer].empty();
+}
+
+}  // namespace
+
+bool is_fallback(const JsonView& buffer)
+{
+    const auto extension = extension_of(buffer);
+    return extension && extension->boolean_or("fallback", false);
+}
+
+void decode_meshopt(GltfDocument& document)
+{
+    // Views keep places in the JSON, which therefore changes only when all are decoded.
+    std::vector<std::pair<std::size_t, Bytes>> views;
+    document.root().each("bufferViews", [&](const JsonView& view, std::size_t i) {
+        const auto extension = extension_of(view);
+        if (extension && !has_plain_data(document, view))
+            views.emplace_back(i, decoded(document, view, *extension));
+    });
+    for (auto& [index, bytes] : views) {
+        Json& view = document.json["bufferViews"][index];
+        view["buffer"] = document.buffers.size();
+        view.erase("byteOffset");
+        document.json["buffers"].push_back({{"byteLength", bytes.size()}});
+        document.buffers.push_back(std::move(bytes));
+    }
+    for (const char* name : kNames) {
+        for (const char* list : {"buffers", "bufferViews"})
+            if (document.json.contains(list))
+                for (Json& part : document.json[list])
+                    erase_extension(part, name);
+        forget_extension(document.json, name);
+    }
+}
+
+std::string meshoptimizer_version()
+{
+    constexpr int kMajor = 1000, kMinor = 10;  // as the header counts
+    return std::to_string(MESHOPTIMIZER_VERSION / kMajor) + "." +
+           std::to_string(MESHOPTIMIZER_VERSION % kMajor / kMinor) + "." +
+           std::to_string(MESHOPTIMIZER_VERSION % kMinor);
+}
+
+}  // namespace lumel

@@ -1,0 +1,60 @@
+#include "scene/load/webp_image.h"
+
+#include <cstring>
+
+#include <webp/decode.h>
+
+#include "base/core/error.h"
+
+namespace lumel {
+namespace {
+
+/// Equal pixels take no bytes at all, so that the bytes alone are no bound: a picture of 4096 x
+/// 4096 may be of any size, and a larger one has these pixels for each byte. Lossy pictures spend
+/// three bits on a block of 16 x 16 pixels.
+constexpr std::uint64_t kFreePixels = std::uint64_t(1) << 24;
+constexpr std::uint64_t kPixelsPerByte = 1024;
+constexpr std::size_t kChannels = 4;
+
+[[noreturn]] void fail(const std::string& place, const std::string& what)
+{
+    throw Error(ErrorKind::input, place, what);
+}
+
+}  // namespace
+
+bool is_webp(const Bytes& bytes)
+{
+    return bytes.size() >= 12 && std::memcmp(bytes.data(), "RIFF", 4) == 0 &&
+           std::memcmp(bytes.data() + 8, "WEBP", 4) == 0;
+}
+
+Texture decode_webp(const Bytes& bytes, const std::string& place)
+{
+    WebPBitstreamFeatures features;
+    if (WebPGetFeatures(bytes.data(), bytes.size(), &features) != VP8_STATUS_OK)
+        fail(place, "is a WebP image without a readable header");
+    if (features.has_animation)
+        fail(place, "is an animated WebP image");
+    const std::uint64_t pixels = std::uint64_t(features.width) * std::uint64_t(features.height);
+    if (pixels > kFreePixels && pixels > kPixelsPerByte * bytes.size())
+        fail(place, "claims " + std::to_string(features.width) + " x " +
+                        std::to_string(features.height) + " pixels, far more than its " +
+                        std::to_string(bytes.size()) + " bytes can be expected to hold");
+
+    Texture texture{features.width, features.height, {}};
+    texture.rgba.resize(std::size_t(pixels) * kChannels);
+    if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), texture.rgba.data(), texture.rgba.size(),
+                            int(std::size_t(texture.width) * kChannels)))
+        fail(place, "cannot be decoded as WebP: it is broken or cut short");
+    return texture;
+}
+
+std::string webp_version()
+{
+    const int version = WebPGetDecoderVersion();  // a byte each
+    return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xff) + "." +
+           std::to_string(version & 0xff);
+}
+
+}  // namespace lumel

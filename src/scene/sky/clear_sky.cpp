@@ -1,0 +1,152 @@
+// The sky of a cloudless day. Luminance is spread as the CIE standard clear sky of low turbidity
+// gives it ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
+//
+//     L ∝ (1 + a exp(b / cos Z)) (1 + c (exp(d χ) − exp(d π/2)) + e cos²χ)
+//     a = −1,  b = −0.32,  c = 10,  d = −3,  e = 0.45
+//
+// Its level, and the sun's, are the mean of clear days by [IES84], with the elevation γ:
+//
+//     sky on a horizontal plane   0.8 + 15.5 √(sin γ)      [klx]
+//     sun on a plane that faces it   127.5 exp(−0.21 / sin γ)   [klx]
+//
+// Its colour is the chromaticity of [PSS99] for turbidity 2.5: x and y have Perez' form
+//
+//     F(Z, χ) = (1 + A exp(B / cos Z)) (1 + C exp(D χ) + E cos²χ)
+//     x = x_zenith F(Z, χ) / F(0, Z_sun)
+
+#include "scene/sky/clear_sky.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/core/luminance.h"
+
+namespace lumel {
+namespace {
+
+constexpr double kPi = glm::pi<double>();
+constexpr int kWidth = 512;   ///< of the image: texels of 0.7°, where the sky varies over 10°
+constexpr int kHeight = 256;  ///< the lower half is the ground
+constexpr double kTurbidity = 2.5;
+constexpr double kLux = 1000.0;  ///< in a klx
+
+double relative_luminance(double cos_zenith, double from_sun)
+{
+    const double gradation = 1.0 - std::exp(-0.32 / cos_zenith);
+    const double cosine = std::cos(from_sun);
+    return gradation * (1.0 + 10.0 * (std::exp(-3.0 * from_sun) - std::exp(-1.5 * kPi)) +
+                        0.45 * cosine * cosine);
+}
+
+/// One chromaticity coordinate of [PSS99]. Perez coefficients are slope × turbidity + offset, the
+/// zenith a cubic in the sun's angle whose coefficients are quadratic in turbidity.
+struct Chromaticity {
+    std::array<double, 5> slope;
+    std::array<double, 5> offset;
+    std::array<std::array<double, 4>, 3> zenith;  ///< [turbidity², turbidity, 1][θ³, θ², θ, 1]
+
+    double perez(double cos_zenith, double from_sun) const
+    {
+        std::array<double, 5> p;
+        for (std::size_t i = 0; i < p.size(); ++i)
+            p[i] = slope[i] * kTurbidity + offset[i];
+        const double cosine = std::cos(from_sun);
+        return (1.0 + p[0] * std::exp(p[1] / cos_zenith)) *
+               (1.0 + p[2] * std::exp(p[3] * from_sun) + p[4] * cosine * cosine);
+    }
+
+    double at_zenith(double sun_zenith) const
+    {
+        double value = 0.0;
+        for (const std::array<double, 4>& row : zenith) {
+            double cubic = 0.0;
+            for (const double coefficient : row)
+                cubic = cubic * sun_zenith + coefficient;
+            value = value * kTurbidity + cubic;
+        }
+        return value;
+    }
+
+    double at(double cos_zenith, double from_sun, double sun_zenith) const
+    {
+        return at_zenith(sun_zenith) * perez(cos_zenith, from_sun) / perez(1.0, sun_zenith);
+    }
+};
+
+constexpr Chromaticity kX{{-0.01925, -0.06651, -0.00041, -0.06409, -0.00325},
+                          {-0.25922, 0.00081, 0.21247, -0.89887, 0.04517},
+                          {{{0.00166, -0.00375, 0.00209, 0.0},
+                            {-0.02903, 0.06377, -0.03202, 0.00394},
+                            {0.11693, -0.21196, 0.06052, 0.25886}}}};
+constexpr Chromaticity kY{{-0.01669, -0.09495, -0.00792, -0.04405, -0.01092},
+                          {-0.26078, 0.00921, 0.21023, -1.65369, 0.05291},
+                          {{{0.00275, -0.00610, 0.00317, 0.0},
+                            {-0.04214, 0.08970, -0.04153, 0.00516},
+                            {0.15346, -0.26756, 0.06670, 0.26688}}}};
+
+/// Linear Rec. 709 of luminance 1; what lies outside its gamut is clipped.
+glm::vec3 color_of(double x, double y)
+{
+    const glm::dvec3 xyz(x / y, 1.0, (1.0 - x - y) / y);
+    // IEC 61966-2-1, by columns.
+    const glm::dmat3 rgb_from_xyz(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986,
+                                  0.0415, 1.0570);
+    const glm::vec3 rgb = glm::max(rgb_from_xyz * xyz, 0.0);
+    return rgb / float(luminance(rgb));
+}
+
+}  // namespace
+
+double clear_sky_illuminance(double elevation)
+{
+    return elevation <= 0.0 ? 0.0 : kLux * (0.8 + 15.5 * std::sqrt(std::sin(elevation)));
+}
+
+double sun_illuminance(double elevation)
+{
+    return elevation <= 0.0 ? 0.0 : kLux * 127.5 * std::exp(-0.21 / std::sin(elevation));
+}
+
+Sky clear_sky(const SunPosition& sun)
+{
+    Sky sky{.width = kWidth, .height = kHeight};
+    sky.radiance.assign(std::size_t(kWidth) * kHeight, glm::vec3(0.0f));
+    if (sun.elevation <= 0.0)
+        return sky;
+    const glm::dvec3 to_sun(direction_of(sun));
+    const double sun_zenith = 0.5 * kPi - sun.elevation;
+    for (int row = 0; row < kHeight / 2; ++row)
+        for (int column = 0; column < kWidth; ++column) {
+            const double zenith = kPi * (row + 0.5) / kHeight;
+            const double phi = 2.0 * kPi * (column + 0.5) / kWidth;
+            const glm::dvec3 direction(-std::cos(phi) * std::sin(zenith), std::cos(zenith),
+                                       -std::sin(phi) * std::sin(zenith));
+            const double from_sun = std::acos(std::clamp(glm::dot(direction, to_sun), -1.0, 1.0));
+            const glm::vec3 color = color_of(kX.at(direction.y, from_sun, sun_zenith),
+                                             kY.at(direction.y, from_sun, sun_zenith));
+            sky.radiance[std::size_t(row) * kWidth + std::size_t(column)] =
+                float(relative_luminance(direction.y, from_sun)) * color;
+        }
+    const auto level = float(clear_sky_illuminance(sun.elevation) / luminance(sky_irradiance(sky)));
+    for (glm::vec3& radiance : sky.radiance)
+        radiance *= level;
+    return sky;
+}
+
+PunctualLight sun_light(const SunPosition& sun)
+{
+    PunctualLight light{.kind = PunctualLight::Kind::directional, .name = "sun"};
+    light.intensity = float(sun_illuminance(sun.elevation));
+    light.angle = kSunAngle;
+    const glm::vec3 to_sun = direction_of(sun);
+    // Any up will do for a round disc, but along its axis.
+    const glm::vec3 up = std::abs(to_sun.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    light.transform = glm::inverse(glm::lookAt(glm::vec3(0.0f), -to_sun, up));
+    return light;
+}
+
+}  // namespace lumel

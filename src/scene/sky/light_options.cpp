@@ -1,0 +1,246 @@
+#include "scene/sky/light_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <glm/gtc/constants.hpp>
+
+#include "base/core/error.h"
+#include "base/core/files.h"
+#include "base/core/number.h"
+#include "base/json/json_view.h"
+#include "scene/load/ies.h"
+#include "scene/sky/clear_sky.h"
+#include "scene/sky/overcast_sky.h"
+#include "scene/sky/sky_file.h"
+#include "scene/values/scene_hash.h"
+
+namespace lumel {
+namespace {
+
+[[noreturn]] void refuse(const std::string& option, const std::string& what)
+{
+    throw Error(ErrorKind::input, option, what);
+}
+
+std::vector<std::string> split(const std::string& text)
+{
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t comma = text.find(','); comma != std::string::npos;
+         comma = text.find(',', begin)) {
+        parts.push_back(text.substr(begin, comma - begin));
+        begin = comma + 1;
+    }
+    parts.push_back(text.substr(begin));
+    return parts;
+}
+
+/// Alike from everywhere. As fine as is good for those who take a sky texel by texel.
+Sky even_sky(const glm::vec3& radiance)
+{
+    Sky sky{.width = 64, .height = 32};
+    sky.radiance.assign(std::size_t(sky.width) * std::size_t(sky.height), radiance);
+    return sky;
+}
+
+constexpr const char* kOvercast = "overcast";  ///< as --sky has it
+/// More light than this comes from no sky [lx]: an open plane under kMaxLuminance all over.
+constexpr double kMaxLux = glm::pi<double>() * double(kMaxLuminance);
+
+/// Of "overcast" or "overcast:LUX".
+float overcast_lux(const std::string& text)
+{
+    if (text == kOvercast)
+        return kOvercastLux;
+    const auto lux =
+        number_of(std::string_view(text).substr(std::string_view(kOvercast).size() + 1));
+    if (!lux || !(*lux > 0.0) || *lux > kMaxLux || !(float(*lux) > 0.0f))
+        refuse("--sky", quoted(text) + " is not of the form overcast:LUX, with the illuminance of "
+                                       "an open horizontal plane");
+    return float(*lux);
+}
+
+/// The sun where --sky-rotation puts it: azimuths grow clockwise.
+SunPosition placed_sun(const LightOptions& options)
+{
+    SunPosition sun = *options.sun;
+    sun.azimuth -= options.sky_rotation;
+    return sun;
+}
+
+/// The sky asked for, or else the scene's own, turned and scaled.
+void add_sky(Scene& scene, const LightOptions& options)
+{
+    if (!options.sky_file.empty())
+        scene.sky = read_sky(options.sky_file);
+    else if (options.sky_color)
+        scene.sky = even_sky(*options.sky_color);
+    else if (options.overcast)
+        scene.sky = overcast_sky(*options.overcast);
+    else if (options.sun)
+        scene.sky = clear_sky(*options.sun);
+    if (options.sky_rotation != 0.0)
+        scene.sky = turned(scene.sky, options.sky_rotation);
+    for (glm::vec3& radiance : scene.sky.radiance)
+        radiance *= options.sky_scale;
+}
+
+void add_sun(Scene& scene, const LightOptions& options)
+{
+    if (options.sun->elevation > 0.0) {
+        scene.lights.push_back(sun_light(placed_sun(options)));
+        scene.lights.back().angle = options.sun_angle.value_or(scene.lights.back().angle);
+    } else {
+        scene.warnings.emplace_back("the sun is below the horizon: it gives no light");
+    }
+}
+
+void give_sizes(Scene& scene, const LightOptions& options)
+{
+    for (PunctualLight& light : scene.lights) {
+        if (light.kind == PunctualLight::Kind::directional)
+            light.angle = light.angle > 0.0f ? light.angle : options.sun_angle.value_or(0.0f);
+        else
+            light.radius = light.radius > 0.0f ? light.radius : options.light_radius;
+    }
+}
+
+bool can_have_profile(const PunctualLight& light)
+{
+    return light.kind != PunctualLight::Kind::directional;
+}
+
+/// Names of lights that can have a profile, each once: "\"a\", \"b\"", and how many more.
+/// without_one: only of those that have none.
+std::string names_of(const Scene& scene, bool without_one)
+{
+    constexpr std::size_t kMax = 12;  // that a sentence can hold
+    std::vector<std::string> names;
+    for (const PunctualLight& light : scene.lights)
+        if (can_have_profile(light) && !(without_one && light.profile >= 0) &&
+            std::find(names.begin(), names.end(), light.name) == names.end())
+            names.push_back(light.name);
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kMax); ++i)
+        list += (list.empty() ? "" : ", ") + lumel::quoted(names[i]);
+    if (names.size() > kMax)
+        list += " and " + std::to_string(names.size() - kMax) + " more";
+    return list;
+}
+
+/// True if the pattern, in which each * stands for any letters or none, is the whole name.
+bool matches(std::string_view pattern, std::string_view name)
+{
+    const std::size_t star = pattern.find('*');
+    if (star == pattern.npos)
+        return pattern == name;
+    if (!name.starts_with(pattern.substr(0, star)))
+        return false;
+    pattern.remove_prefix(star + 1);
+    for (std::size_t taken = star; taken <= name.size(); ++taken)
+        if (matches(pattern, name.substr(taken)))
+            return true;
+    return false;
+}
+
+void attach_profile(Scene& scene, const LightProfile& profile)
+{
+    bool found = false;
+    for (PunctualLight& light : scene.lights)
+        if (can_have_profile(light) &&
+            (light.name == profile.light || matches(profile.light, light.name))) {
+            light.profile = int(scene.profiles.size());
+            light.intensity = 1.0f;  // the file's candela stand in for it
+            found = true;
+        }
+    if (!found) {
+        const std::string names = names_of(scene, false);
+        refuse("--ies", "the scene has no point or spot light " + quoted(profile.light) +
+                            (names.empty() ? ", nor any other" : "; it has " + names));
+    }
+    scene.profiles.push_back(
+        read_ies(read_file(profile.path, profile.path), profile.path, profile.light));
+}
+
+/// Lamps that a profile was meant for too, such as the copies that editors number.
+void tell_left_out(Scene& scene)
+{
+    if (const std::string names = names_of(scene, true); !names.empty())
+        scene.warnings.push_back("--ies leaves out " + names +
+                                 ": they keep the intensity of the file; a * in the name stands "
+                                 "for any letters, as in 'lamp*=FILE'");
+}
+
+}  // namespace
+
+void add_lights(Scene& scene, const LightOptions& options)
+{
+    add_sky(scene, options);
+    for (const LightProfile& profile : options.profiles)
+        attach_profile(scene, profile);
+    if (!options.profiles.empty())
+        tell_left_out(scene);
+    if (options.sun)
+        add_sun(scene, options);
+    give_sizes(scene, options);
+    scene.hash = hash_scene(scene);
+}
+
+void set_sky(LightOptions& options, const std::string& text)
+{
+    if (text == kOvercast || text.starts_with(std::string(kOvercast) + ":")) {
+        options.overcast = overcast_lux(text);
+        return;
+    }
+    const std::vector<std::string> parts = split(text);
+    std::vector<double> values;
+    for (const std::string& part : parts)
+        if (const auto value = number_of(part))
+            values.push_back(*value);
+    if (values.size() != parts.size()) {
+        options.sky_file = text;
+        return;
+    }
+    if (values.size() != 3 || *std::min_element(values.begin(), values.end()) < 0.0)
+        refuse("--sky",
+               quoted(text) + " is neither a file nor three numbers R,G,B of 0 or more in cd/m2");
+    if (*std::max_element(values.begin(), values.end()) > double(kMaxLuminance))
+        refuse("--sky", quoted(text) + " is too bright: there is no such sky");
+    options.sky_color = glm::vec3(values[0], values[1], values[2]);
+}
+
+void set_sun(LightOptions& options, const std::string& text)
+{
+    const std::vector<std::string> parts = split(text);
+    const auto first = number_of(parts[0]);
+    const auto second = parts.size() > 1 ? number_of(parts[1]) : std::nullopt;
+    if ((parts.size() != 2 && parts.size() != 3) || !first || !second)
+        refuse("--sun", quoted(text) +
+                            " is neither AZIMUTH,ELEVATION in degrees nor LATITUDE,LONGITUDE,"
+                            "DATETIME such as 47.5,19.0,2024-06-21T12:00:00Z");
+    if (parts.size() == 2) {
+        if (std::abs(*second) > 90.0)
+            refuse("--sun", "the elevation must lie between -90 and 90 degrees");
+        options.sun = SunPosition{glm::radians(*first), glm::radians(*second)};
+        options.sun_seen.reset();
+        return;
+    }
+    if (std::abs(*first) > 90.0 || std::abs(*second) > 180.0)
+        refuse("--sun", "the latitude must lie between -90 and 90 degrees, the longitude between "
+                        "-180 and 180");
+    options.sun =
+        sun_position(glm::radians(*first), glm::radians(*second), seconds_since_2000(parts[2]));
+    options.sun_seen = {*first, *second, parts[2]};
+}
+
+void add_profile(LightOptions& options, const std::string& text)
+{
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size())
+        refuse("--ies", quoted(text) + " is not of the form LIGHT=FILE");
+    options.profiles.push_back({text.substr(0, sign), text.substr(sign + 1)});
+}
+
+}  // namespace lumel

@@ -1,0 +1,49 @@
+// Luminance at the elevation θ, as ISO 15469 has it for type 16 (the traditional overcast sky):
+//
+//     L(θ) = L_z (1 + 2 sin θ) / 3
+//
+// The solid angle of a row of texels is in proportion to its span of sin θ, so that the mean
+// radiance of a row is that of its mean sin θ, exactly. The level makes the irradiance of the image
+// what was asked for, exactly too.
+
+#include "scene/sky/overcast_sky.h"
+
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+#include "base/core/luminance.h"
+
+namespace lumel {
+namespace {
+
+constexpr int kWidth = 64;    ///< of the image: alike all around, as fine as an even sky
+constexpr int kHeight = 128;  ///< rows of 1.4°, over which the luminance varies by 2 % at most
+
+double relative_luminance(double sine)
+{
+    return (1.0 + 2.0 * sine) / 3.0;
+}
+
+}  // namespace
+
+Sky overcast_sky(float lux)
+{
+    Sky sky{.width = kWidth, .height = kHeight};
+    sky.radiance.assign(std::size_t(kWidth) * kHeight, glm::vec3(0.0f));
+    const auto sine_above = [](int row) {
+        return std::cos(glm::pi<double>() * double(row) / kHeight);
+    };
+    for (int row = 0; row < kHeight / 2; ++row) {
+        const double mean = 0.5 * (sine_above(row) + sine_above(row + 1));
+        for (int column = 0; column < kWidth; ++column)
+            sky.radiance[std::size_t(row) * kWidth + std::size_t(column)] =
+                glm::vec3(float(relative_luminance(mean)));
+    }
+    const auto level = float(double(lux) / luminance(glm::vec3(sky_irradiance(sky))));
+    for (glm::vec3& radiance : sky.radiance)
+        radiance *= level;
+    return sky;
+}
+
+}  // namespace lumel

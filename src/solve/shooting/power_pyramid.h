@@ -1,0 +1,41 @@
+#pragma once
+// Sums of power over the lumels, on the GPU, for importance sampling ([BSS05] section 4.1).
+
+#include "gpu/commands.h"
+#include "solve/shooting/power_pyramid.leaves.comp.h"
+#include "solve/shooting/power_pyramid.shared.h"
+#include "solve/shooting/power_pyramid.sum.comp.h"
+
+namespace lumel {
+
+/// Share of shooters spread by area whatever their power (dark rooms need it).
+inline constexpr float kDefensiveShare = 0.15f;
+
+/// A tree of sums with the lumels' power as leaves. Read by power_pyramid.glsl.
+class PowerPyramid {
+public:
+    PowerPyramid(const gpu::Device& device, std::size_t lumel_count);
+
+    /// Records the sums for leaf weights 𝓛(X_j) A_j, with a defensive share of the selection
+    /// spread by area. source [N] vec3: X; surface [N] vec4: ρ, A; area_sum: Σ A that reflects.
+    void build(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
+               const gpu::Array<glm::vec4>& surface, float by_area, float area_sum);
+
+    static std::uint64_t device_bytes(std::size_t lumel_count);
+
+    const gpu::Array<float>& array() const { return array_; }
+    const PyramidLayout& layout() const { return layout_; }
+    /// [1] on the device: Φ = Σ 𝓛(X_j) A_j of the last build.
+    const gpu::Array<float>& total_power() const { return power_; }
+
+private:
+    void sum_levels(gpu::Commands& commands);
+
+    PyramidLayout layout_;
+    gpu::Array<float> array_, power_;
+    gpu::Kernel<shaders::PowerPyramidLeaves> leaves_;
+    gpu::Kernel<shaders::PowerPyramidSum> sum_;
+    std::size_t count_;
+};
+
+}  // namespace lumel

@@ -1,0 +1,34 @@
+#ifndef LUMEL_SOLVE_SHOOTING_POWER_PYRAMID_SHARED_H
+#define LUMEL_SOLVE_SHOOTING_POWER_PYRAMID_SHARED_H
+#include "base/core/shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kPyramidFanout = 32u;  ///< children summed into one parent
+LUMEL_CONST uint kPyramidLevels = 7u;   ///< for 32⁶ leaves, more than 32 bits can count
+LUMEL_CONST uint kPyramidGroup = 64u;
+
+/// Where the levels of a pyramid begin in its array: level 0 are the leaves, one per lumel; the
+/// last level used holds the root.
+struct PyramidLayout {
+    uint first[kPyramidLevels];
+    uint count[kPyramidLevels];
+    uint levels;
+};
+
+/// Push constants of power_pyramid.leaves.comp.
+struct PyramidLeafParams {
+    uint count;      ///< N
+    float by_area;   ///< share of the selection spread by area alone, 0…1
+    float area_sum;  ///< Σ A of what can reflect [m²]
+};
+
+/// Push constants of power_pyramid.sum.comp.
+struct PyramidSumParams {
+    uint from;  ///< first element of the children's level
+    uint from_count;
+    uint to;  ///< first element of the parents' level
+    uint to_count;
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,40 @@
+#version 460
+#include "solve/transport/form_factors.shared.h"
+#include "atlas/packing/lumel.shared.h"
+#include "base/core/hash.glsl"
+#include "solve/shooting/radiosity.glsl"
+#include "raster/world/lumel.glsl"
+#include "raster/world/receiving_point.glsl"
+#include "raster/eyes/sees.glsl"
+#include "solve/transport/patch_light.glsl"
+
+// What every lumel receives of patches whose radiosity is 1: F_ip but for close pairs,
+//
+//     F_ip = Σ_k A_k V cosθ_i cosθ_k / (π r²)      over the blocks k of patch p,
+//
+// seen or not from a point of the lumel that is another for each block, but as far away as its
+// middle: what two lumels find of each other then agrees.
+
+layout(local_size_x = kFormFactorGroup) in;
+layout(push_constant, scalar) uniform Params { FormFactorParams p; };
+layout(scalar) readonly buffer Columns { uint columns[]; };
+layout(scalar) buffer Received { float received[]; };
+
+void main()
+{
+    const uint i = p.first + gl_GlobalInvocationID.x;
+    if (i >= p.last)
+        return;
+    const Lumel lumel = lumels[i];
+    if ((lumel.flags & kLumelBuried) != 0u)
+        return;
+    for (uint k = 0u; k < p.shots; ++k) {
+        const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);
+        Receiver middle = receiver_at(x, lumel, i);
+        middle.x = lumel.position;
+        middle.normal = lumel.normal;
+        const float light = light_without_occluders(middle, k, p.near_radius).x;
+        if (light > 0.0 && is_seen(receiver_at(x, lumel, i), eyes[k], k, p.views))
+            received[columns[p.first_block + k] * p.lumels + i] += light;
+    }
+}

@@ -1,0 +1,26 @@
+#ifndef LUMEL_SOLVE_TRANSPORT_FORM_FACTORS_SHARED_H
+#define LUMEL_SOLVE_TRANSPORT_FORM_FACTORS_SHARED_H
+#include "solve/transport/patch_shots.shared.h"
+LUMEL_SHARED_BEGIN
+
+LUMEL_CONST uint kFormFactorGroup = 64u;
+
+/// Push constants of form_factors.look.comp.
+struct BlockParams {
+    uint first;  ///< of the blocks
+    uint count;  ///< K
+};
+
+/// Push constants of form_factors.receive.comp.
+struct FormFactorParams {
+    EyeViewLayout views;
+    uint first;  ///< lumels [first, last) of this dispatch
+    uint last;
+    uint lumels;        ///< N
+    uint shots;         ///< K
+    uint first_block;   ///< the shots are of blocks [first_block, first_block + K)
+    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+};
+
+LUMEL_SHARED_END
+#endif

@@ -1,0 +1,77 @@
+#pragma once
+// Patches that shoot, a batch at a time: what progressive, incremental and cross-redistribution
+// radiosity have in common.
+
+#include "gpu/pacer.h"
+#include "raster/eyes/eye_views.h"
+#include "raster/eyes/view_options.h"
+#include "raster/near/near_rows.h"
+#include "solve/solver/solve_size.h"
+#include "solve/transport/patch_shots.shared.h"
+#include "solve/transport/patch_shots.take.comp.h"
+#include "solve/transport/patches.h"
+
+namespace lumel {
+
+/// The light of a solution. H = T B^s always: what was shot is what arrived.
+struct ShotLight {
+    ShotLight(const gpu::Device& device, const Lumels& lumels);
+
+    static std::uint64_t device_bytes(std::size_t lumel_count);
+
+    gpu::Array<glm::vec4> surface;    ///< [N] ρ, A; A = 0 for buried lumels
+    gpu::Array<glm::vec3> emission;   ///< [N] E
+    gpu::Array<glm::vec3> shot;       ///< [N] B^s
+    gpu::Array<glm::vec3> far, near;  ///< [N] H of the shot light, but for close pairs, and of them
+};
+
+/// Patches of the lumels, and a batch of them at work: chosen, taken, rendered from.
+class PatchShots {
+public:
+    PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
+               const ViewOptions& options);
+
+    static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
+
+    /// Eyes, shots and sending radiosities of the patches in chosen(). `ambient` [1]: light still
+    /// to arrive [lx], for those that send what is unshot.
+    void take(gpu::Commands& commands, const ShotLight& light,
+              const gpu::Array<glm::vec3>& ambient);
+    /// The same of the batch that begins at `first` in a list in whole batches. No light is still
+    /// to arrive.
+    void take(gpu::Commands& commands, const ShotLight& light, const gpu::Array<ChosenPatch>& list,
+              std::uint32_t first);
+    /// Draws what they see.
+    void look(gpu::Pacer& pacer) { views_.look_from(pacer, eyes_, batch_); }
+
+    std::uint32_t batch() const { return batch_; }  ///< K
+    const Patches& layout() const { return layout_; }
+    const gpu::Array<PatchChart>& charts() const { return charts_; }   ///< [C]
+    gpu::Array<std::uint32_t>& levels() { return levels_; }            ///< [C] as they shoot
+    gpu::Array<ChosenPatch>& chosen() { return chosen_; }              ///< [K]
+    const gpu::Array<Eye>& eyes() const { return eyes_; }              ///< [K]
+    const gpu::Array<PatchShot>& shots() const { return shots_; }      ///< [K]
+    const gpu::Array<glm::vec3>& sending() const { return sending_; }  ///< [N]
+    const EyeViews& views() const { return views_; }
+
+private:
+    const World* world_;
+    gpu::Kernel<shaders::PatchShotsTake> take_;
+    EyeViews views_;
+    std::uint32_t batch_;
+    Patches layout_;
+    gpu::Array<Patch> patches_;
+    gpu::Array<PatchChart> charts_;
+    gpu::Array<std::uint32_t> levels_;
+    gpu::Array<ChosenPatch> chosen_;
+    gpu::Array<Eye> eyes_;
+    gpu::Array<PatchShot> shots_;
+    gpu::Array<glm::vec3> sending_;     ///< part of its light that a point of this batch sends
+    gpu::Array<glm::vec3> no_ambient_;  ///< [1] 0
+};
+
+/// With places that stay empty behind it, so that its length divides by `batch`: one batch at
+/// least.
+std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch);
+
+}  // namespace lumel

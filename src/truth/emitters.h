@@ -1,0 +1,58 @@
+#pragma once
+// The emissive triangles of a scene as light sources to sample, chosen by their power.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "rays/paths/surfaces.h"
+
+namespace lumel {
+
+/// A point of an emitter, drawn with `density` per area.
+struct EmitterPoint {
+    glm::vec3 position{0.0f};   ///< world [m]
+    glm::vec3 normal{0.0f};     ///< of the front, unit, world
+    glm::vec3 luminance{0.0f};  ///< emitted × opacity [cd/m²]
+    float density = 0.0f;       ///< [1/m²]
+    bool double_sided = false;  ///< emits from its back as well
+};
+
+class Emitters {
+public:
+    /// `surfaces` must outlive this.
+    explicit Emitters(const Surfaces& surfaces);
+
+    bool empty() const { return triangles_.empty(); }
+
+    /// Maps a point of the unit square to one on an emitter. There must be one.
+    EmitterPoint sample(const glm::vec2& at) const;
+
+    /// Density [1/m²] with which `sample` draws the points of a triangle; 0 where it never does.
+    float density(std::size_t surface, std::uint32_t triangle) const
+    {
+        const std::vector<float>& densities = densities_[surface];
+        return densities.empty() ? 0.0f : densities[triangle];
+    }
+
+private:
+    struct Triangle {
+        std::size_t surface = 0;
+        std::uint32_t triangle = 0;
+        glm::vec3 corner{0.0f};  ///< world [m]
+        glm::vec3 edge_u{0.0f};
+        glm::vec3 edge_v{0.0f};
+        glm::vec3 normal{0.0f};
+        float density = 0.0f;
+    };
+
+    void add(std::size_t surface, std::vector<double>& powers);
+
+    const Surfaces* surfaces_;
+    std::vector<Triangle> triangles_;
+    std::vector<double> running_;                ///< running sum of the choice, 1 at the last
+    std::vector<std::vector<float>> densities_;  ///< [surfaces][triangles], empty: does not emit
+};
+
+}  // namespace lumel

@@ -1,0 +1,61 @@
+#pragma once
+// All light sources of a scene as a path tracer meets them: by a ray towards them, or by chance.
+
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "lights/lamps.h"
+#include "rays/cast/ray_scene.h"
+#include "rays/paths/surfaces.h"
+#include "scene/values/sky.h"
+#include "truth/bounce_samples.h"
+#include "truth/emitters.h"
+#include "truth/path_vertex.h"
+
+namespace lumel {
+
+/// Emissive surfaces, the sky and lamps. Safe to use from many threads at once.
+class Lights {
+public:
+    /// All must outlive this, unmoved. `ray_offset` [m]: how far points are kept off their surface.
+    Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces, float ray_offset);
+
+    /// One estimate of ∫ s L cosθ dω [lm/m²] over what rays towards light sources bring to a point:
+    /// lamps in full, emitters and the sky by their share. s is π f_r / ρ, 1 for a matte surface.
+    glm::vec3 sought(const PathVertex& vertex, const BounceSamples& samples) const
+    {
+        glm::vec3 sought(0.0f);
+        if (!emitters_.empty())
+            sought += from_emitter(vertex, samples);
+        if (sky_sampler_)
+            sought += from_sky(vertex, samples);
+        if (lamps_.count() > 0)
+            sought += from_lamps(vertex, samples);
+        return sought;
+    }
+
+    /// The other share: radiance [cd/m²] of what a direction drawn with `density` per solid angle
+    /// happened to hit, or of the sky where it hit nothing.
+    glm::vec3 met(const RayHit& hit, const Shading& shading, const glm::vec3& direction,
+                  float density) const;
+    glm::vec3 met_sky(const glm::vec3& direction, float density) const;
+
+    /// Radiance [cd/m²] of the sky; empty without one.
+    std::optional<glm::vec3> background(const glm::vec3& direction) const;
+
+private:
+    glm::vec3 from_emitter(const PathVertex& vertex, const BounceSamples& samples) const;
+    glm::vec3 from_sky(const PathVertex& vertex, const BounceSamples& samples) const;
+    glm::vec3 from_lamps(const PathVertex& vertex, const BounceSamples& samples) const;
+
+    const RayScene& rays_;
+    const Surfaces& surfaces_;
+    const Sky& sky_;
+    Emitters emitters_;
+    Lamps lamps_;
+    std::optional<SkySampler> sky_sampler_;  ///< empty: the sky is met by chance alone
+    float ray_offset_;
+};
+
+}  // namespace lumel

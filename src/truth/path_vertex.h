@@ -1,0 +1,24 @@
+#pragma once
+// A point on a surface from which a path continues.
+
+#include <glm/glm.hpp>
+
+#include "truth/brdf.h"
+
+namespace lumel {
+
+/// A vertex of a path, lifted off the surface on the side that it may leave.
+struct PathVertex {
+    glm::vec3 position;   ///< [m] world
+    glm::vec3 geometric;  ///< unit normal of the triangle
+    Brdf brdf;            ///< with the shading normal, which cosines are taken with
+};
+
+/// Cosine at the surface of a direction that the path may take; 0 for all others.
+inline float cosine_above(const PathVertex& vertex, const glm::vec3& direction)
+{
+    const float cosine = glm::dot(vertex.brdf.normal(), direction);
+    return cosine > 0.0f && glm::dot(vertex.geometric, direction) > 0.0f ? cosine : 0.0f;
+}
+
+}  // namespace lumel

@@ -1,0 +1,442 @@
+#include "viewer/session/script.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/core/error.h"
+#include "base/core/number.h"
+#include "base/json/json_view.h"
+#include "viewer/session/solve_order.h"
+
+namespace lumel {
+namespace {
+
+constexpr double kFar = 1e6;          ///< coordinates that floats still resolve [m]
+constexpr double kTurns = 36000.0;    ///< angle that still has decimals as float [degrees]
+constexpr double kBright = 1e6;       ///< factor of a lamp
+constexpr double kStops = 100.0;      ///< of exposure
+constexpr double kMaxPixels = 16384;  ///< side of a picture
+constexpr double kMaxFrames = 1e6, kMaxCameras = 1e6, kMaxSeconds = 1e6;
+constexpr double kMinScale = 1e-6, kMaxScale = 1e12;  ///< [lx]
+
+constexpr std::array kForms = {
+    CommandForm{.verb = Verb::camera,
+                .word = "camera",
+                .arguments = "N",
+                .meaning = "look through camera N of the file, from 0",
+                .least = 1,
+                .most = 1,
+                .high = kMaxCameras,
+                .whole = true},
+    CommandForm{.verb = Verb::eye,
+                .word = "eye",
+                .arguments = "X,Y,Z",
+                .meaning = "stand there [m]",
+                .least = 3,
+                .most = 3,
+                .low = -kFar,
+                .high = kFar},
+    CommandForm{.verb = Verb::look,
+                .word = "look",
+                .arguments = "X,Y,Z",
+                .meaning = "look at a point [m]",
+                .least = 3,
+                .most = 3,
+                .low = -kFar,
+                .high = kFar},
+    CommandForm{.verb = Verb::walk,
+                .word = "walk",
+                .arguments = "F[,R[,U]]",
+                .meaning = "walk forward, to the right and up [m]; forward is level",
+                .least = 1,
+                .most = 3,
+                .low = -kFar,
+                .high = kFar},
+    CommandForm{.verb = Verb::gaze,
+                .word = "gaze",
+                .arguments = "LEFT[,UP]",
+                .meaning = "turn the eye [degrees]",
+                .least = 1,
+                .most = 2,
+                .low = -kTurns,
+                .high = kTurns},
+    CommandForm{.verb = Verb::orbit,
+                .word = "orbit",
+                .arguments = "AROUND[,OVER]",
+                .meaning = "go around what is picked, or the middle of the picture [degrees]",
+                .least = 1,
+                .most = 2,
+                .low = -kTurns,
+                .high = kTurns},
+    CommandForm{.verb = Verb::pick,
+                .word = "pick",
+                .arguments = "X,Y | NAME",
+                .meaning = "pick what the picture shows at a pixel, from its top left; or by name",
+                .takes = ArgumentKind::name_or_numbers,
+                .least = 2,
+                .most = 2,
+                .high = kMaxPixels,
+                .whole = true},
+    CommandForm{.verb = Verb::move,
+                .word = "move",
+                .arguments = "X,Y,Z",
+                .meaning = "move what is picked [m]",
+                .least = 3,
+                .most = 3,
+                .low = -kFar,
+                .high = kFar},
+    CommandForm{.verb = Verb::turn,
+                .word = "turn",
+                .arguments = "DEGREES",
+                .meaning = "turn it about its vertical, counter-clockwise from above",
+                .least = 1,
+                .most = 1,
+                .low = -kTurns,
+                .high = kTurns},
+    CommandForm{.verb = Verb::remove,
+                .word = "delete",
+                .arguments = "",
+                .meaning = "take it out of the scene"},
+    CommandForm{.verb = Verb::paint,
+                .word = "paint",
+                .arguments = "R,G,B",
+                .meaning = "give its material this base colour, 0 to 1",
+                .least = 3,
+                .most = 3,
+                .high = 1.0},
+    CommandForm{.verb = Verb::dim,
+                .word = "dim",
+                .arguments = "F | R,G,B",
+                .meaning = "what is picked shines so many times as bright as in the file",
+                .least = 1,
+                .most = 3,
+                .high = kBright},
+    CommandForm{.verb = Verb::lamp,
+                .word = "lamp",
+                .arguments = "NAME F | NAME R,G,B",
+                .meaning = "the same of lights, or of a material, of that name",
+                .takes = ArgumentKind::name,
+                .least = 1,
+                .most = 3,
+                .high = kBright},
+    CommandForm{.verb = Verb::sky,
+                .word = "sky",
+                .arguments = "F | R,G,B",
+                .meaning = "the same of the sky",
+                .least = 1,
+                .most = 3,
+                .high = kBright},
+    CommandForm{.verb = Verb::turn_sky,
+                .word = "turn-sky",
+                .arguments = "DEGREES",
+                .meaning = "the sky is turned so far from how it was given, counter-clockwise",
+                .least = 1,
+                .most = 1,
+                .low = -kTurns,
+                .high = kTurns},
+    CommandForm{.verb = Verb::sun,
+                .word = "sun",
+                .arguments = "AZIMUTH,ELEVATION",
+                .meaning = "the sun stands there [degrees], the azimuth clockwise from north (-z)",
+                .least = 2,
+                .most = 2,
+                .low = -kTurns,
+                .high = kTurns},
+    CommandForm{.verb = Verb::time,
+                .word = "time",
+                .arguments = "SECONDS",
+                .meaning = "the animation is there",
+                .least = 1,
+                .most = 1,
+                .high = kMaxSeconds},
+    CommandForm{.verb = Verb::solve,
+                .word = "solve",
+                .arguments = "METHOD [--OPTION VALUE ...]",
+                .meaning = "light the scene as it stands by another method, and show that; options "
+                           "and limits are those of lumel bake",
+                .takes = ArgumentKind::method},
+    CommandForm{.verb = Verb::light,
+                .word = "light",
+                .arguments = "links | solved",
+                .meaning = "show the light of links, or what was solved of the scene as it stands",
+                .takes = ArgumentKind::light},
+    CommandForm{.verb = Verb::probes,
+                .word = "probes",
+                .arguments = "SPACING | off",
+                .meaning = "show light probes as balls, over a grid of this spacing [m]",
+                .takes = ArgumentKind::off,
+                .least = 1,
+                .most = 1,
+                .low = 1e-3,
+                .high = kFar},
+    CommandForm{.verb = Verb::exposure,
+                .word = "exposure",
+                .arguments = "F | auto",
+                .meaning = "factor from cd/m2 to brightness, or as suits each picture",
+                .takes = ArgumentKind::automatic,
+                .least = 1,
+                .most = 1,
+                .low = 1e-12,
+                .high = 1e12},
+    CommandForm{.verb = Verb::stops,
+                .word = "ev",
+                .arguments = "STOPS",
+                .meaning = "expose so many stops more than now: 1 is twice as bright",
+                .least = 1,
+                .most = 1,
+                .low = -kStops,
+                .high = kStops},
+    CommandForm{
+        .verb = Verb::mode,
+        .word = "mode",
+        .arguments = "lit | irradiance | lumels | links | error",
+        .meaning =
+            "show light, irradiance in false colours with a legend, lumels as "
+            "fields of their charts, what lights the lumel that is picked, or what is not settled",
+        .takes = ArgumentKind::mode},
+    CommandForm{.verb = Verb::scale,
+                .word = "scale",
+                .arguments = "LOW,HIGH | auto",
+                .meaning = "ends of the legend [lx], or [%] in mode error",
+                .takes = ArgumentKind::automatic,
+                .least = 2,
+                .most = 2,
+                .low = kMinScale,
+                .high = kMaxScale},
+    CommandForm{.verb = Verb::frames,
+                .word = "frames",
+                .arguments = "N",
+                .meaning = "let light follow for N frames",
+                .least = 1,
+                .most = 1,
+                .low = 1.0,
+                .high = kMaxFrames,
+                .whole = true},
+    CommandForm{.verb = Verb::wait,
+                .word = "wait",
+                .arguments = "",
+                .meaning = "let it follow until it is at rest"},
+    CommandForm{.verb = Verb::picture,
+                .word = "picture",
+                .arguments = "FILE.png",
+                .meaning = "write what is to be seen",
+                .takes = ArgumentKind::png},
+    CommandForm{.verb = Verb::state,
+                .word = "state",
+                .arguments = "FILE.json",
+                .meaning = "write light, camera, what is picked, and what frames cost",
+                .takes = ArgumentKind::json},
+    CommandForm{.verb = Verb::window,
+                .word = "window",
+                .arguments = "FILE.png",
+                .meaning = "write what the window shows, its panel included",
+                .takes = ArgumentKind::png},
+    CommandForm{.verb = Verb::save,
+                .word = "save",
+                .arguments = "FOLDER",
+                .meaning = "bake the scene as it stands now into this folder, at once",
+                .takes = ArgumentKind::folder},
+    CommandForm{.verb = Verb::quit,
+                .word = "quit",
+                .arguments = "",
+                .meaning = "end here; a window closes"},
+};
+
+/// The words of a line; those in quotes may hold blanks. # begins what is not read.
+class Words {
+public:
+    Words(std::string_view line, const std::string& place) : rest_(line), place_(place) {}
+
+    /// The next word, or false.
+    bool next(std::string& word)
+    {
+        const std::size_t first = rest_.find_first_not_of(" \t\r");
+        if (first == rest_.npos || rest_[first] == '#')
+            return false;
+        rest_.remove_prefix(first);
+        const bool is_quoted = rest_.front() == '"';
+        if (is_quoted)
+            rest_.remove_prefix(1);
+        const std::size_t last = is_quoted ? rest_.find('"') : rest_.find_first_of(" \t\r");
+        if (is_quoted && last == rest_.npos)
+            throw Error(ErrorKind::input, place_, "has a quote that does not end");
+        word = rest_.substr(0, last);
+        rest_.remove_prefix(std::min(last == rest_.npos ? last : last + 1, rest_.size()));
+        return true;
+    }
+
+private:
+    std::string_view rest_;
+    const std::string& place_;
+};
+
+bool fits(const CommandForm& form, const std::vector<double>& numbers)
+{
+    const std::size_t count = numbers.size();
+    const bool colour_or_factor = form.high == kBright;  // one number for three that are alike
+    return count >= form.least && count <= form.most && !(colour_or_factor && count == 2) &&
+           std::all_of(numbers.begin(), numbers.end(), [&](double number) {
+               return number >= form.low && number <= form.high &&
+                      !(form.whole && number != std::floor(number));
+           });
+}
+
+/// The numbers of "X,Y,Z"; empty if they are not those that the command takes.
+std::vector<double> numbers_of(const CommandForm& form, std::string_view text)
+{
+    std::vector<double> numbers;
+    for (std::size_t comma = 0; comma != text.npos;) {
+        comma = text.find(',');
+        const auto number = number_of(text.substr(0, comma));
+        if (!number)
+            return {};
+        numbers.push_back(*number);
+        text.remove_prefix(comma == text.npos ? text.size() : comma + 1);
+    }
+    return fits(form, numbers) ? numbers : std::vector<double>();
+}
+
+bool is_file_name(std::string_view name, std::string_view extension)
+{
+    return name.size() > extension.size() && name.ends_with(extension) &&
+           name.find('/') == name.npos && name.front() != '.' && name.front() != '-' &&
+           std::none_of(name.begin(), name.end(),
+                        [](char letter) { return static_cast<unsigned char>(letter) < ' '; });
+}
+
+bool is_word_for(const CommandForm& form, const std::string& word)
+{
+    switch (form.takes) {
+    case ArgumentKind::none:
+        return false;
+    case ArgumentKind::method:
+    case ArgumentKind::name:
+    case ArgumentKind::name_or_numbers:
+        return true;
+    case ArgumentKind::light:
+        return word == "links" || word == "solved";
+    case ArgumentKind::automatic:
+        return word == "auto";
+    case ArgumentKind::off:
+        return word == "off";
+    case ArgumentKind::mode:
+        return word == "lit" || word == "irradiance" || word == "lumels" || word == "links" ||
+               word == "error";
+    case ArgumentKind::png:
+        return is_file_name(word, ".png");
+    case ArgumentKind::json:
+        return is_file_name(word, ".json");
+    case ArgumentKind::folder:
+        return is_file_name(word, "");
+    }
+    return false;
+}
+
+/// Takes what follows the command's own word. False if that does not fit.
+bool take(ScriptCommand& command, const std::vector<std::string>& words)
+{
+    const CommandForm& form = *command.form;
+    std::size_t taken = 0;
+    const bool may_be_numbers =
+        form.takes == ArgumentKind::none || form.takes == ArgumentKind::automatic ||
+        form.takes == ArgumentKind::off || form.takes == ArgumentKind::name_or_numbers;
+    if (may_be_numbers && form.least > 0 && !words.empty()) {
+        command.numbers = numbers_of(form, words[0]);
+        taken = command.numbers.empty() ? 0 : 1;
+    }
+    if (taken == 0 && form.takes != ArgumentKind::none && !words.empty() &&
+        is_word_for(form, words[0]))
+        command.text = words[taken++];
+    if (form.takes == ArgumentKind::name && taken == 1 && words.size() > 1) {
+        command.numbers = numbers_of(form, words[1]);
+        taken += command.numbers.empty() ? 0 : 1;
+    }
+    const bool complete = form.takes == ArgumentKind::name || form.takes == ArgumentKind::none
+                              ? form.least == 0 || !command.numbers.empty()
+                              : taken == 1;
+    return complete && taken == words.size();
+}
+
+const CommandForm* form_of(const std::string& word)
+{
+    const auto found = std::find_if(kForms.begin(), kForms.end(),
+                                    [&](const CommandForm& form) { return word == form.word; });
+    return found == kForms.end() ? nullptr : &*found;
+}
+
+ScriptCommand read_command(const std::string& word, Words& rest, int line, const std::string& place)
+{
+    ScriptCommand command{.form = form_of(word), .line = line};
+    if (command.form == nullptr)
+        throw Error(ErrorKind::input, place,
+                    lumel::quoted(word) + " is no command; lumel view --help lists them");
+    std::vector<std::string> words;
+    for (std::string next; rest.next(next);)
+        words.push_back(next);
+    const bool orders = command.form->takes == ArgumentKind::method && !words.empty();
+    if (orders)
+        command.solver = solve_order(words, place);
+    if (orders || take(command, words))
+        return command;
+    std::string given;
+    for (const std::string& one : words)
+        given += (given.empty() ? "" : " ") + one;
+    throw Error(ErrorKind::input, place,
+                fmt::format("{} takes {}, not {}", word,
+                            *command.form->arguments ? command.form->arguments : "nothing",
+                            given.empty() ? std::string("nothing") : lumel::quoted(given)));
+}
+
+/// Of a script that has no line twice the same file.
+void check_files(const std::vector<ScriptCommand>& commands, const std::string& place)
+{
+    std::vector<std::string> files;
+    for (const ScriptCommand& command : commands) {
+        const ArgumentKind takes = command.form->takes;
+        if (takes != ArgumentKind::png && takes != ArgumentKind::json &&
+            takes != ArgumentKind::folder)
+            continue;
+        if (std::find(files.begin(), files.end(), command.text) != files.end())
+            throw Error(ErrorKind::input, place_of(place, command.line),
+                        lumel::quoted(command.text) + " is written already");
+        files.push_back(command.text);
+    }
+}
+
+}  // namespace
+
+std::span<const CommandForm> command_forms()
+{
+    return kForms;
+}
+
+ScriptCommand solve_command(const SolverOptions& solver)
+{
+    return {.form = form_of("solve"), .line = 0, .solver = solver};
+}
+
+std::string place_of(const std::string& place, int line)
+{
+    return line == 0 ? "--solver" : fmt::format("{}:{}", place, line);
+}
+
+std::vector<ScriptCommand> read_script(std::string_view text, const std::string& place)
+{
+    std::vector<ScriptCommand> commands;
+    int line = 0;
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        const std::string here = place_of(place, ++line);
+        Words words(text.substr(0, end), here);
+        if (std::string word; words.next(word))
+            commands.push_back(read_command(word, words, line, here));
+        text.remove_prefix(end == text.npos ? text.size() : end + 1);
+    }
+    check_files(commands, place);
+    return commands;
+}
+
+}  // namespace lumel

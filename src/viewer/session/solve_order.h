@@ -1,0 +1,15 @@
+#pragma once
+// What method is to light the scene as it stands, as words say it.
+
+#include <span>
+#include <string>
+
+#include "methods/methods.h"
+
+namespace lumel {
+
+/// "progressive", "--batch", "4", "--error", "1": a method, then its options and limits as on the
+/// command line. Throws Error{input} with the place of these words.
+SolverOptions solve_order(std::span<const std::string> words, const std::string& place);
+
+}  // namespace lumel

@@ -1,0 +1,146 @@
+#include "viewer/session/solved.h"
+
+#include <exception>
+
+#include <fmt/format.h>
+
+#include "atlas/lumels/sides.h"
+#include "atlas/near/still_part.h"
+#include "base/core/error.h"
+#include "base/core/log.h"
+#include "jobs/solve/lighting.h"
+#include "jobs/solve/memory_plan.h"
+#include "methods/methods.h"
+#include "solve/solver/solver.h"
+#include "viewer/session/session.h"
+
+namespace lumel {
+namespace {
+
+/// The light of each of the session's lumels, which has the same texel and side.
+void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
+            const std::vector<glm::vec3>& irradiance)
+{
+    const std::vector<std::uint32_t> at = lumels_by_side(own);
+    light.irradiance.assign(own.lumels.size(), glm::vec3(0.0f));
+    light.buried.assign(own.lumels.size(), 0);
+    for (std::size_t i = 0; i < irradiance.size(); ++i) {
+        const Lumel& lumel = solved.lumels[i];
+        const std::uint32_t found = at[place_by_side(lumel)];
+        if (found == kNoLumel)
+            continue;
+        light.irradiance[found] = irradiance[i];
+        light.buried[found] = (lumel.flags & kLumelBuried) != 0;
+    }
+}
+
+}  // namespace
+
+/// Materials are read again for methods that know gloss, which links do not.
+StandingScene ViewSession::standing(MaterialModel model) const
+{
+    Scene scene = model == shown_.model ? shown_ : read_gltf(shown_.path, model);
+    if (scene.instances.size() != shown_.instances.size() ||
+        scene.materials.size() != shown_.materials.size())
+        throw Error(ErrorKind::input, shown_.path, "is another scene than when it was opened");
+    std::vector<char> deleted(shown_.instances.size(), 0);
+    for (const MovableObject& thing : things_)
+        for (const std::uint32_t instance : thing.instances)
+            deleted[instance] = thing.deleted;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        scene.instances[i].transform = shown_.instances[i].transform;
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+        scene.materials[m].base_color = shown_.materials[m].base_color;
+        scene.materials[m].emitted = shown_.materials[m].emitted;
+    }
+    scene.profiles = shown_.profiles;
+    scene.lights = live_.scene().lights;
+    for (const ViewLamp& lamp : lamps_)
+        if (lamp.is_light)
+            scene.lights[lamp.index].color *= factor_of(lamp);
+    scene.sky = live_.scene().sky;
+    for (glm::vec3& radiance : scene.sky.radiance)
+        radiance *= sky_;
+    return {without(scene, deleted), drawn_};
+}
+
+SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, const Lumels& lumels,
+                           const SolverOptions& solver, const ProgressFunction& progress)
+{
+    const LogCapture silent;  // what the scene's reader said was told before
+    BakeOptions options;
+    options.solver = solver;
+    Stages stages(progress);
+    const Setting setting(
+        std::move(standing.scene),
+        [&](const Scene&, const RayScene&, const ProgressCallback&) {
+            return std::move(standing.atlas);
+        },
+        device, options, stages);
+    options.solver.max_bytes =
+        bytes_for_links(setting.prepared, options, memory_limits(options, device.info()));
+    const std::unique_ptr<Solution> solution = solve_light(device, setting, options, stages);
+    stages.end();
+    device.check_validation();
+    const SolverState state = solution->solver->state();
+    SolvedLight light{.options = solver,
+                      .shots = state.shots,
+                      .error = state.error,
+                      .seconds = stages.seconds(),
+                      .stopped = !solution->run.finished,
+                      .warnings = stages.warnings()};
+    assign(light, lumels, setting.prepared.lumels, solution->irradiance);
+    return light;
+}
+
+SolveAside::SolveAside(const ViewSession& session, const SolverOptions& options)
+    : options_(options),
+      edits_(session.edits()),
+      device_(session.options().device)
+{
+    StandingScene standing = session.standing(method_of(options.method).materials);
+    const auto watch = [this](const BakeProgress& now) {
+        const std::lock_guard lock(mutex_);
+        now_ = now;
+        return !stop_;
+    };
+    light_ = std::async(std::launch::async, [this, watch, standing = std::move(standing),
+                                             &lumels = session.light().lumels()]() mutable {
+        return solve_standing(device_, std::move(standing), lumels, options_, watch);
+    });
+}
+
+SolveAside::~SolveAside()
+{
+    stop();
+    if (light_.valid())
+        light_.wait();
+}
+
+bool SolveAside::has_ended(std::chrono::milliseconds wait) const
+{
+    return light_.wait_for(wait) == std::future_status::ready;
+}
+
+BakeProgress SolveAside::progress() const
+{
+    const std::lock_guard lock(mutex_);
+    return now_;
+}
+
+SolvedLight SolveAside::take()
+{
+    try {
+        return light_.get();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::stopped)
+            throw;
+        throw Error(ErrorKind::stopped, "", "solving was stopped before there was any light");
+    } catch (const std::exception& error) {  // no memory, for one: what is shown goes on
+        throw Error(ErrorKind::device, "",
+                    fmt::format("solving by {} failed: {}; a smaller atlas needs less memory",
+                                method_of(options_.method).id, error.what()));
+    }
+}
+
+}  // namespace lumel

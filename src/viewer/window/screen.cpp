@@ -1,0 +1,207 @@
+#include "viewer/window/screen.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <GL/gl.h>
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include "base/core/error.h"
+
+namespace lumel {
+namespace {
+
+constexpr const char* kShaders = "#version 130";  ///< of OpenGL 3.0
+constexpr int kMajor = 3, kMinor = 0;
+constexpr glm::ivec2 kSmallest{200, 150};  ///< [pixels]
+constexpr float kByte = 255.0f;
+
+[[noreturn]] void fail()
+{
+    const char* why = nullptr;
+    glfwGetError(&why);
+    std::string text = why ? why : "no reason is given";
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    throw Error(ErrorKind::device, "lumel view",
+                "no window can be opened (" + text +
+                    "); --script FILE --headless works without one");
+}
+
+/// A function of the driver, found at run time: lumel starts without libGL too.
+template <class Function>
+void find(Function& function, const char* name)
+{
+    function = reinterpret_cast<Function>(glfwGetProcAddress(name));
+    if (!function)
+        fail();
+}
+
+/// A key that is pressed and let go between two frames counts too.
+void on_key(GLFWwindow* window, int key, int, int action, int with)
+{
+    if (action != GLFW_RELEASE)
+        static_cast<std::vector<KeyPress>*>(glfwGetWindowUserPointer(window))
+            ->push_back({key, (with & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
+}
+
+}  // namespace
+
+struct Screen::Gl {
+    decltype(&glGetString) get_string;
+    decltype(&glGenTextures) gen_textures;
+    decltype(&glDeleteTextures) delete_textures;
+    decltype(&glBindTexture) bind_texture;
+    decltype(&glTexParameteri) tex_parameter;
+    decltype(&glTexImage2D) tex_image;
+    decltype(&glPixelStorei) pixel_store;
+    decltype(&glReadPixels) read_pixels;
+    decltype(&glViewport) viewport;
+    decltype(&glClear) clear;
+
+    Gl()
+    {
+        find(get_string, "glGetString");
+        find(gen_textures, "glGenTextures");
+        find(delete_textures, "glDeleteTextures");
+        find(bind_texture, "glBindTexture");
+        find(tex_parameter, "glTexParameteri");
+        find(tex_image, "glTexImage2D");
+        find(pixel_store, "glPixelStorei");
+        find(read_pixels, "glReadPixels");
+        find(viewport, "glViewport");
+        find(clear, "glClear");
+    }
+};
+
+Screen::Screen(const std::string& title, const glm::ivec2& size)
+{
+    if (!glfwInit())
+        fail();
+    try {
+        open(title, size);
+    } catch (...) {
+        glfwTerminate();
+        throw;
+    }
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // nothing is written beside the files asked for
+    ImGui::StyleColorsDark();
+    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplOpenGL3_Init(kShaders);
+}
+
+void Screen::open(const std::string& title, const glm::ivec2& size)
+{
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, kMajor);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, kMinor);
+    window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+    if (!window_)
+        fail();
+    glfwSetWindowSizeLimits(window_, kSmallest.x, kSmallest.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(0);  // light has a budget of its own
+    gl_ = std::make_unique<Gl>();
+    const GLubyte* name = gl_->get_string(GL_RENDERER);
+    draws_by_ = name ? reinterpret_cast<const char*>(name) : "OpenGL";
+    gl_->gen_textures(1, &texture_);
+    gl_->bind_texture(GL_TEXTURE_2D, texture_);
+    gl_->tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_->tex_parameter(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glfwSetWindowUserPointer(window_, &pressed_);
+    glfwSetKeyCallback(window_, on_key);
+}
+
+Screen::~Screen()
+{
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    gl_->delete_textures(1, &texture_);
+    glfwTerminate();
+}
+
+bool Screen::is_open() const
+{
+    return !glfwWindowShouldClose(window_);
+}
+
+void Screen::close()
+{
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+glm::ivec2 Screen::size() const
+{
+    glm::ivec2 size;
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return glm::max(size, glm::ivec2(1));
+}
+
+bool Screen::holds(int key) const
+{
+    return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+void Screen::take(const Image& picture)
+{
+    std::vector<GLubyte> bytes(picture.values.size());
+    std::transform(picture.values.begin(), picture.values.end(), bytes.begin(),
+                   [](float code) { return GLubyte(std::clamp(code, 0.0f, 1.0f) * kByte + 0.5f); });
+    const GLenum format = picture.channels == 4 ? GL_RGBA : GL_RGB;
+    gl_->bind_texture(GL_TEXTURE_2D, texture_);
+    gl_->pixel_store(GL_UNPACK_ALIGNMENT, 1);
+    gl_->tex_image(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, format,
+                   GL_UNSIGNED_BYTE, bytes.data());
+    texture_size_ = {picture.width, picture.height};
+}
+
+void* Screen::texture() const
+{
+    return reinterpret_cast<void*>(std::uintptr_t(texture_));
+}
+
+void Screen::begin(double seconds)
+{
+    pressed_.clear();
+    if (seconds > 0.0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+Image Screen::read() const
+{
+    const glm::ivec2 all = size();
+    std::vector<GLubyte> bytes(std::size_t(all.x) * std::size_t(all.y) * 3);
+    gl_->pixel_store(GL_PACK_ALIGNMENT, 1);
+    gl_->read_pixels(0, 0, all.x, all.y, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
+    Image image(all.x, all.y, 3);
+    for (int y = 0; y < all.y; ++y)  // OpenGL begins at the bottom
+        for (int k = 0; k < 3 * all.x; ++k)
+            image.at(0, y)[k] =
+                float(bytes[std::size_t(all.y - 1 - y) * std::size_t(3 * all.x) + std::size_t(k)]) /
+                kByte;
+    return image;
+}
+
+Image Screen::end(bool read_too)
+{
+    ImGui::Render();
+    const glm::ivec2 all = size();
+    gl_->viewport(0, 0, all.x, all.y);
+    gl_->clear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    Image seen;
+    if (read_too)
+        seen = read();
+    glfwSwapBuffers(window_);
+    return seen;
+}
+
+}  // namespace lumel

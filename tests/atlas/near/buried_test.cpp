@@ -1,0 +1,170 @@
+// Which lumels lie under or inside other geometry.
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "../../support/box_lumels.h"
+#include "atlas/near/buried.h"
+
+namespace lumel {
+namespace {
+
+using support::box_walls;
+using support::HandMade;
+using support::make_quads;
+using support::Quad;
+
+/// 8 × 8 lumels of 1 m, facing up; lumel (x, z) has index 8 x + z.
+Quad floor_8x8()
+{
+    Quad floor;
+    floor.edge_u = {0, 0, 8};
+    floor.edge_v = {8, 0, 0};
+    floor.res_u = floor.res_v = 8;
+    return floor;
+}
+
+enum Faces { closed, bottomless, topless };
+
+/// The walls of a box, each one lumel.
+void add_box(std::vector<Quad>& quads, const glm::vec3& low, const glm::vec3& high, Faces faces,
+             bool inward = false, const Quad& look = {})
+{
+    const auto walls = box_walls(low, high, inward, look);
+    for (std::size_t side = 0; side < walls.size(); ++side)
+        if (!(faces == bottomless && side == 2) && !(faces == topless && side == 3))
+            quads.push_back(walls[side]);
+}
+
+/// Marks the lumels that are buried, and returns them.
+std::vector<bool> buried(HandMade made)
+{
+    mark_buried(made.scene, RayScene(made.scene), made.lumels);
+    std::vector<bool> result;
+    for (const Lumel& lumel : made.lumels.lumels)
+        result.push_back((lumel.flags & kLumelBuried) != 0);
+    return result;
+}
+
+std::vector<bool> buried(const std::vector<Quad>& quads)
+{
+    return buried(make_quads(quads));
+}
+
+/// Expects exactly the floor lumels x0 … x1 - 1, z0 … z1 - 1 to be buried.
+void expect_buried_floor(const std::vector<bool>& result, int x0, int x1, int z0, int z1)
+{
+    for (int x = 0; x < 8; ++x)
+        for (int z = 0; z < 8; ++z)
+            EXPECT_EQ(bool(result[std::size_t(8 * x + z)]), x >= x0 && x < x1 && z >= z0 && z < z1)
+                << x << " " << z;
+}
+
+TEST(Buried, AnOpenFloorIsNot)
+{
+    expect_buried_floor(buried(std::vector<Quad>{floor_8x8()}), 0, 0, 0, 0);
+}
+
+TEST(Buried, TheFloorUnderABlockIsWithOrWithoutABottom)
+{
+    for (const Faces faces : {closed, bottomless}) {
+        std::vector<Quad> quads{floor_8x8()};
+        add_box(quads, {2, 0, 3}, {5, 2, 6}, faces);
+        expect_buried_floor(buried(quads), 2, 5, 3, 6);
+    }
+}
+
+TEST(Buried, TheFloorUnderABlockThatSinksInOrHoversByAHairIs)
+{
+    for (const float bottom : {-0.5f, -1e-5f, 1e-5f, 1e-3f}) {
+        std::vector<Quad> quads{floor_8x8()};
+        add_box(quads, {2, bottom, 3}, {5, 2, 6}, closed);
+        const std::vector<bool> result = buried(quads);
+        EXPECT_TRUE(result[8 * 3 + 4]) << bottom;
+        EXPECT_FALSE(result[8 * 1 + 4]) << bottom;
+    }
+}
+
+TEST(Buried, ALumelPartlyUnderABlockIsNot)
+{
+    std::vector<Quad> quads{floor_8x8()};
+    add_box(quads, {2.0f, 0, 3}, {4.7f, 2, 6}, bottomless);
+    expect_buried_floor(buried(quads), 2, 4, 3, 6);
+}
+
+TEST(Buried, TheInsideOfAnOpenBoxIsNot)
+{
+    std::vector<Quad> quads{floor_8x8()};
+    add_box(quads, {2, 0, 3}, {5, 2, 6}, topless);
+    add_box(quads, {2, 0, 3}, {5, 2, 6}, topless, true);
+    EXPECT_FALSE(buried(quads)[8 * 3 + 4]);
+}
+
+TEST(Buried, TheDarkInsideOfASealedRoomyBoxIsNot)
+{
+    std::vector<Quad> quads;
+    add_box(quads, {0, 0, 0}, {2, 2, 2}, closed);
+    add_box(quads, {0.1f, 0.1f, 0.1f}, {1.9f, 1.9f, 1.9f}, closed, true);
+    for (const bool is : buried(quads))
+        EXPECT_FALSE(is);
+}
+
+TEST(Buried, AWallInsideAWallIs)
+{
+    std::vector<Quad> quads;
+    Quad hidden;  // faces +z, in the middle of a thick wall
+    hidden.corner = {1, 1, 0};
+    quads.push_back(hidden);
+    add_box(quads, {0, 0, -0.2f}, {3, 3, 0.2f}, closed);
+    const std::vector<bool> result = buried(quads);
+    EXPECT_TRUE(result[0]);
+    for (std::size_t i = 1; i < result.size(); ++i)
+        EXPECT_FALSE(result[i]) << i;
+}
+
+TEST(Buried, TheBottomOfAThinSlitIsNot)
+{
+    // Two blocks on the floor, 5 cm apart; a strip of floor lies between them.
+    Quad strip;
+    strip.corner = {0, 0, 0.0f};
+    strip.edge_u = {0, 0, 0.05f};
+    strip.edge_v = {4, 0, 0};
+    strip.res_v = 4;
+    std::vector<Quad> quads{strip};
+    add_box(quads, {-1, 0, -1}, {5, 3, 0.0f}, bottomless);
+    add_box(quads, {-1, 0, 0.05f}, {5, 3, 1}, bottomless);
+    const std::vector<bool> result = buried(quads);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_FALSE(result[i]) << i;
+}
+
+TEST(Buried, TheFloorUnderADoubleSidedHoodIsNotUnlessItLiesOnTheFloor)
+{
+    Quad thick;
+    thick.double_sided = true;
+    std::vector<Quad> quads{floor_8x8()};
+    add_box(quads, {2, 0, 3}, {5, 2, 6}, bottomless, false, thick);
+    EXPECT_FALSE(buried(quads)[8 * 3 + 4]);
+
+    Quad carpet = floor_8x8();
+    carpet.corner.y = 1e-3f;
+    carpet.double_sided = true;
+    EXPECT_TRUE(buried({floor_8x8(), carpet})[8 * 3 + 4]);
+}
+
+TEST(Buried, MirroredInstancesAreJudgedAlike)
+{
+    const glm::mat4 mirror(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+    std::vector<Quad> quads{floor_8x8()};
+    add_box(quads, {2, 0, 3}, {5, 2, 6}, bottomless);
+    HandMade made;
+    for (const Quad& quad : quads) {
+        support::add_lumels(made.lumels, quad, std::uint32_t(made.scene.instances.size()), mirror);
+        support::add_quad(made.scene, quad, mirror);
+    }
+    expect_buried_floor(buried(made), 2, 5, 3, 6);
+}
+
+}  // namespace
+}  // namespace lumel

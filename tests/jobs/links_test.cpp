@@ -1,0 +1,198 @@
+// Gathering over links where it could go wrong: bright closed rooms, dark places, scenes far away,
+// and what it states of itself.
+
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+#include <tbb/global_control.h>
+
+#include "../support/box_lumels.h"
+#include "../support/temporary_folder.h"
+#include "base/core/state_bytes.h"
+#include "solved.h"
+#include "truth/closed_forms.h"
+#include "truth/reference.h"
+
+namespace lumel {
+namespace {
+
+using support::Solved;
+
+SolverOptions links(double error, std::uint32_t seed = 1)
+{
+    return {.method = LinksOptions{.seed = seed}, .target_error = error};
+}
+
+/// A closed room of one albedo whose walls all shine alike.
+class ClosedRoom : public testing::TestWithParam<float> {};
+
+INSTANTIATE_TEST_SUITE_P(OfAlbedo, ClosedRoom, testing::Values(0.9f, 0.98f, 0.99f, 0.995f, 0.999f),
+                         [](const auto& test) {
+                             return std::to_string(int(std::lround(1000.0f * test.param)));
+                         });
+
+TEST_P(ClosedRoom, GlowsAsItsAbsorptionAllows)
+{
+    support::Quad look{.albedo = glm::vec3(GetParam()), .emission = glm::vec3(1.0f)};
+    look.res_u = look.res_v = 16;
+    const auto walls = support::box_walls({0, 0, 0}, {2.0f, 1.5f, 3.0f}, true, look);
+    const std::vector<support::Quad> quads(walls.begin(), walls.end());
+    support::HandMade room = support::make_quads(quads);
+    const Atlas atlas = support::lay_out(room, quads);
+    const RayScene rays(room.scene);
+    const Solved solved = support::solve_scene(room.scene, rays, room.lumels, links(0.02), &atlas);
+    double light = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
+        light += double(room.lumels.lumels[i].area) * double(solved.irradiance[i].g);
+        area += double(room.lumels.lumels[i].area);
+    }
+    const double truth = furnace_irradiance(1.0, double(GetParam()));
+    EXPECT_NEAR(light / area, truth, 0.01 * truth);
+}
+
+TEST(Links, RefuseARoomThatAbsorbsNothing)
+{
+    support::Quad look{.albedo = glm::vec3(1.0f), .emission = glm::vec3(1.0f)};
+    look.res_u = look.res_v = 8;
+    const auto walls = support::box_walls({0, 0, 0}, {1, 1, 1}, true, look);
+    const std::vector<support::Quad> quads(walls.begin(), walls.end());
+    support::HandMade room = support::make_quads(quads);
+    const Atlas atlas = support::lay_out(room, quads);
+    const RayScene rays(room.scene);
+    try {
+        support::solve_scene(room.scene, rays, room.lumels, links(0.02), &atlas);
+        FAIL() << "it was solved";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("absorbed"), std::string::npos) << error.what();
+    }
+}
+
+/// Large enough for passes of several steps.
+TEST(Links, GoOnFromTheStateAfterAnyStepToTheSameLight)
+{
+    const Prepared world(support::scene_path("cornell-box"), {.size = 192});
+    const SolverOptions options = links(0.02);
+    const support::Resident resident(world.scene, world.rays, world.lumels, options, &world.atlas);
+    const HostScene host{world.scene, world.rays, world.atlas};
+    const auto make = [&] {
+        return make_solver({.device = resident.device,
+                            .world = &resident.world,
+                            .lumels = world.lumels,
+                            .near = resident.near,
+                            .host = &host},
+                           options);
+    };
+    std::vector<std::string> states;
+    const auto undisturbed = make();
+    ASSERT_TRUE(solve(*undisturbed, options, [&](const SolverState&) {
+        std::ostringstream bytes;
+        StateWriter writer(bytes);
+        undisturbed->write_state(writer);
+        writer.finish();
+        states.push_back(bytes.str());
+        return true;
+    }));
+    ASSERT_GT(states.size(), 8u);
+    for (std::size_t step = 0; step < states.size(); ++step) {
+        std::istringstream bytes(states[step]);
+        StateReader reader(bytes, states[step].size(), "a state");
+        const auto solver = make();
+        solver->read_state(reader);
+        reader.finish();
+        ASSERT_TRUE(solve(*solver, options));
+        ASSERT_EQ(solver->irradiance(), undisturbed->irradiance()) << "after step " << step;
+        ASSERT_EQ(solver->state().iterations, undisturbed->state().iterations);
+        ASSERT_EQ(solver->state().error, undisturbed->state().error);
+    }
+}
+
+/// The Cornell box in a file whose root moves it.
+std::string moved_file(const test::TemporaryFolder& folder, double metres)
+{
+    std::ifstream in(support::scene_path("cornell-box"));
+    nlohmann::json file = nlohmann::json::parse(in);
+    nlohmann::json& roots = file["scenes"][0]["nodes"];
+    file["nodes"].push_back(
+        {{"translation", {metres, -0.5 * metres, 0.25 * metres}}, {"children", roots}});
+    roots = {file["nodes"].size() - 1};
+    const std::string path = folder / "moved.gltf";
+    std::ofstream(path) << file;
+    return path;
+}
+
+TEST(Links, LightASceneFarAwayAsTheyDoHere)
+{
+    const AtlasOptions options{.size = 48};
+    const Prepared near(support::scene_path("cornell-box"), options);
+    const Solved there = support::solve_scene(near, links(0.05));
+    const std::vector<glm::vec3> truth =
+        reference_irradiance(near.scene, near.rays, near.lumels, {.samples_per_lumel = 16});
+    const auto all = [](const Lumel&) { return true; };
+    const test::TemporaryFolder folder;
+    for (const double metres : {1e3, 1e4, 1e5, 1e6}) {
+        const Prepared far(moved_file(folder, metres), options);
+        ASSERT_EQ(far.lumels.lumels.size(), near.lumels.lumels.size());
+        const Solved solved = support::solve_scene(far, links(0.05));
+        const support::LumelError apart =
+            support::lumel_error(near.lumels, solved.irradiance, there.irradiance, all);
+        const support::LumelError traced = support::lumel_error(
+            near.lumels,
+            reference_irradiance(far.scene, far.rays, far.lumels, {.samples_per_lumel = 16}), truth,
+            all);
+        std::printf("%g m: %.4f %%, reference %.4f %%\n", metres, 100.0 * apart.rmse,
+                    100.0 * traced.rmse);
+        EXPECT_LE(apart.rmse, 1e-3) << metres << " m";
+        EXPECT_LE(std::abs(traced.bias), 1e-3) << metres << " m";
+    }
+}
+
+TEST(Links, GiveTheSameBytesOnAnyNumberOfThreads)
+{
+    const Prepared world(support::scene_path("two-rooms"), {.size = 48});
+    const Solved many = support::solve_scene(world, links(0.05));
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+    const Solved alone = support::solve_scene(world, links(0.05));
+    EXPECT_EQ(many.irradiance, alone.irradiance);
+    EXPECT_EQ(many.state.error, alone.state.error);
+}
+
+struct Case {
+    const char* scene;
+    int size;
+};
+
+class StatedByLinks : public testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(Of, StatedByLinks,
+                         testing::Values(Case{"cornell-box", 24}, Case{"cornell-box", 32},
+                                         Case{"cornell-box", 64}, Case{"two-rooms", 64}),
+                         [](const auto& test) {
+                             std::string name = test.param.scene + std::to_string(test.param.size);
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+// Both figures, against the reference without its own noise.
+TEST_P(StatedByLinks, IsTheRealError)
+{
+    const Prepared world(support::scene_path(GetParam().scene), {.size = GetParam().size});
+    std::vector<glm::vec3> truth[2];
+    for (std::uint32_t k = 0; k < 2; ++k)
+        truth[k] = reference_irradiance(world.scene, world.rays, world.lumels,
+                                        {.samples_per_lumel = 1024, .seed = 101 + k});
+    double stated = 0.0, real = 0.0;
+    constexpr std::uint32_t kSeeds = 4;
+    for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        const Solved solved = support::solve_scene(world, links(0.03, seed));
+        stated += solved.state.error / kSeeds;
+        real += support::error_alone(solved.irradiance, truth[0], truth[1]) / kSeeds;
+    }
+    testing::Test::RecordProperty("stated", std::to_string(stated));
+    std::printf("stated %.2f %%, real %.2f %%\n", 100.0 * stated, 100.0 * real);
+    EXPECT_GE(stated / real, 0.75);
+    EXPECT_LE(stated / real, 1.5);
+}
+
+}  // namespace
+}  // namespace lumel

@@ -1,0 +1,196 @@
+// Light on both sides of surfaces without thickness, and where the map has it.
+
+#include "../support/temporary_folder.h"
+#include "atlas/finish/finish.h"
+#include "atlas/lumels/sides.h"
+#include "jobs/edit/solution_file.h"
+#include "paper_house.h"
+#include "solved.h"
+
+namespace lumel {
+namespace {
+
+using namespace test;
+
+constexpr float kSun = 1000.0f;     // [lx]
+constexpr double kSunHeight = 0.8;  // sine of its elevation
+
+Scene house_with(bool double_sided, bool bulb, bool sun)
+{
+    Scene scene = paper_house(double_sided);
+    if (bulb)
+        add_bulb(scene);
+    if (sun)
+        scene.lights.push_back(support::make_lamp(PunctualLight::Kind::directional, kSun, {0, 0, 0},
+                                                  {0.6f, -float(kSunHeight), 0.0f}));
+    return scene;
+}
+
+constexpr std::uint32_t kCeiling = 3, kFirstOfBlock = 6;  // instances
+
+const SolverOptions kLinks{.method = LinksOptions{}, .target_error = 0.01};
+
+double mean(const Prepared& world, const std::vector<glm::vec3>& light, std::uint32_t instance,
+            bool back)
+{
+    double sum = 0.0, area = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Lumel& lumel = world.lumels.lumels[i];
+        if (lumel.instance != instance || is_back(lumel) != back)
+            continue;
+        sum += double(light[i].g) * double(lumel.area);
+        area += double(lumel.area);
+    }
+    return sum / area;
+}
+
+TEST(Sides, ShowIndoorLightIndoorsAndDaylightOutdoors)
+{
+    const Prepared house(house_with(true, true, true), AtlasOptions{.size = 96});
+    const Prepared room(house_with(false, true, false), AtlasOptions{.size = 96});
+    const std::vector<glm::vec3> light = support::solve_scene(house, kLinks).irradiance,
+                                 indoors = support::solve_scene(room, kLinks).irradiance;
+    const Image map = finish_map(house.scene, house.atlas, house.lumels, light);
+    // As lumels have it: what is seen from inside is as if there was no sun, and the roof has the
+    // sun alone.
+    const double ceiling = mean(room, indoors, kCeiling, false);
+    EXPECT_NEAR(mean(house, light, kCeiling, false), ceiling, 0.02 * ceiling);
+    EXPECT_NEAR(mean(house, light, kCeiling, true), kSun * kSunHeight, 1e-3 * kSun);
+    // As the map has it, each side at its own place.
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        const Lumel& lumel = house.lumels.lumels[i];
+        if (lumel.instance != kCeiling)
+            continue;
+        const std::uint32_t texel = map_texel(house.lumels, lumel);
+        const double shown = double(map.values[4 * std::size_t(texel) + 1]);
+        if (is_back(lumel)) {
+            EXPECT_NEAR(shown, kSun * kSunHeight, 1e-2 * kSun) << texel;
+        } else {
+            EXPECT_LT(shown, 0.5 * kSun * kSunHeight) << texel;
+        }
+        EXPECT_GT(map.values[4 * std::size_t(texel) + 3], 0.0f);
+    }
+}
+
+std::vector<char> charts_with_own_back(const Prepared& world, std::uint32_t first_instance,
+                                       std::uint32_t end_instance)
+{
+    std::vector<char> own;
+    for (const Surface& surface : world.atlas.surfaces)
+        if (surface.instance >= first_instance && surface.instance < end_instance)
+            own.push_back(has_own_back(world.atlas, surface));
+    return own;
+}
+
+/// The same under a sky, which all walls see from outside.
+Scene house_under_sky()
+{
+    Scene scene = house_with(true, true, true);
+    scene.sky = support::even_sky(glm::vec3(100.0f));
+    return scene;
+}
+
+TEST(Sides, HaveTexelsOfTheirOwnWhereLightReachesBoth)
+{
+    const std::vector<char> all(6, 1), none(6, 0), roof_and_sunny_wall = {1, 0, 0, 1, 0, 0};
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), all);
+    EXPECT_EQ(charts_with_own_back(house, kFirstOfBlock, 12), none) << "a closed solid";
+    const Prepared sunny(house_with(true, true, true), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(sunny, 0, kFirstOfBlock), roof_and_sunny_wall);
+    const Prepared dark(house_with(true, false, true), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(dark, 0, kFirstOfBlock), none) << "no light inside";
+    const Prepared void_outside(house_with(true, true, false), AtlasOptions{.size = 96});
+    EXPECT_EQ(charts_with_own_back(void_outside, 0, kFirstOfBlock), none) << "none outside";
+}
+
+TEST(Sides, AreLitByOneLampAmongMany)
+{
+    Scene street = house_with(true, true, false);
+    for (int i = 0; i < 5000; ++i)
+        street.lights.push_back(
+            support::make_lamp(PunctualLight::Kind::point, kBulb,
+                               {8.0f + float(i % 71), 2.0f, 8.0f + float(i / 71)}, {0, -1, 0}));
+    const Prepared house(street, AtlasOptions{.size = 96});
+    const std::vector<char> lit_outside = {0, 1, 0, 0, 0, 1};  // that face the street
+    EXPECT_EQ(charts_with_own_back(house, 0, kFirstOfBlock), lit_outside);
+}
+
+// One mesh with a layout of its own, whose primitives differ.
+TEST(Sides, OfASingleSidedPartHaveNoBack)
+{
+    Scene scene = house_with(true, true, true);
+    Mesh& mesh = scene.meshes[kCeiling];
+    Primitive other = mesh.primitives.front();
+    for (glm::vec3& position : other.positions)
+        position.y += 1.0f;
+    other.material = int(scene.materials.size());
+    scene.materials.emplace_back();
+    mesh.primitives.front().texcoords[1] = {{0, 0}, {0.4f, 0}, {0.4f, 1}, {0, 1}};
+    other.texcoords[1] = {{0.6f, 0}, {1, 0}, {1, 1}, {0.6f, 1}};
+    mesh.primitives.push_back(other);
+    scene.sky = support::even_sky(glm::vec3(100.0f));
+    const Prepared house(scene, AtlasOptions{.size = 96});
+    std::vector<char> own;
+    for (const Surface& surface : house.atlas.surfaces)
+        if (surface.instance == kCeiling) {
+            EXPECT_TRUE(surface.authored);
+            own.push_back(has_own_back(house.atlas, surface));
+        }
+    EXPECT_EQ(own, (std::vector<char>{1, 0}));
+}
+
+TEST(Sides, AreAsAskedFor)
+{
+    const auto own = [](Sides sides) {
+        const Prepared house(house_with(true, true, true),
+                             AtlasOptions{.size = 96, .sides = sides});
+        return charts_with_own_back(house, 0, 12);
+    };
+    EXPECT_EQ(own(Sides::both), std::vector<char>(12, 1));
+    EXPECT_EQ(own(Sides::brighter), std::vector<char>(12, 0));
+    EXPECT_EQ(own(Sides::front), std::vector<char>(12, 0));
+}
+
+TEST(Sides, OfTheFrontAloneShowTheFront)
+{
+    const Prepared house(house_with(true, true, true),
+                         AtlasOptions{.size = 64, .sides = Sides::front});
+    std::vector<glm::vec3> light;
+    for (const Lumel& lumel : house.lumels.lumels)
+        light.emplace_back(is_back(lumel) ? 2.0f : 1.0f);
+    const Image map = to_map(house.lumels, light);
+    for (std::size_t texel = 0; texel < house.lumels.coverage.size(); ++texel)
+        EXPECT_EQ(map.values[4 * texel], house.lumels.coverage[texel] > 0.0f ? 1.0f : 0.0f);
+}
+
+TEST(Sides, AreFoundAgainInTheSolutionAndOutsideOfItRefused)
+{
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    Lumels lumels = house.lumels;
+    const std::vector<glm::vec3> light(lumels.lumels.size(), glm::vec3(1.0f));
+    const test::TemporaryFolder folder;
+    const std::string path = folder / "solution.exr";
+    write_solution(path, lumels, light, house.open);
+    const StoredSolution solution = read_solution(path);
+    ASSERT_EQ(solution.charts.back_shift.size(), lumels.back_shift.size());
+    EXPECT_EQ(solution.charts.back_shift, lumels.back_shift);
+    for (const glm::ivec2& strange : {glm::ivec2(95, 0), glm::ivec2(0, -96)}) {
+        lumels.back_shift.assign(lumels.back_shift.size(), strange);
+        write_solution(path, lumels, light, house.open);
+        EXPECT_THROW(read_solution(path), Error);
+    }
+}
+
+TEST(Sides, ShareNoTexel)
+{
+    const Prepared house(house_under_sky(), AtlasOptions{.size = 96});
+    std::vector<int> lumels_at(house.lumels.coverage.size(), 0);
+    for (const Lumel& lumel : house.lumels.lumels)
+        if (lumel.instance < kFirstOfBlock)
+            ++lumels_at[map_texel(house.lumels, lumel)];
+    EXPECT_EQ(*std::max_element(lumels_at.begin(), lumels_at.end()), 1);
+}
+
+}  // namespace
+}  // namespace lumel

@@ -1,0 +1,153 @@
+// Links whose rays are cast by drawing, against those of the host.
+
+#include "../../jobs/solved.h"
+#include "../query/rooms.h"
+
+namespace lumel {
+namespace {
+
+/// As many rays for all: an error to stop at may be reached a round earlier by one of them.
+support::Solved solved(const Prepared& world, const LinksOptions& method, std::uint64_t rays)
+{
+    return support::solve_scene(world, {.method = method, .max_shots = rays, .target_error = 0.0});
+}
+
+/// Mean of |difference| in terms of the mean.
+double apart(const std::vector<glm::vec3>& one, const std::vector<glm::vec3>& other)
+{
+    double difference = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            difference += std::abs(double(one[i][c]) - double(other[i][c]));
+            sum += double(other[i][c]);
+        }
+    return difference / sum;
+}
+
+double power(const Lumels& lumels, const std::vector<glm::vec3>& light)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i)
+        sum += double(lumels.lumels[i].area) * double(light[i].r + light[i].g + light[i].b);
+    return sum;
+}
+
+/// The host is asked for the same rays.
+void expect_agreement(const Prepared& world)
+{
+    constexpr std::uint64_t kRays = 48;
+    const support::Solved raster = solved(world, {.rays = Rays::raster}, kRays);
+    const support::Solved host =
+        solved(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
+    EXPECT_EQ(raster.state.shots, host.state.shots);
+    const double difference = apart(raster.irradiance, host.irradiance);
+    std::printf("%.5f %% apart\n", 100.0 * difference);
+    EXPECT_LE(difference, 0.005);
+    // A few lumels hold much of an error: one ray that rounding sends elsewhere tells.
+    EXPECT_NEAR(raster.state.error, host.state.error, 0.05 * host.state.error);
+}
+
+/// Directions that lumels share bring the light that directions of their own bring. By the host,
+/// for so many rays that noise does not hide a difference.
+void expect_the_same_level(const Prepared& world)
+{
+    constexpr std::uint64_t kRays = 1536;
+    const support::Solved own = solved(world, {.rays = Rays::host}, kRays);
+    const support::Solved shared =
+        solved(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
+    const double more =
+        power(world.lumels, shared.irradiance) / power(world.lumels, own.irradiance) - 1.0;
+    std::printf("%.3f %% more light, %.2f and %.2f %% stated\n", 100.0 * more,
+                100.0 * shared.state.error, 100.0 * own.state.error);
+    EXPECT_NEAR(more, 0.0, 0.005);
+    EXPECT_NEAR(shared.state.error, own.state.error, 0.5 * own.state.error);
+}
+
+TEST(LinksByRaster, LightTheCornellBoxAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("cornell-box"), {.size = 64}));
+}
+
+TEST(LinksByRaster, LightTwoRoomsAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("two-rooms"), {.size = 64}));
+}
+
+TEST(LinksByRaster, LightAFurnishedRoomAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::scene_path("room"), {.size = 96}));
+}
+
+TEST(LinksByRaster, PassGlassCutOutsAndVeilsAsTheHostDoes)
+{
+    expect_agreement(Prepared(support::room_with_curtains(), {.size = 48}));
+}
+
+TEST(LinksByRaster, LeaveASealedBoxExactlyDarkUnderSkyAndSun)
+{
+    LightOptions lights{.sky_color = glm::vec3(1e4f)};
+    set_sun(lights, "200,40");
+    const Scene scene =
+        read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse, lights);
+    const Prepared world(scene, AtlasOptions{.size = 64});
+    const std::vector<glm::vec3> light = solved(world, {.rays = Rays::raster}, 96).irradiance;
+    float brightest = 0.0f;
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+        brightest = std::max(brightest, light[i].g);
+        if (scene.instances[world.lumels.lumels[i].instance].name != "box inside")
+            continue;
+        ++inside;
+        EXPECT_EQ(light[i], glm::vec3(0.0f)) << "lumel " << i;
+    }
+    EXPECT_GT(inside, 50u);
+    EXPECT_GT(brightest, 1e4f);
+}
+
+TEST(SharedDirections, LightTheCornellBoxAsOwnOnesDo)
+{
+    expect_the_same_level(Prepared(support::scene_path("cornell-box"), {.size = 64}));
+}
+
+TEST(SharedDirections, PassGlassCutOutsAndVeilsAsOwnOnesDo)
+{
+    expect_the_same_level(Prepared(support::room_with_curtains(), {.size = 48}));
+}
+
+/// One set of directions for all lumels leaves its pattern in the light, which the filter takes for
+/// true. Sixteen do not, nor do they cost accuracy.
+TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
+{
+    const Prepared world(support::scene_path("cornell-box"), {.size = 128});
+    // Two of them, so that their own noise does not count.
+    const auto truth = [&](std::uint32_t seed) {
+        return solved(world, {.seed = seed, .rays = Rays::host}, 384).irradiance;
+    };
+    const std::vector<glm::vec3> first = truth(101), second = truth(102);
+    const auto error = [&](std::uint32_t interleaved) {
+        double square = 0.0;
+        constexpr std::uint32_t kSeeds = 4;
+        for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+            const LinksOptions method{.seed = seed, .rays = Rays::host, .interleaved = interleaved};
+            const double one =
+                support::error_alone(solved(world, method, 96).irradiance, first, second);
+            square += one * one / kSeeds;
+        }
+        return std::sqrt(square);
+    };
+    const double own = error(0), one_set = error(1), sets = error(kInterleaved);
+    std::printf("own %.3f %%, one set %.3f %%, sixteen %.3f %%\n", 100.0 * own, 100.0 * one_set,
+                100.0 * sets);
+    EXPECT_LE(sets, 1.1 * own);
+    EXPECT_GE(one_set, 1.2 * sets);
+}
+
+TEST(LinksByRaster, GiveTheSameBytesAgain)
+{
+    const Prepared world(support::scene_path("cornell-box"), {.size = 32});
+    EXPECT_EQ(solved(world, {.rays = Rays::raster}, 48).irradiance,
+              solved(world, {.rays = Rays::raster}, 48).irradiance);
+}
+
+}  // namespace
+}  // namespace lumel
