@@ -240,7 +240,7 @@ constexpr NotReproduced kNotReproduced[] = {
     {"[BJ04]", "Figure 8", "time of an iteration at 1024²", "in a full run only; the paper's curve has no numbers in its text"},
     {"[BJ04]", "Section 4", "120 to 150 ms an iteration, 20 to 30 ms without read-back", "milliseconds of another device; the page compares their ratios"},
     {"[BSS05]", "Figure 1", "the picture with its times, 100 iterations at 128²", "lumel render --scheme paper makes it; the scene and the milliseconds are others"},
-    {"[BSS05]", "Figure 2", "9 s for specular objects in a diffuse room", "our picture is in docs/papers.md, its time beside the paper's is not measured"},
+    {"[BSS05]", "Figure 2", "9 s for specular objects in a diffuse room", "our picture is in bench/papers.md, its time beside the paper's is not measured"},
     {"[BSS05]", "Section 6", "under 20 ms an iteration at 128²; 0.5 to 1 frames a second", "milliseconds of another device"},
     {"[TN11]", "Figure 8", "the pictures", "numbers only"},
     {"[TN11]", "Figure 9 (d)", "Sponza, 5 × 5 lookups, 1024²", "the scene is not in the repository; directions --sponza FILE makes its row"},

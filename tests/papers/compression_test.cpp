@@ -32,7 +32,7 @@ double saving(const MatrixCase& matrix_case, std::size_t bytes)
 
 // "requires 3 times less memory" [SF17], at the paper's 4 %, offset of 25, and with its exact part.
 // The error guards what is reached, 2.7 %; the bar of 2 % for "hardly differs" is missed
-// (docs/papers.md).
+// (bench/papers.md).
 void expect_papers_blocks(const MatrixCase& matrix_case)
 {
     const CodedMatrix coded = encode(matrix_case.bounces, {.code = Code::bc1, .mend = false});

@@ -86,7 +86,7 @@ std::string moved_name(const testing::TestParamInfo<Moved>& test)
 }
 
 // Scenes of [Hoef13] section 5.1; hemicubes of 64² are the thesis'. In its indirect scene the box
-// changes less light than the error allowed: see docs/papers.md.
+// changes less light than the error allowed: see bench/papers.md.
 INSTANTIATE_TEST_SUITE_P(
     By, MovedBox,
     testing::Values(
