@@ -14,7 +14,7 @@ Option option_of(GivenMethod& given, const OptionInfo& info, const std::string& 
 {
     const std::string name = info.name;
     return {.names = "--" + name,
-            .type = info.type,
+            .type = info.type(),
             .help = info.help,
             .default_value = default_value,
             .target = [&given, name](const std::string& value) { given.values[name] = value; }};
@@ -22,7 +22,7 @@ Option option_of(GivenMethod& given, const OptionInfo& info, const std::string& 
 
 std::string default_of(const MethodInfo& method, const std::string& option)
 {
-    return method.option(option)->get(method.defaults());
+    return get_option(method.defaults(), *method.option(option));
 }
 
 bool among(const std::vector<std::string_view>& names, std::string_view name)

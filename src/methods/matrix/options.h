@@ -3,13 +3,16 @@
 
 #include <cstdint>
 
-#include "solve/transport/transport.h"
+#include "solve/transport/transport_options.h"
 
 namespace lumel {
 
 struct MatrixOptions {
     std::uint32_t seed = 1;
-    TransportOptions transport;
+    TransportOptions transport{
+        .views = {.projection = Projection::hemicube, .hemicube = 256, .batch = 16},
+        .patches = 2048,
+        .bounces = 0};
 };
 
 }  // namespace lumel

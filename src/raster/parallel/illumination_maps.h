@@ -14,17 +14,12 @@
 #include "raster/parallel/illumination.stochastic.cut_out.raster.h"
 #include "raster/parallel/illumination.stochastic.raster.h"
 #include "raster/parallel/illumination_maps.shared.h"
+#include "raster/parallel/layers.h"
 #include "raster/parallel/parallel_views.h"
 #include "raster/world/surface_rasters.h"
 #include "raster/world/world.h"
 
 namespace lumel {
-
-enum class Layers : std::uint32_t {
-    stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
-    list = kListedLayers,            ///< every surface, in a list for each pixel
-    peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
-};
 
 /// Maps of a direction that is cut into this number of slabs: one of each slab, and
 /// one of what lies beyond each but the nearest to the light.

@@ -15,22 +15,11 @@
 #include "solve/shooting/iteration.fade.comp.h"
 #include "solve/shooting/iteration.polish.comp.h"
 #include "solve/shooting/iteration.shared.h"
+#include "solve/shooting/iteration_options.h"
 #include "solve/shooting/lumel_sums.h"
 #include "solve/solver/solver_state.h"
 
 namespace lumel {
-
-enum class Scheme {
-    phased,  ///< source frozen in phases of doubling length, near pairs exact (the default)
-    paper,   ///< the papers' iteration: random shooters, running average, no near field
-};
-
-struct IterationOptions {
-    Scheme scheme = Scheme::phased;
-    /// With Scheme::paper: the part of the solution that each shot replaces, [TN11] section 5
-    /// (0.01), so that light that changes is followed. 0: the mean of all shots, which converges.
-    double leak = 0.0;
-};
 
 /// Averages of a transport that acts, batch by batch, on E and on a source X of reflected light.
 /// A transport adds T* E of a batch to the half-solution half() of direct(), T* X to that of

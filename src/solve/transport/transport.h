@@ -4,15 +4,10 @@
 #include "solve/matrix/color_matrix.h"
 #include "solve/transport/form_factors.h"
 #include "solve/transport/lumel_rows.h"
+#include "solve/transport/transport_options.h"
 #include "solve/transport/voxel_patches.h"
 
 namespace lumel {
-
-struct TransportOptions {
-    ViewOptions views;
-    std::uint32_t patches = 2048;  ///< n at most
-    std::uint32_t bounces = 0;     ///< k, reflections that count, 0: all
-};
 
 /// What light does between the patches of a scene, whatever lights it.
 struct Transport {
