@@ -51,12 +51,13 @@ ConeSample draw_from_cone(const glm::vec3& axis, float squared_sine, float cosin
 
 }  // namespace
 
-glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
-                  float offset, std::uint32_t seed)
+glm::vec3 transmittance(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                        float offset, std::uint32_t seed)
 {
     return std::isinf(lamp.distance)
-               ? rays.passing_out(position, lamp.direction, seed)
-               : rays.passing(position, position + lamp.distance * lamp.direction, offset, seed);
+               ? rays.transmittance_out(position, lamp.direction, seed)
+               : rays.transmittance(position, position + lamp.distance * lamp.direction, offset,
+                                    seed);
 }
 
 Lamps::Lamps(const Scene& scene) : scene_(&scene)

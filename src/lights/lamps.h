@@ -21,9 +21,10 @@ struct LampSample {
     glm::vec3 illuminance{0.0f};  ///< estimate [lx] for a plane that faces the direction
 };
 
-/// What of a lamp's light gets through to a point [0…1]. offset: as RayScene::passing takes it.
-glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
-                  float offset, std::uint32_t seed);
+/// What of a lamp's light gets through to a point [0…1]. offset: as RayScene::transmittance takes
+/// it.
+glm::vec3 transmittance(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                        float offset, std::uint32_t seed);
 
 class Lamps {
 public:

@@ -35,8 +35,8 @@ public:
     }
     void cast(const RayCaster& caster)
     {
-        passing_.resize(rays_.size());
-        caster.passing(rays_, passing_);
+        transmittance_.resize(rays_.size());
+        caster.transmittance(rays_, transmittance_);
     }
     void clear()
     {
@@ -47,9 +47,9 @@ public:
 
     const SourceSample& sample(std::size_t look) const { return samples_[look]; }
     /// Once all are cast: what of it gets through [0…1].
-    glm::vec3 passing(std::size_t look) const
+    glm::vec3 transmittance(std::size_t look) const
     {
-        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : passing_[ray_of_[look]];
+        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : transmittance_[ray_of_[look]];
     }
 
 private:
@@ -57,7 +57,7 @@ private:
     std::vector<SourceSample> samples_;  ///< [looks]
     std::vector<std::uint32_t> ray_of_;  ///< [looks]
     std::vector<RaySpan> rays_;
-    std::vector<glm::vec3> passing_;  ///< [rays]
+    std::vector<glm::vec3> transmittance_;  ///< [rays]
 };
 
 }  // namespace lumel

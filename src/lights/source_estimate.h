@@ -24,7 +24,7 @@ struct SourceEstimate {
     std::uint32_t rays = 0, free = 0, hidden = 0;
     bool exact = true;
 
-    void add(const SourceSample& sample, const glm::vec3& passing)
+    void add(const SourceSample& sample, const glm::vec3& transmittance)
     {
         const float offer = float(luminance(sample.irradiance));
         ++rays;
@@ -32,11 +32,11 @@ struct SourceEstimate {
             open += *sample.open;
         else
             exact = false;
-        passed += passing * sample.irradiance;
+        passed += transmittance * sample.irradiance;
         offered += offer;
-        seen += passing * offer;
+        seen += transmittance * offer;
         if (offer > 0.0f)
-            ++(passing == glm::vec3(0.0f) ? hidden : free);
+            ++(transmittance == glm::vec3(0.0f) ? hidden : free);
     }
     glm::vec3 light() const
     {

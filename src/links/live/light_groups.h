@@ -88,7 +88,8 @@ private:
     Found by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
     Found by_many(const Emitter& sender, std::uint32_t stream, std::size_t lumel) const;
     RayOrigin start_of(std::size_t lumel, std::uint32_t ray) const;
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;
     bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
     bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;

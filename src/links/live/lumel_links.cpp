@@ -165,7 +165,7 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
     for (const LinkChanges::Moved& moved : changes.moved)
         for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
             const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
-            if (moved.tree.passing(ray) != glm::vec3(0.0f))
+            if (moved.tree.transmittance(ray) != glm::vec3(0.0f))
                 return;
             links[k] = end_of(rays_of, k);
             ++count.crossed;

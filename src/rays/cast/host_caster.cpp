@@ -20,11 +20,12 @@ public:
                 hits[i].distance = kNothing;
     }
 
-    void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const override
+    void transmittance(std::span<const RaySpan> rays,
+                       std::span<glm::vec3> transmittance) const override
     {
-        assert(rays.size() == passing.size());
+        assert(rays.size() == transmittance.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
-            passing[i] = rays_.passing(rays[i]);
+            transmittance[i] = rays_.transmittance(rays[i]);
     }
 
     std::size_t batch() const override { return kBatch; }

@@ -21,9 +21,10 @@ public:
     virtual void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const = 0;
     static constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-    /// passing [rays]: the part of light that gets along each ray: 0 if something is in between,
-    /// else the product of the tints.
-    virtual void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const = 0;
+    /// transmittance [rays]: the part of light that gets along each ray: 0 if something is in
+    /// between, else the product of the tints.
+    virtual void transmittance(std::span<const RaySpan> rays,
+                               std::span<glm::vec3> transmittance) const = 0;
 
     /// Rays of a batch that make good use of it.
     virtual std::size_t batch() const = 0;

@@ -190,7 +190,7 @@ RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t
     return {from, 0.0f, direction, std::numeric_limits<float>::max(), seed};
 }
 
-glm::vec3 RayScene::passing(const RaySpan& ray) const
+glm::vec3 RayScene::transmittance(const RaySpan& ray) const
 {
     if (!(ray.far > ray.near))
         return glm::vec3(1.0f);
@@ -198,27 +198,27 @@ glm::vec3 RayScene::passing(const RaySpan& ray) const
                       ray.seed);
 }
 
-glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
-                            std::uint32_t seed) const
+glm::vec3 RayScene::transmittance(const glm::vec3& from, const glm::vec3& to, float offset,
+                                  std::uint32_t seed) const
 {
-    return passing(ray_between(from, to, offset, seed));
+    return transmittance(ray_between(from, to, offset, seed));
 }
 
-glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,
-                                std::uint32_t seed) const
+glm::vec3 RayScene::transmittance_out(const glm::vec3& from, const glm::vec3& direction,
+                                      std::uint32_t seed) const
 {
-    return passing(ray_out(from, direction, seed));
+    return transmittance(ray_out(from, direction, seed));
 }
 
 bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
                     std::uint32_t seed) const
 {
-    return passing(from, to, offset, seed) != glm::vec3(0.0f);
+    return transmittance(from, to, offset, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const
 {
-    return passing_out(from, direction, seed) != glm::vec3(0.0f);
+    return transmittance_out(from, direction, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
@@ -272,8 +272,9 @@ bool RayScene::may_let_pass(std::size_t part) const
     return may_be_transparent(from.scene->materials[from.source->material], *from.source);
 }
 
-std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t triangle,
-                                           const glm::vec2& barycentric, std::uint32_t seed) const
+std::optional<glm::vec3> RayScene::transmittance(std::size_t part, std::uint32_t triangle,
+                                                 const glm::vec2& barycentric,
+                                                 std::uint32_t seed) const
 {
     return tint_through(trees_->parts()[part], triangle, barycentric, seed);
 }

@@ -74,11 +74,11 @@ public:
 
     /// The part of light that passes from one point to the other, or out along a unit direction:
     /// 0 if something is hit, else the product of the tints.
-    glm::vec3 passing(const glm::vec3& from, const glm::vec3& to, float offset,
-                      std::uint32_t seed) const;
-    glm::vec3 passing_out(const glm::vec3& from, const glm::vec3& direction,
-                          std::uint32_t seed) const;
-    glm::vec3 passing(const RaySpan& ray) const;
+    glm::vec3 transmittance(const glm::vec3& from, const glm::vec3& to, float offset,
+                            std::uint32_t seed) const;
+    glm::vec3 transmittance_out(const glm::vec3& from, const glm::vec3& direction,
+                                std::uint32_t seed) const;
+    glm::vec3 transmittance(const RaySpan& ray) const;
 
     /// First hit along a unit direction with distance in (near, far), or false.
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
@@ -96,8 +96,8 @@ public:
     bool may_let_pass(std::size_t part) const;                       ///< MASK, BLEND or glass
 
     /// The tint of what passes a triangle at a point of it; empty if a ray of this seed meets it.
-    std::optional<glm::vec3> passing(std::size_t part, std::uint32_t triangle,
-                                     const glm::vec2& barycentric, std::uint32_t seed) const;
+    std::optional<glm::vec3> transmittance(std::size_t part, std::uint32_t triangle,
+                                           const glm::vec2& barycentric, std::uint32_t seed) const;
 
     /// A hit, by what is known of it.
     RayHit hit(std::size_t part, std::uint32_t triangle, const glm::vec2& barycentric,

@@ -251,7 +251,7 @@ void BundleCaster::Data::take(const BundleHit& one, const RaySpan& ray, RayHit& 
         return;
     const auto [part, triangle] = triangles.place(one.triangle);
     if (one.triangle >= triangles.solid())
-        if (const auto tint = rays.passing(part, triangle, one.barycentric, ray.seed)) {
+        if (const auto tint = rays.transmittance(part, triangle, one.barycentric, ray.seed)) {
             RaySpan behind = ray;
             behind.near = kBehind * one.distance;
             if (!(behind.far > behind.near) || !rays.closest(behind, hit))

@@ -75,17 +75,18 @@ public:
     }
 
     void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const override;
-    void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const override;
+    void transmittance(std::span<const RaySpan> rays,
+                       std::span<glm::vec3> transmittance) const override;
     std::size_t batch() const override { return kBatch; }
     const char* name() const override { return "query"; }
 
 private:
     bool has_passable() const { return triangles_.solid() < triangles_.count(); }
     /// The tint of what gets through; empty if the ray ends here.
-    std::optional<glm::vec3> passing(const CastHit& hit, std::uint32_t seed) const
+    std::optional<glm::vec3> transmittance(const CastHit& hit, std::uint32_t seed) const
     {
         const auto [part, triangle] = triangles_.place(hit.triangle);
-        return rays_.passing(part, triangle, hit.barycentric, seed);
+        return rays_.transmittance(part, triangle, hit.barycentric, seed);
     }
     std::vector<CastHit> cast(std::span<const CastRay> rays, std::uint32_t wanted) const;
     void cast_at_once(std::span<const CastRay> rays, std::uint32_t wanted,
@@ -119,7 +120,7 @@ void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits)
                 continue;
             const std::uint32_t i = going.which[n];
             if (one.triangle >= triangles_.solid())
-                if (const auto tint = passing(one, rays[i].seed)) {
+                if (const auto tint = transmittance(one, rays[i].seed)) {
                     hits[i].tint *= *tint;
                     next.add(i, rays[i], kBehind * one.distance);
                     continue;
@@ -133,19 +134,20 @@ void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits)
     }
 }
 
-void QueryCaster::passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const
+void QueryCaster::transmittance(std::span<const RaySpan> rays,
+                                std::span<glm::vec3> transmittance) const
 {
-    assert(rays.size() == passing.size());
+    assert(rays.size() == transmittance.size());
     Going all, going;
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        passing[i] = glm::vec3(1.0f);
+        transmittance[i] = glm::vec3(1.0f);
         all.add(i, rays[i], rays[i].near);
     }
     const std::vector<CastHit> solid = cast(all.rays, kAnySolid);
     for (std::size_t n = 0; n < solid.size(); ++n) {
         const std::uint32_t i = all.which[n];
         if (solid[n].triangle != kNoTriangle)
-            passing[i] = glm::vec3(0.0f);
+            transmittance[i] = glm::vec3(0.0f);
         else if (has_passable())
             going.add(i, rays[i], rays[i].near);
     }
@@ -156,8 +158,8 @@ void QueryCaster::passing(std::span<const RaySpan> rays, std::span<glm::vec3> pa
             if (found[n].triangle == kNoTriangle)
                 continue;
             const std::uint32_t i = going.which[n];
-            const std::optional<glm::vec3> tint = this->passing(found[n], rays[i].seed);
-            passing[i] *= tint.value_or(glm::vec3(0.0f));
+            const std::optional<glm::vec3> tint = this->transmittance(found[n], rays[i].seed);
+            transmittance[i] *= tint.value_or(glm::vec3(0.0f));
             if (tint)
                 next.add(i, rays[i], kBehind * found[n].distance);
         }
