@@ -13,7 +13,7 @@ namespace {
 
 /// Lumels worth a task: all of their light, and that which a move may change.
 constexpr std::size_t kGrain = 256, kFollowed = 64;
-/// Lumels between two looks at the watch.
+/// Lumels between two progress reports.
 constexpr std::size_t kStep = 16384;
 /// A sender of more sources chooses among them for each ray, by what they may send.
 constexpr std::size_t kMaxAlone = 8;
@@ -23,7 +23,7 @@ constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
 }  // namespace
 
 LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                         const ProgressCallback& watch)
+                         const ProgressCallback& progress)
     : place_(place),
       options_(options)
 {
@@ -37,7 +37,7 @@ LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& op
     this->place();
     const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
     for (std::size_t g = 0; g < groups_.size(); ++g)
-        find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
+        find(groups_[g], part_of(progress, share * double(g), share * double(g + 1)));
 }
 
 void LightGroups::list_senders()
@@ -115,7 +115,7 @@ void LightGroups::make_room(Group& group) const
         group.off.resize(group.light.size());
 }
 
-void LightGroups::find(Group& group, const ProgressCallback& watch)
+void LightGroups::find(Group& group, const ProgressCallback& progress)
 {
     const std::size_t lumels = place_.lumels.lumels.size();
     make_room(group);
@@ -126,7 +126,7 @@ void LightGroups::find(Group& group, const ProgressCallback& watch)
                 find_at(group, i);
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels));
+            notify(progress, double(done) / double(lumels));
             return true;
         });
     summed_ = false;
