@@ -1,5 +1,5 @@
 #pragma once
-// Shadow rays, queued singly, cast in batches.
+// Shadow rays, queued singly and traced in batches.
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// From a point to where a sample of a source is. ray_offset: short of it [m].
+/// Segment from a point to a source sample, shortened by ray_offset [m].
 inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, float ray_offset,
                            std::uint32_t seed)
 {
@@ -24,7 +24,7 @@ class ShadowRays {
 public:
     std::uint32_t size() const { return std::uint32_t(samples_.size()); }
 
-    /// Adds a look at what a source sends along a ray, which is not cast where that is nothing.
+    /// Queues the shadow ray of a sample. Samples of no light are not traced.
     void add(const SourceSample& sample, const RaySpan& ray)
     {
         const bool dark = sample.irradiance == glm::vec3(0.0f);
@@ -46,7 +46,7 @@ public:
     }
 
     const SourceSample& sample(std::size_t look) const { return samples_[look]; }
-    /// Once all are cast: what of it gets through [0…1].
+    /// Transmittance of shadow ray `look`, 0…1. Call cast() first.
     glm::vec3 transmittance(std::size_t look) const
     {
         return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : transmittance_[ray_of_[look]];
