@@ -5,7 +5,7 @@
 namespace lumel {
 namespace {
 
-/// What is known of so many rays stays in the caches of a core.
+/// Data of this many rays fit in the caches of a core.
 constexpr std::size_t kBatch = 256;
 
 class HostCaster final : public RayCaster {

@@ -1,6 +1,6 @@
-// The device knows triangles only. Surfaces that may let light pass are decided about here, by the
-// rule and the random numbers of RayScene, so that both casters agree; a ray that passes goes on
-// from just behind.
+// The GPU only has triangles. The CPU decides about surfaces that may transmit light, by the rule
+// and the random numbers of RayScene, so that both casters agree. A transmitted ray continues just
+// behind its hit.
 
 #include "rays/device/query_caster.h"
 
@@ -19,12 +19,12 @@
 namespace lumel {
 namespace {
 
-/// Enough to keep a device busy for longer than it takes to begin.
+/// Enough work to hide the start-up cost of a dispatch.
 constexpr std::size_t kBatch = std::size_t(1) << 15;
-/// Rays of one dispatch, at most.
+/// Maximum rays per dispatch.
 constexpr std::size_t kMaxRays = 4 * kBatch;
-/// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
-/// not meet it again.
+/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
+/// same surface again.
 constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 constexpr float kFar = std::numeric_limits<float>::max();
 
@@ -44,7 +44,7 @@ gpu::TriangleTree make_tree(const gpu::Device& device, const RayScene& rays,
     return {device, mesh.positions, lists};
 }
 
-/// Rays that are still on their way, of a longer list.
+/// Unfinished rays of a longer list.
 struct Going {
     std::vector<CastRay> rays;
     std::vector<std::uint32_t> which;  ///< [rays] in that list
@@ -53,7 +53,7 @@ struct Going {
     {
         if (!(ray.far > near))
             return;
-        // What lies at the very end of a ray counts, as it does on the host.
+        // Hits at the very end of a ray count, as on the CPU.
         rays.push_back({ray.origin, near, ray.direction, std::min(kBehind * ray.far, kFar)});
         which.push_back(i);
     }
@@ -82,7 +82,7 @@ public:
 
 private:
     bool has_passable() const { return triangles_.solid() < triangles_.count(); }
-    /// The tint of what gets through; empty if the ray ends here.
+    /// The tint of transmitted light; nullopt if the ray ends here.
     std::optional<glm::vec3> transmittance(const CastHit& hit, std::uint32_t seed) const
     {
         const auto [part, triangle] = triangles_.place(hit.triangle);
@@ -96,7 +96,7 @@ private:
     DeviceTriangles triangles_;
     gpu::TriangleTree tree_;
     gpu::Kernel<shaders::QueryCasterCast> cast_;
-    mutable std::mutex mutex_;  ///< of what follows, and of the device
+    mutable std::mutex mutex_;  ///< protects the following members and the device
     mutable gpu::Commands commands_;
     mutable gpu::Array<CastRay> sent_, asked_;
     mutable gpu::Array<CastHit> found_, returned_;
