@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include "rays/embree.h"
 #include "scene/scene.h"
 
 namespace lumel {
