@@ -18,7 +18,7 @@ std::string memory_text(std::uint64_t bytes);
 /// Throws the Error{stopped} of work that ended before there was a result.
 [[noreturn]] void throw_stopped();
 
-/// Does work that a watch may stop. False if the caller has stopped it.
+/// Runs work that a progress callback may stop. False if the caller has stopped it.
 bool unless_stopped(const std::function<void()>& work);
 
 /// Follows a bake from stage to stage, and tells the progress function about it.
@@ -32,7 +32,7 @@ public:
     bool progress(double fraction, std::uint64_t shots = 0, double error = -1.0);
     /// Tells how far the current stage is. Throws Error{stopped} if the caller wants to stop: for
     /// stages before there is anything to keep.
-    ProgressCallback watch();
+    ProgressCallback callback();
     /// Passes on a fact about the current stage, in one line.
     void note(const std::string& text);
     /// Warns the user; the report has it too.

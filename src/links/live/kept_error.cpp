@@ -24,7 +24,7 @@ constexpr double kDark = 1.0 / 3.0;
 /// Light still to come to a half, as a part of all and of dark lumels' own: a twentieth of an error
 /// that is a percent.
 constexpr double kResidual = 5e-4;
-/// Lumels worth a task, and those of a sweep between two looks at the watch.
+/// Lumels worth a task, and those of a sweep between two progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
 /// Part of the time until the filter is judged, about.
 constexpr double kHalves = 0.4;
@@ -70,7 +70,7 @@ Half begun(const LightAtRest& light, std::uint32_t half)
 
 /// [N] Squares of what noise makes of each lumel, all channels together.
 std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     Half halves[2] = {begun(light, 0), begun(light, 1)};
     while (!halves[0].rests || !halves[1].rests) {
@@ -78,7 +78,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
             for (std::size_t k = first; k < last; ++k)
                 halves[k].step();
         });
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     }
     std::vector<float> noise(light.lumels.size(), 0.0f);
     parallel_for(noise.size(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -94,7 +94,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
 
 /// [N] Squares, of any sign, of what the filter gets wrong of each lumel.
 std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     const std::size_t count = light.lumels.size();
     std::array<std::vector<glm::vec3>, 4> quarters;
@@ -110,7 +110,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
     });
     filter.begin({std::move(quarters[0]), std::move(quarters[1])});
     while (!filter.step())
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     const std::vector<glm::vec3>&a = quarters[2], &b = quarters[3];
     std::vector<float> wrong(count, 0.0f);
     parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
@@ -135,11 +135,13 @@ struct Sums {
 
 }  // namespace
 
-KeptError error_of(const LightAtRest& light, DisplayFilter* filter, const ProgressCallback& watch)
+KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
+                   const ProgressCallback& progress)
 {
-    const std::vector<float> noise = noise_of(light, filter, part_of(watch, 0.0, kHalves));
-    const std::vector<float> wrong = filter ? wrong_of(light, *filter, part_of(watch, kHalves, 1.0))
-                                            : std::vector<float>(noise.size(), 0.0f);
+    const std::vector<float> noise = noise_of(light, filter, part_of(progress, 0.0, kHalves));
+    const std::vector<float> wrong = filter
+                                         ? wrong_of(light, *filter, part_of(progress, kHalves, 1.0))
+                                         : std::vector<float>(noise.size(), 0.0f);
     const auto sums_below = [&](double most) {
         Sums sums;
         for (std::size_t i = 0; i < noise.size(); ++i) {

@@ -30,6 +30,6 @@ struct LightAtRest {
 /// so that what bounces carry of their noise is in it. filter: null, or with the weights of H,
 /// which are others afterwards.
 KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
-                   const ProgressCallback& watch = {});
+                   const ProgressCallback& progress = {});
 
 }  // namespace lumel

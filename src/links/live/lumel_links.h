@@ -41,7 +41,7 @@ public:
     /// kept: links of the same scene or of one in which something stood elsewhere; then only those
     /// that may have changed are traced, and all of them are as if they had been.
     LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed,
-               const StoredLinks* kept = nullptr, const ProgressCallback& watch = {});
+               const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
 
     /// A thing has moved: of these lumels, traces again what starts on it, ended on it, or meets it
     /// now. Once all lumels have followed, links are as if all had been traced.
@@ -91,9 +91,9 @@ public:
 private:
     class Rays;
 
-    void trace_all(const ProgressCallback& watch);
+    void trace_all(const ProgressCallback& progress);
     void take_over(const StoredLinks& kept, const LinkChanges& changes,
-                   const ProgressCallback& watch);
+                   const ProgressCallback& progress);
     Retraced take_over(std::size_t lumel, const LinkChanges& changes);
     template <class Visit>
     void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,

@@ -36,7 +36,8 @@ public:
                         std::uint32_t& backs) const;
 
     /// The part of a sample's light that gets through; no ray is cast for none.
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
 
     const LightSources& sources() const { return sources_; }
     float ray_offset() const { return rays_.ray_offset(); }
