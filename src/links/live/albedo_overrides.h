@@ -15,8 +15,8 @@ class AlbedoOverrides {
 public:
     explicit AlbedoOverrides(const Lumels& lumels);
 
-    /// Sets the base colour of a material, which is multiplied by its texture. scene, atlas: those
-    /// of the lumels.
+    /// Sets the base colour of a material, which is multiplied by its texture. `scene` and `atlas`
+    /// belong to the lumels.
     void set(const Scene& scene, const Atlas& atlas, int material, const glm::vec3& colour);
 
     const std::vector<glm::vec3>& albedo() const { return albedo_; }  ///< [N] 0…1

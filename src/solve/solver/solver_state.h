@@ -11,7 +11,7 @@ struct SolverState {
     std::uint64_t iterations = 0;  ///< steps
     double error = -1.0;           ///< estimated relative RMSE of the irradiance, < 0: unknown
     /// RMSE of lumels below a third of the mean irradiance, relative to their own mean; < 0:
-    /// unknown
+    /// unknown.
     double dark_error = -1.0;
     bool full = false;   ///< memory is exhausted: further steps change nothing
     double begun = 0.0;  ///< progress to the first estimate, 0…1, if known
