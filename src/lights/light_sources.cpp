@@ -1,6 +1,7 @@
 #include "lights/light_sources.h"
 
 #include <algorithm>
+#include <set>
 
 namespace lumel {
 namespace {
@@ -25,15 +26,11 @@ std::string name_of(const Scene& scene, std::uint32_t instance)
 /// Instances with an emissive lumel that is open.
 std::vector<std::uint32_t> shining_instances(const Scene& scene, const Lumels& lumels)
 {
-    std::vector<char> shines(scene.instances.size(), 0);
+    std::set<std::uint32_t> shining;
     for (const Lumel& lumel : lumels.lumels)
         if (!(lumel.flags & kLumelBuried) && lumel.emission != glm::vec3(0.0f))
-            shines[lumel.instance] = 1;
-    std::vector<std::uint32_t> instances;
-    for (std::uint32_t i = 0; i < shines.size(); ++i)
-        if (shines[i])
-            instances.push_back(i);
-    return instances;
+            shining.insert(lumel.instance);
+    return {shining.begin(), shining.end()};
 }
 
 std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t instance)

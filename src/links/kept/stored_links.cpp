@@ -13,11 +13,11 @@ namespace {
                 "has other surfaces than those whose links were kept; bake the scene again");
 }
 
-/// [ends of kept] What each end of a link is now.
+/// [ends of kept] New number of each end of a link.
 std::vector<std::uint32_t> ends_now(const StoredLinks& kept, const Renumbering& now,
                                     std::uint32_t gone)
 {
-    constexpr std::uint32_t kFixed = 2;  // the sky, and nowhere
+    constexpr std::uint32_t kFixed = 2;  // the sky, and absorbed
     std::vector<std::uint32_t> ends = now.lumels;
     for (std::uint32_t e = 0; e < kFixed; ++e)
         ends.push_back(std::uint32_t(now.lumels_now) + e);

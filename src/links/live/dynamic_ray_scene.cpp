@@ -71,7 +71,7 @@ bool DynamicRayScene::is_clear_but_for(std::size_t thing, const RaySpan& ray) co
     return true;
 }
 
-/// A look at a box costs much less than one at a tree.
+/// Testing a box costs much less than a query of a BVH.
 bool DynamicRayScene::may_meet(std::size_t thing, const RaySpan& ray) const
 {
     return boxes_[thing].may_meet(ray.origin, ray.direction, ray.far, ray_offset_);

@@ -8,9 +8,10 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task, and those of a sweep between two progress reports.
+/// Lumels per task, and per part of a sweep between progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
-/// Parts of the time, about: direct light of all, sweeps of what follows, weights of what follows.
+/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of what
+/// remains.
 constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace
@@ -48,7 +49,7 @@ LinkContext LinkRelighter::place() const
     return {scene_, lumels_, rays_, *surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
 }
 
-/// Materials, lamps and sky as they are now.
+/// Updates sources from the current materials, lamps and sky.
 void LinkRelighter::find_sources()
 {
     surfaces_.emplace(scene_);
@@ -86,7 +87,7 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& progres
     return result;
 }
 
-/// What lamps, emissive surfaces and the bright part of the sky send [N] [lx]; off: as of
+/// [N] [lx] Light from lamps, emissive surfaces and the bright part of the sky; off: as in
 /// LightGroups.
 std::vector<glm::vec3> LinkRelighter::light_of_lamps(std::vector<glm::vec3>& off,
                                                      const ProgressCallback& progress)
@@ -98,7 +99,7 @@ std::vector<glm::vec3> LinkRelighter::light_of_lamps(std::vector<glm::vec3>& off
     return light.sum();
 }
 
-/// Sweeps until at rest.
+/// Sweeps until converged.
 void LinkRelighter::settle(const ProgressCallback& progress)
 {
     for (bool rests = false; !rests;) {

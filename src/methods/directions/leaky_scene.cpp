@@ -32,7 +32,7 @@ Lumels lumels_of(const Scene& scene, const Atlas& atlas, const std::vector<char>
     return lumels;
 }
 
-/// The sky is none of the lamps: directions gather it.
+/// The lamps without the sky, which directions gather.
 LiveLamps lamps_of(const Scene& scene, const DirectLightOptions& options)
 {
     Scene lamps;
@@ -119,7 +119,7 @@ void LeakyScene::set_sky(const glm::vec3& factor)
     changed_ = true;
 }
 
-/// Returns true if anything stands elsewhere now.
+/// Returns true if any instance has moved.
 bool LeakyScene::place_what_moved()
 {
     std::vector<glm::mat4> transforms;
@@ -141,7 +141,7 @@ bool LeakyScene::place_what_moved()
     return moved;
 }
 
-/// Hands the solver what shines now; what it has gathered before leaks away.
+/// Passes the current emission to the solver; light gathered before decays.
 void LeakyScene::begin_anew()
 {
     Lumels lumels = lumels_;
@@ -151,7 +151,7 @@ void LeakyScene::begin_anew()
         lumel.emission *= emission_factor_[lumel.instance];
         lumel.albedo =
             glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
-        // Reflected direct light joins the emission of surfaces: directions know no lamps.
+        // Reflected direct light joins the emission of surfaces: directions do not find lamps.
         if (!direct_.empty())
             lumel.emission += lumel.albedo * direct_[i];
     }

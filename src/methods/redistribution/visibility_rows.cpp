@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-/// Rows are made room for in so many words of each lumel at a time.
+/// Storage grows by this number of words per lumel.
 constexpr std::uint32_t kWordsAtATime = 16;
 
 }  // namespace
@@ -42,7 +42,7 @@ void VisibilityRows::follow(std::span<const std::uint32_t> levels)
     make_room(rows_);
 }
 
-/// Of a lumel, in all its rows.
+/// Maximum words per lumel, for all its rows.
 std::uint32_t VisibilityRows::most_words() const
 {
     const std::uint64_t words = most_bytes_ / (std::uint64_t(count_) * sizeof(std::uint32_t));

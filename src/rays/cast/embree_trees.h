@@ -6,8 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include "rays/cast/embree.h"
 #include "scene/values/scene.h"
 
 namespace lumel {

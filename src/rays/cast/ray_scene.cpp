@@ -25,7 +25,7 @@ struct PassedGlass {
 
 /// Embree's query context with the data that cut-outs need.
 struct QueryContext {
-    RTCIntersectContext embree;  // first, so that Embree's pointer is also ours
+    EmbreeContext embree;  // first, so that Embree's pointer is also ours
     std::uint32_t seed;
     std::vector<PassedGlass> passed;  ///< in any order, possibly beyond the hit
 
@@ -111,7 +111,7 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 QueryContext query_context(std::uint32_t seed)
 {
     QueryContext context{};
-    rtcInitIntersectContext(&context.embree);
+    start_query(context.embree);
     context.seed = seed;
     return context;
 }
@@ -142,7 +142,7 @@ std::vector<std::uint32_t> all_instances(const Scene& scene)
 glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
     QueryContext context = query_context(seed);
-    rtcOccluded1(tree, &context.embree, &ray);
+    find_occluder(tree, context.embree, ray);
     const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
     return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
 }
@@ -229,7 +229,7 @@ bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, floa
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(seed);
-    rtcIntersect1(trees_->top(), &context.embree, &query);
+    find_closest(trees_->top(), context.embree, query);
     hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;

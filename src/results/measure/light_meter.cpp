@@ -1,13 +1,12 @@
-// H = ∫ L cosθ dω of a point x by R rays of density cosθ / π, and rays towards sources:
+// H = ∫ L cosθ dω of a point x by R rays of density cosθ / π, and shadow rays to sources:
 //
 //     H ≈ 1/R Σ π L + Σ_s D_s,
 //
-// where π L is ρH of the lumel that a ray meets, or π L of the sky where it meets nothing, and D_s
-// the direct light of an emissive surface, a lamp, a sun or the bright part of a sky, sampled and
-// estimated as bakes do it (lights/sources.h, lights/source_estimate.h). What surfaces emit counts
-// in D_s alone.
+// where π L is ρH of the lumel that a ray hits, or π L of the sky, and D_s the direct light of an
+// emissive surface, a lamp, a sun or the bright part of a sky, sampled and estimated as in bakes
+// (lights/sources.h, lights/source_estimate.h). Emission of surfaces is in D_s only.
 //
-// The spread of the means of sets of rays states the noise (results/measure/ray_sets.h).
+// The spread of the means of sets of rays gives the noise (results/measure/ray_sets.h).
 
 #include "results/measure/light_meter.h"
 

@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-/// Fewest points worth a task.
+/// Minimum points per task.
 constexpr std::size_t kPointsPerTask = 1024;
 
 }  // namespace

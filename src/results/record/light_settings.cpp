@@ -31,7 +31,7 @@ std::string path_in(const std::string& folder, const std::string& path)
     return (fs::path(folder) / path).lexically_normal().string();
 }
 
-/// The fewest digits that give the angle back.
+/// The shortest number that converts back to the angle.
 template <class Number>
 double degrees_of(Number radians)
 {

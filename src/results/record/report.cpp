@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-// What the numbers in the other files mean.
+// Units of the numbers in the other files.
 Json map_units(bool directional, int pages)
 {
     Json json = {

@@ -46,8 +46,8 @@ bool has_plain_data(const JsonView& root, const JsonView& primitive)
     if (indices && !has_data(root, *indices))
         return false;
     const JsonView attributes = primitive.get("attributes");
-    for (const auto& [name, id] :
-         primitive.extension(kDraco)->get("attributes").as_object().json().items())
+    const JsonView compressed = primitive.extension(kDraco)->get("attributes").as_object();
+    for (const auto& [name, id] : compressed.json().items())
         if (!has_data(root, attributes.get(name.c_str())))
             return false;
     return true;

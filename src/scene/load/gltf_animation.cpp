@@ -101,7 +101,7 @@ private:
     void read(const JsonView& channel)
     {
         const JsonView target = channel.get("target");
-        const std::string& path = target.get("path").string();
+        const std::string path = target.get("path").string();
         if (path == "pointer")
             read_pointer(channel, target);
         else if (path == "translation" || path == "rotation" || path == "scale")

@@ -1,10 +1,10 @@
-// What report.json says, as tables and a chart.
+// Contents of report.json, as tables and a chart.
 
 const ns = 'http://www.w3.org/2000/svg';
 const lines = ['#4682b4', '#d2691e'];
 const chart = { width: 720, height: 260, left: 56, right: 24, top: 12, bottom: 34 };
 
-/** An element with attributes and children; a child that is no node becomes text. */
+/** An element with attributes and children; children that are not nodes become text. */
 export function element(name, attributes = {}, ...children) {
     const made = document.createElement(name);
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
@@ -22,7 +22,7 @@ function drawn(name, attributes, text = '') {
 const percent = (part) => `${Number((100 * part).toPrecision(3))} %`;
 const seconds = (time) => `${Number(time.toPrecision(3))} s`;
 
-/** The bake in a line. */
+/** One-line summary of the bake. */
 export function summary({ scene, solver, device, sizes, solution, timings }) {
     const { estimated_error: error, estimated_dark_error: dark } = solution;
     return [
@@ -48,7 +48,7 @@ function rowsOf(value, name = '') {
 
 export const table = (value) => element('table', {}, ...rowsOf(value));
 
-/** Wall and processor time of each stage. */
+/** Wall and CPU time of each stage. */
 export function timesTable({ timings }) {
     const longest = Math.max(...timings.stages.map((stage) => stage.wall_seconds), 1e-9);
     const row = (name, wall, cpu, share) => element('tr', {}, element('th', { scope: 'row' }, name),
@@ -74,7 +74,7 @@ function ticksAround(values) {
 const curveOf = ({ report }) =>
     report.solution.convergence.filter(({ seconds: time, error }) => time > 0 && error > 0);
 
-/** Stated error against time, both by ratios; nothing where no bake has two points. */
+/** Estimated error against time, both logarithmic; empty if no bake has two points. */
 export function convergence(bakes) {
     const points = bakes.flatMap(curveOf);
     if (points.length < 2) return null;
