@@ -86,7 +86,7 @@ std::string AuthoredReport::complaint() const
     if (outside > kRangeTolerance)
         return fmt::format("leaves 0…1 by {:.3g}", outside);
     if (collapsed > kCollapseTolerance)
-        return fmt::format("has no room for {:.3g} per cent of the surface", 100.0 * collapsed);
+        return fmt::format("has no area for {:.3g} per cent of the surface", 100.0 * collapsed);
     if (overlap > kOverlapTolerance)
         return fmt::format("overlaps itself on {}{:.3g} per cent of its area",
                            overlap_is_least ? "at least " : "", 100.0 * overlap);

@@ -394,8 +394,8 @@ bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& rep
     const std::vector<char> both = shows_both(scene, triangles_of_surfaces(scene));
     if (std::find(both.begin(), both.end(), 1) == both.end())
         return true;
-    notes.emplace_back("TEXCOORD_1 has no place for the light on the backs of double-sided "
-                       "surfaces, so each mesh is placed anew; --sides brighter keeps the layout");
+    notes.emplace_back("TEXCOORD_1 has no space for the backs of double-sided surfaces, so each "
+                       "mesh is packed again; --sides brighter keeps the layout");
     return false;
 }
 
@@ -450,8 +450,8 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
                                         mesh.name, reports.back().complaint()));
     }
     if (refused > kMaxMeshNotes)
-        notes.push_back(fmt::format("TEXCOORD_1 of {} more meshes cannot be used either",
-                                    refused - kMaxMeshNotes));
+        notes.push_back(
+            fmt::format("TEXCOORD_1 of {} more meshes is unusable too", refused - kMaxMeshNotes));
     return reports;
 }
 
