@@ -15,7 +15,7 @@ struct AuthoredReport {
     double overlap = 0.0;           ///< share of the layout's area that overlaps itself
     bool overlap_is_least = false;  ///< `overlap` is a lower bound
     double collapsed = 0.0;         ///< share of the surface without area in the layout
-    double area = 0.0;              ///< area of the layout in the unit square
+    double area = 0.0;              ///< area of the layout; the unit square has 1
 
     bool valid() const;
     /// The reason why it is unusable, as the end of a sentence; empty if it is usable.
