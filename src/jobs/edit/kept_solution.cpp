@@ -37,7 +37,7 @@ KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& link
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
 {
     const Lumels &then = edit.before.lumels, &now = edit.now.lumels;
-    // A larger atlas rounds places otherwise; and a file may be of another scene.
+    // A larger atlas rounds coordinates differently; and a file can belong to another scene.
     if (then.width != now.width || then.lumels.size() != before.lumels.size() ||
         edit.before.scene.instances.size() != before.instances.size())
         return {};

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPicture = "why.png";
 
-/// In the whole map.
+/// Texel in the whole map.
 glm::ivec2 texel_of(const WhyOptions& options, const Pages& pages)
 {
     if (options.page >= pages.count)
@@ -43,7 +43,7 @@ glm::ivec2 texel_of(const WhyOptions& options, const Pages& pages)
     return corner + *options.texel;
 }
 
-/// As the user counts: --texel X,Y, and --page where there are several.
+/// In terms of the options: --texel X,Y, and --page if there are several.
 std::string name_of(const glm::ivec2& texel, const Pages& pages)
 {
     const int page = pages.at(glm::vec2(texel));
@@ -52,7 +52,7 @@ std::string name_of(const glm::ivec2& texel, const Pages& pages)
                        there.x, there.y);
 }
 
-/// The texel of `shown` that is nearest.
+/// The nearest covered texel.
 glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm::ivec2& texel)
 {
     glm::ivec2 best(0);

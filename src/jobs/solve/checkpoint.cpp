@@ -28,7 +28,7 @@ constexpr char kMagic[] = "lumel checkpoint 2\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 
-/// All that decides what the solver does, beside the scene and its lights.
+/// All settings of the solver, without the scene and its lights.
 std::string settings_of(const BakeOptions& options)
 {
     Json settings;
@@ -38,7 +38,7 @@ std::string settings_of(const BakeOptions& options)
     return json_text(settings);
 }
 
-/// Throws Error{input} if the file does not begin as a checkpoint does.
+/// Throws Error{input} if the file does not start like a checkpoint.
 void pass_magic(std::istream& file, const std::string& path)
 {
     char magic[sizeof kMagic] = {};
@@ -126,7 +126,7 @@ double Checkpoint::seconds_of_older(std::uint64_t size) const
         reader(origin, seconds);
         return seconds;
     } catch (const Error&) {
-        return 0.0;  // of no use to anybody
+        return 0.0;  // usable by no one
     }
 }
 

@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-/// Places beyond this [m] overflow what is computed with them.
+/// Larger coordinates overflow in later computations [m].
 constexpr double kFarthest = 1e9;
 
 }  // namespace

@@ -15,10 +15,10 @@
 namespace lumel {
 namespace {
 
-/// A limit of time that has passed already [s].
+/// Time limit that is exceeded already [s].
 constexpr double kMinSeconds = 1e-9;
 
-/// The progress of a solve toward the limit that is nearest, 0…1.
+/// Progress of a solve towards the nearest limit, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
 {
     double fraction = 0.0;
@@ -26,9 +26,10 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         fraction = std::max(fraction, double(state.shots) / double(limits.max_shots));
     if (limits.max_seconds > 0.0)
         fraction = std::max(fraction, seconds / limits.max_seconds);
-    // For the bar only: how fast the error falls with shots, between random and ideal.
+    // For the progress bar only: assumed decrease of the error with shots, between random and
+    // ideal.
     constexpr double kSlope = 0.65;
-    // And how far it is when there is a first estimate.
+    // Progress at the first error estimate.
     constexpr double kFirstEstimate = 0.25;
     double error = 1.0;
     if (limits.target_error > 0.0 && state.error > 0.0)
@@ -74,7 +75,7 @@ std::optional<World> world_on(const gpu::Device& device, const Prepared& prepare
                                 &prepared.atlas);
 }
 
-/// Estimates of the error as they come, each after twice the shooters of the one before.
+/// Notes error estimates, each after twice the shooters of the previous one.
 class ErrorNotes {
 public:
     explicit ErrorNotes(const SolverOptions& options) : shots_(method_of(options.method).shots) {}

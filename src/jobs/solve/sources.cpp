@@ -6,7 +6,7 @@
 namespace lumel {
 namespace {
 
-/// The sources, each with the direct light of its sky and lamps at the lumels.
+/// The sources, each with its sky's and lamps' direct light at the lumels.
 std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting& setting,
                                        const BakeOptions& options, DirectLight& told,
                                        Stages& stages)

@@ -10,9 +10,9 @@
 namespace lumel {
 namespace {
 
-constexpr float kSteepest = 0.999f * glm::half_pi<float>();  ///< [rad] that still has an upright
+constexpr float kSteepest = 0.999f * glm::half_pi<float>();  ///< [rad] maximum with an upright
 
-constexpr float kNearest = 1e-6f;  ///< depth that has a place in the picture [m]
+constexpr float kNearest = 1e-6f;  ///< minimum depth in the image [m]
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& poi
 glm::vec2 ViewCamera::angles() const
 {
     const glm::vec3 to = glm::normalize(forward());
-    // Straight up or down, what is up in the picture tells where it turns to.
+    // Looking straight up or down, the image's up vector gives the azimuth.
     const glm::vec3 level = std::abs(to.y) < std::sin(kSteepest) ? to : -to.y * up();
     return {std::atan2(-level.x, -level.z), std::asin(std::clamp(to.y, -1.0f, 1.0f))};
 }

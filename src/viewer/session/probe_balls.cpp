@@ -15,15 +15,15 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kRows = 4, kProbes = 1;  ///< that a core takes at least
+constexpr std::size_t kRows = 4, kProbes = 1;  ///< minimum per task
 
-/// The pixels that a ball may be in, from low up to high.
+/// Bounding box of a ball in the image, from low to high [pixels].
 struct Drawn {
     const ProbeBall* ball;
     glm::ivec2 low, high;
 };
 
-/// By the corners of its box; none if it is too near to the eye.
+/// From the corners of its box; empty if it is too close to the eye.
 std::optional<Drawn> drawn(const ProbeBall& ball, float radius, const View& view,
                            const glm::vec2& size)
 {
@@ -42,7 +42,7 @@ std::optional<Drawn> drawn(const ProbeBall& ball, float radius, const View& view
                  glm::ivec2(glm::min(glm::ceil(high * size), size))};
 }
 
-/// Where a ray enters a ball [m], or less than 0.
+/// Distance at which a ray enters a ball [m]; < 0 if it does not.
 float entry(const Ray& ray, const glm::vec3& centre, float radius)
 {
     const glm::vec3 to = centre - ray.origin;

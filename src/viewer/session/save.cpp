@@ -19,7 +19,7 @@ constexpr const char *kLights = "KHR_lights_punctual",
                      *kStrength = "KHR_materials_emissive_strength",
                      *kCopies = "EXT_mesh_gpu_instancing",
                      *kSpecular = "KHR_materials_pbrSpecularGlossiness";
-constexpr double kSamePlace = 1e-6;  ///< of a transform's numbers, as a part of the largest
+constexpr double kSamePlace = 1e-6;  ///< tolerance of transform elements, relative to the largest
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -42,7 +42,7 @@ bool is_same(const glm::dmat4& a, const glm::dmat4& b)
     return apart <= kSamePlace * most;
 }
 
-/// The default scene's nodes, which are shown without a parent.
+/// Adds a root node to the default scene.
 void add_root(Json& gltf, const Json& node)
 {
     const std::size_t number = gltf["nodes"].size();
@@ -51,8 +51,7 @@ void add_root(Json& gltf, const Json& node)
         (*scenes)[gltf.value("scene", std::size_t(0))]["nodes"].push_back(number);
 }
 
-/// A node's mesh goes to a node of its own that stands where it is to be: what else hangs on the
-/// old one stays.
+/// Moves a node's mesh to a new node at its current transform; the old node's children stay.
 void place_mesh(Json& gltf, std::size_t number, const glm::dmat4& world)
 {
     Json& node = gltf["nodes"][number];
@@ -121,7 +120,7 @@ void set_paint(Json& material, const glm::vec4& colour)
         material["pbrMetallicRoughness"]["baseColorFactor"] = factor;
 }
 
-/// Those that are not as the file has them; where its animation has a lamp dimmer, too.
+/// Writes materials that differ from the file, or whose lamp the animation dims.
 void set_materials(Json& gltf, const ViewSession& session)
 {
     const bool played = !session.animation().materials.empty();
@@ -137,7 +136,7 @@ void set_materials(Json& gltf, const ViewSession& session)
     }
 }
 
-/// Lights are called as they are, or else as their nodes.
+/// Lights have their own names, or else those of their nodes.
 void dim_lights(Json& gltf, const ViewSession& session)
 {
     for (const ViewLamp& lamp : session.lamps()) {
@@ -203,7 +202,7 @@ LightOptions lights_as_they_are(const ViewSession& session)
         refuse("a clear sky that was turned away from its sun cannot be saved");
     lights.sky_rotation += session.sky_angle();
     if (ours)
-        lights.sun->azimuth += session.sky_angle();  // it stays where it is
+        lights.sun->azimuth += session.sky_angle();  // keeps its direction
     return lights;
 }
 
@@ -215,7 +214,7 @@ BakeSummary save_bake(const ViewSession& session, const std::string& folder,
     options.atlas = session.options().atlas;
     options.device = session.options().device;
     options.preview_width = session.options().width;
-    OutputFolder aside(folder, "scene");  // goes with what was written into it
+    OutputFolder aside(folder, "scene");  // removed with its contents
     const std::string scene =
         aside.path(std::filesystem::path(session.scene().path).stem().string() + ".glb");
     write_scene_as_it_stands(session, scene);

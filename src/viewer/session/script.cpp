@@ -14,11 +14,11 @@
 namespace lumel {
 namespace {
 
-constexpr double kFar = 1e6;          ///< coordinates that floats still resolve [m]
-constexpr double kTurns = 36000.0;    ///< angle that still has decimals as float [degrees]
-constexpr double kBright = 1e6;       ///< factor of a lamp
-constexpr double kStops = 100.0;      ///< of exposure
-constexpr double kMaxPixels = 16384;  ///< side of a picture
+constexpr double kFar = 1e6;          ///< maximum coordinate with float precision [m]
+constexpr double kTurns = 36000.0;    ///< maximum angle with decimals in a float [degrees]
+constexpr double kBright = 1e6;       ///< maximum factor of a lamp
+constexpr double kStops = 100.0;      ///< maximum exposure
+constexpr double kMaxPixels = 16384;  ///< maximum side of an image
 constexpr double kMaxFrames = 1e6, kMaxCameras = 1e6, kMaxSeconds = 1e6;
 constexpr double kMinScale = 1e-6, kMaxScale = 1e12;  ///< [lx]
 
@@ -245,12 +245,12 @@ constexpr std::array kForms = {
                 .meaning = "end here; a window closes"},
 };
 
-/// The words of a line; those in quotes may hold blanks. # begins what is not read.
+/// Splits a line into words; quoted words can contain blanks. # starts a comment.
 class Words {
 public:
     Words(std::string_view line, const std::string& place) : rest_(line), place_(place) {}
 
-    /// The next word, or false.
+    /// Reads the next word; false at the end.
     bool next(std::string& word)
     {
         const std::size_t first = rest_.find_first_not_of(" \t\r");
@@ -276,7 +276,7 @@ private:
 bool fits(const CommandForm& form, const std::vector<double>& numbers)
 {
     const std::size_t count = numbers.size();
-    const bool colour_or_factor = form.high == kBright;  // one number for three that are alike
+    const bool colour_or_factor = form.high == kBright;  // one number for three equal ones
     return count >= form.least && count <= form.most && !(colour_or_factor && count == 2) &&
            std::all_of(numbers.begin(), numbers.end(), [&](double number) {
                return number >= form.low && number <= form.high &&
@@ -284,7 +284,7 @@ bool fits(const CommandForm& form, const std::vector<double>& numbers)
            });
 }
 
-/// The numbers of "X,Y,Z"; empty if they are not those that the command takes.
+/// The numbers of "X,Y,Z"; empty if the command does not accept them.
 std::vector<double> numbers_of(const CommandForm& form, std::string_view text)
 {
     std::vector<double> numbers;
@@ -335,7 +335,7 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     return false;
 }
 
-/// Takes what follows the command's own word. False if that does not fit.
+/// Parses the arguments of a command. Returns false if they are invalid.
 bool take(ScriptCommand& command, const std::vector<std::string>& words)
 {
     const CommandForm& form = *command.form;
@@ -390,7 +390,7 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
                             given.empty() ? std::string("nothing") : lumel::quoted(given)));
 }
 
-/// Of a script that has no line twice the same file.
+/// Throws if a script writes a file twice.
 void check_files(const std::vector<ScriptCommand>& commands, const std::string& place)
 {
     std::vector<std::string> files;

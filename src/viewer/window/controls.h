@@ -18,8 +18,7 @@ std::span<const KeyHelp> key_help();
 
 class Controls {
 public:
-    /// Does what mouse and keys ask for, since the frame before. While a widget has them it is left
-    /// to the widget.
+    /// Executes mouse and key input since the last frame, except input to widgets.
     void act(ViewSession& session, UiState& desk, Screen& screen);
 
 private:

@@ -1,4 +1,4 @@
-// Of a build without GLFW or Dear ImGui.
+// For builds without GLFW or Dear ImGui.
 
 #include "base/core/error.h"
 #include "viewer/window/window.h"

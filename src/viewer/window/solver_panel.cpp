@@ -17,7 +17,7 @@ constexpr int kAtlasStep = 64, kMaxAtlas = 8192;      ///< [texels]
 constexpr float kMinError = 0.1f, kMaxError = 50.0f;  ///< [%]
 constexpr double kPercent = 100.0;
 
-/// An atlas of 0 is as dense as the options say.
+/// An atlas size of 0 uses the options' density.
 void show_links(UiState& desk)
 {
     constexpr std::array kRays = {4, 16, 64, 256};
@@ -31,7 +31,7 @@ void show_links(UiState& desk)
     desk.solve |= ImGui::Button("solve anew");
 }
 
-/// One of a few words. True if it is another one.
+/// Selects one of several words. Returns true on change.
 template <class Words>
 bool choose(const char* label, const Words& words, std::string& chosen)
 {
@@ -73,7 +73,7 @@ void show_option(const OptionInfo& option, GivenMethod& given, const std::string
         given.values[option.name] = value;
 }
 
-/// What does nothing beside the others is not shown.
+/// Hides options without effect.
 void show_options(GivenMethod& given)
 {
     const MethodInfo& method = method_of(given.id);
