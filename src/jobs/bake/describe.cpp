@@ -190,7 +190,7 @@ std::string lightmap_uv_text(const Json& json)
     const auto all = json["surfaces"].get<std::size_t>();
     const auto own = json["surfaces_with_own_lightmap_uv"].get<std::size_t>();
     if (own == 0)
-        return "charts are made (the file brings no TEXCOORD_1 that can be used)";
+        return "generated (the file has no usable TEXCOORD_1)";
     return own == all ? "the file's TEXCOORD_1 is used"
                       : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
 }
@@ -209,7 +209,7 @@ std::string densities_text(const Json& json)
     }
     if (other == 0)
         return {};
-    return fmt::format("{:.4g} to {:.4g} texels per metre, {} of {} surfaces unlike the others "
+    return fmt::format("{:.4g} to {:.4g} texels per metre, {} of {} surfaces differ "
                        "(--json lists them)",
                        least, most, other, json["densities"].size());
 }
@@ -238,8 +238,8 @@ std::string text_of(const Json& json)
                               json["texels_per_metre"].get<double>(), count("charts")));
     if (const std::string densities = densities_text(json); !densities.empty())
         line("densities", densities);
-    line("lumels", fmt::format("{}, {} of them on back sides, about {} buried", count("lumels"),
-                               count("back_lumels"), count("buried_lumels")));
+    line("lumels", fmt::format("{}, {} on back sides, about {} hidden by other geometry",
+                               count("lumels"), count("back_lumels"), count("buried_lumels")));
     line("graphics memory",
          fmt::format("about {:.1f} MiB", json["graphics_memory_bytes"].get<double>() / 1048576.0));
     line("host memory",

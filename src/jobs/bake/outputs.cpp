@@ -113,7 +113,7 @@ std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& pre
     try {
         return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
     } catch (const Error& error) {
-        log_warning(std::string("there is no ") + kPreview + ": " + error.what());
+        log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
     }
 }
@@ -133,9 +133,9 @@ Image baked_texture(const BakeOptions& options, const Prepared& prepared, const 
     const int wanted = texture_density(prepared.scene, prepared.atlas);
     const int scale = std::clamp(options.baked_size / prepared.atlas.pages.side, 1, wanted);
     if (scale < wanted)
-        stages.tell("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
-                    " % of their density, as --baked-size is " +
-                    std::to_string(options.baked_size) + "; scene.glb keeps all of it");
+        stages.tell("textures in scene-baked.glb are downsampled to " +
+                    percent_text(double(scale) / wanted) +
+                    "; raise --baked-size, or use scene.glb");
     return scale == 1 ? radiance
                       : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
 }

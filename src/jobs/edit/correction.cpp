@@ -100,7 +100,7 @@ void Correction::look_first(UpdateRow& row)
     std::replace(wanted.begin(), wanted.end(), Wanted::difference, Wanted::nothing);
     if (std::find(wanted.begin(), wanted.end(), Wanted::all) == wanted.end())
         return;
-    watch_.begin("first look");
+    watch_.begin("initial estimate");
     const TwoEstimates light = gather(wanted, {.whole = kFirstLook}, row);
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (wanted[i] == Wanted::all)

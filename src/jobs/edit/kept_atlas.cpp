@@ -158,14 +158,13 @@ void add_beside(Atlas& atlas, Atlas fresh, int gutter)
     const glm::ivec2 size = extent.high - extent.low;
     glm::ivec2 corner = Room(atlas, gutter).find(size);
     if (corner.x < 0 && atlas.pages.count > 1)
-        throw Error(
-            ErrorKind::input, "",
-            "what is new does not fit into the pages of the lightmap; bake the scene again");
+        throw Error(ErrorKind::input, "",
+                    "new objects do not fit into the pages of the lightmap; bake the scene again");
     if (corner.x < 0) {
         corner = {atlas.width + gutter, 0};
         atlas.width = atlas.height = std::max(corner.x + size.x, std::max(atlas.height, size.y));
         atlas.pages.side = atlas.width;
-        atlas.notes.emplace_back("what is new did not fit, so the map is larger than it was");
+        atlas.notes.emplace_back("new objects did not fit: the lightmap has been enlarged");
     }
     atlas.pages.count = std::max(atlas.pages.count, atlas.pages.at(glm::vec2(corner)) + 1);
     for (Surface& surface : fresh.surfaces) {
@@ -190,7 +189,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
     atlas.width = atlas.height = pages.map_side();
     if (charts.of_texel.size() != std::size_t(atlas.width) * std::size_t(atlas.height))
         throw Error(ErrorKind::input, scene.path,
-                    "does not fit the files beside it: their maps have other sizes");
+                    "does not match the files beside it: their maps have other sizes");
     atlas.texels_per_metre = texels_per_metre;
     for (const std::uint32_t chart : charts.of_texel)
         if (chart != kNoChart)
@@ -201,7 +200,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
             const Primitive& primitive = mesh.primitives[p];
             if (primitive.texcoords[1].empty())
                 throw Error(ErrorKind::input, scene.path,
-                            "has no TEXCOORD_1: it is not as lumel bake wrote it");
+                            "has no TEXCOORD_1: it was changed after the bake");
             Surface surface{.instance = i, .primitive = p, .indices = primitive.indices};
             for (std::uint32_t v = 0; v < primitive.positions.size(); ++v) {
                 const int page = page_of(scene, primitive, v);

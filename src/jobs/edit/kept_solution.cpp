@@ -17,13 +17,13 @@ void check_keep_links(const BakeOptions& options)
         refuse("another solver", "only --solver links has links");
     side_of_rays(options.keep_links);
     if (options.parts != Parts::all)
-        refuse("--only", "what is kept is lit by all light");
+        refuse("--only", "stored links are lit by all light");
     if (options.resume)
         refuse("--resume", "it has no checkpoints");
     if (links->rule == SampleRule::centre)
-        refuse("--sampling centre", "rays start all over each lumel");
+        refuse("--sampling centre", "their rays start all over each lumel");
     if (links->rays == Rays::query || links->rays == Rays::raster)
-        refuse("--rays query or raster", "the host traces the links that are kept");
+        refuse("--rays query or raster", "stored links are traced on the CPU");
 }
 
 KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links)

@@ -104,7 +104,7 @@ StoredSolution read_solution(const std::string& path)
 {
     const Image front = read_exr(path), back = read_exr(path, kBackLayer);
     if (front.width != front.height)
-        throw Error(ErrorKind::input, path, "is not square: it is not as lumel bake wrote it");
+        throw Error(ErrorKind::input, path, "is not square: it was changed after the bake");
     return {.side = front.width,
             .charts = charts_of(front, read_exr(path, kShiftLayer), path),
             .front = colors_of(front),

@@ -38,7 +38,7 @@ WorkPlane plane_of(const MeasureOptions& options, const Prepared& prepared)
     plane.spacing =
         options.spacing > 0.0 ? options.spacing : std::max(size.x, size.y) / kPointsAlongPlane;
     if (!(plane.spacing > 0.0))
-        throw Error(ErrorKind::input, "--plane", "the scene has no surfaces; --bounds is needed");
+        throw Error(ErrorKind::input, "--plane", "the scene has no surfaces; use --bounds");
     return plane;
 }
 
@@ -70,7 +70,7 @@ std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter
         return std::nullopt;
     if (meter.has_lamps()) {
         summary.notes.emplace_back(
-            "no daylight factors are given: the bake has other lights beside the overcast sky");
+            "no daylight factors: the bake has other lights than the overcast sky");
         return std::nullopt;
     }
     return double(*lights.overcast) * double(lights.sky_scale);

@@ -147,7 +147,7 @@ void check_probe_spacing(double spacing, const Prepared& prepared)
         grid_of(options, prepared);
     } catch (const Error&) {
         throw Error(ErrorKind::input, "--probes",
-                    "would make more than a million probes; a wider spacing is needed");
+                    "would make more than a million probes; use a wider spacing");
     }
 }
 

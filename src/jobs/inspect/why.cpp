@@ -83,8 +83,8 @@ std::uint32_t lumel_at(const glm::ivec2& texel, const Pages& pages, const Lumels
         return shown[at];
     const glm::ivec2 other = nearest(shown, lumels.width, texel);
     throw Error(ErrorKind::input, "",
-                fmt::format("{} column {}, row {} of the lightmap; the nearest place that light "
-                            "can reach is {}",
+                fmt::format("{} column {}, row {} of the lightmap; the nearest texel with light is "
+                            "{}",
                             covered ? "other geometry lies on" : "no surface is at",
                             texel.x % pages.side, texel.y % pages.side, name_of(other, pages)));
 }
@@ -125,7 +125,7 @@ Json numbers(const glm::vec3& v)
 std::string report_of(const WhySummary& summary)
 {
     Json json;
-    json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
+    json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of the incoming luminance"}};
     json["lumel"] = {{"instance", summary.instance},
                      {"page", summary.page},
                      {"texel", {summary.texel.x, summary.texel.y}},

@@ -47,10 +47,10 @@ int frames_of(const PlayOptions& options, const Animation& animation)
         return options.frames;
     const double frames = std::max(1.0, std::round(animation.duration * options.fps));
     if (frames > double(kMaxFrames))
-        throw Error(ErrorKind::input, fmt::format("--fps {}", options.fps),
-                    fmt::format("makes {:.0f} frames of the animation, more than the {} that are "
-                                "made at once; use fewer --frames",
-                                frames, kMaxFrames));
+        throw Error(
+            ErrorKind::input, fmt::format("--fps {}", options.fps),
+            fmt::format("makes {:.0f} frames, more than the limit of {}; use fewer --frames",
+                        frames, kMaxFrames));
     return int(frames);
 }
 
@@ -157,7 +157,7 @@ std::string film(const OutputFolder& output, const PlayOptions& options)
         return {};
     const std::string ffmpeg = find_ffmpeg(), name = kFilms[options.film == Film::mp4 ? 0 : 1];
     if (ffmpeg.empty()) {
-        log_info(fmt::format("ffmpeg is not installed, so there is no {}; with it: ffmpeg "
+        log_info(fmt::format("ffmpeg is not installed, so there is no {}; to make it: ffmpeg "
                              "-framerate {} -i {} -pix_fmt yuv420p {}",
                              name, options.fps, kFramePattern, name));
         return {};
@@ -181,7 +181,7 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     options.frames = frames_of(options, animation);
     if (!changes_anything(start, animation))
         throw Error(ErrorKind::input, scene_path,
-                    "its animation moves nothing that is shown, and changes no light");
+                    "its animation moves no visible object and changes no light");
     check_poses(start, animation, options.frames, options.fps);
     // Checks for failures before the long work.
     OutputFolder output(folder);

@@ -45,7 +45,7 @@ void check_lamps(const Scene& scene, const std::vector<ChangingLamp>& lamps)
                 scene.materials[std::size_t(other)].emitted != glm::vec3(0.0f))
                 throw Error(ErrorKind::input, fmt::format("{}: \"{}\"", scene.path, instance.name),
                             "has several emissive materials, and the light of one changes; give "
-                            "each a mesh of its own");
+                            "each its own mesh");
     }
 }
 

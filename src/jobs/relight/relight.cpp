@@ -39,7 +39,7 @@ Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
     if (!fs::is_regular_file(path, ignored))
         throw Error(ErrorKind::input, folder,
                     std::string("has neither ") + kLinksFile + " nor " + kMatrixFile +
-                        "; bake the scene with --keep-links or --solver matrix to light it anew");
+                        "; bake the scene with --keep-links or --solver matrix to relight it");
     Relightable light = read_relightable(path);
     if (light.scene_hash != baked.scene_hash || int(light.side) != solution.side)
         throw Error(ErrorKind::input, path,

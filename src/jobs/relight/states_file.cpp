@@ -100,7 +100,7 @@ NamedState state_of(const JsonView& view)
     allow_only(view, {"name", "others", "lights"});
     NamedState state{.name = view.get("name").string()};
     if (!names_a_file(state.name))
-        view.get("name").fail(lumel::quoted(state.name) + " cannot be the name of a file");
+        view.get("name").fail(lumel::quoted(state.name) + " is not a valid file name");
     if (const auto others = view.find("others"))
         state.light.others = factor_of(*others);
     if (const auto lights = view.find("lights"))

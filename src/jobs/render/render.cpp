@@ -48,12 +48,11 @@ void check(const std::string& path, const RenderOptions& options)
                     "would leave out all gloss; one of them must be above 0");
     if (options.shots > 0 && is_papers(options.bake.solver.method))
         throw Error(ErrorKind::input, "--eye-shots",
-                    "does nothing with --scheme paper, whose --shots light the picture too");
+                    "has no effect with --scheme paper, whose --shots also light the image");
     if (options.film.frames > 0 && (options.paths > 0 || !options.bake.dump.empty()))
-        throw Error(ErrorKind::input, "--frames",
-                    "makes films of solved scenes, without --paths and --dump");
+        throw Error(ErrorKind::input, "--frames", "cannot be used with --paths or --dump");
     if (options.paths > 0 && !options.bake.dump.empty())
-        throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
+        throw Error(ErrorKind::input, "--dump", "has no effect with --paths");
     const OutputFile can_be_written(path);
 }
 
@@ -65,8 +64,8 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
                  std::uint64_t(std::numeric_limits<std::uint32_t>::max()) / options.sets);
     if (pixels > most)
         throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
-                    "makes a picture of " + std::to_string(pixels) + " pixels, more than the " +
-                        std::to_string(most) + " that fit this device with that many --places");
+                    "makes an image of " + std::to_string(pixels) + " pixels, more than the " +
+                        std::to_string(most) + " that this device can hold with these --places");
 }
 
 /// The requested view, with the aspect of the image.
@@ -115,7 +114,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     const std::vector<float> brightness = solver.brightness();
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
-    stages.begin("following lobes");
+    stages.begin("lobe rays");
     const WorldLumels standing(setting.prepared.scene, setting.prepared.rays,
                                setting.prepared.lumels);
     const PowerDraw senders(standing, setting.prepared.lumels, brightness);

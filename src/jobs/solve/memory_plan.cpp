@@ -48,9 +48,8 @@ std::string sentence(const char* kind, std::uint64_t needed, std::uint64_t fixed
     const int fitting = side_that_fits(side, needed, fixed, limit);
     return fmt::format("a bake of {0} × {0} texels needs about {1} of {2} memory, but {3} {4}; {5}",
                        side, memory_text(needed), kind, owner, memory_text(limit),
-                       fitting > 0
-                           ? fmt::format("use --size {} or less", fitting)
-                           : fmt::format("whatever its size it needs {}", memory_text(fixed)));
+                       fitting > 0 ? fmt::format("use --size {} or less", fitting)
+                                   : fmt::format("any size needs at least {}", memory_text(fixed)));
 }
 
 void refuse(const std::string& shortage)

@@ -147,14 +147,13 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     const auto tell = [&](double reached, double wanted, const char* of) {
         if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
             return;
-        stages.warn(
-            reached >= 0.0
-                ? fmt::format("the estimated error{} is {:.2g} %, not the {:g} % asked for: "
-                              "the limit of shots or time was reached first",
-                              of, 100.0 * reached, 100.0 * wanted)
-                : fmt::format("the limit of shots or time was reached before the error{} "
-                              "could be estimated; {:g} % was asked for",
-                              of, 100.0 * wanted));
+        stages.warn(reached >= 0.0
+                        ? fmt::format("the estimated error{} is {}, not the {:g} % asked for: "
+                                      "the limit of shots or time was reached first",
+                                      of, percent_text(reached), 100.0 * wanted)
+                        : fmt::format("the limit of shots or time was reached before the error{} "
+                                      "could be estimated; {:g} % was asked for",
+                                      of, 100.0 * wanted));
     };
     tell(state.error, options.target_error, "");
     tell(state.dark_error, options.target_dark_error, " of dark lumels");
@@ -193,9 +192,9 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
         throw_stopped();
     if (solver.state().full)
         stages.warn(
-            fmt::format("there is no memory for more rays: it ends at an estimated error "
-                        "of {:.2g} %; allow more with --max-memory, or use a smaller --size",
-                        100.0 * solver.state().error));
+            fmt::format("no memory for more rays: the solve ends at an estimated error of {}; "
+                        "raise --max-memory, or use a smaller --size",
+                        percent_text(solver.state().error)));
     else if (run.finished)
         tell_missed(options, solver.state(), stages);
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
@@ -216,8 +215,7 @@ void note_sizes(const Prepared& prepared, Stages& stages)
     const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
         return (lumel.flags & kLumelBuried) != 0;
     });
-    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
-                            "buried",
+    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} buried",
                             prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
                             lumels.size(), prepared.lumels.pieces.size(), buried));
 }

@@ -56,8 +56,8 @@ AtlasOptions atlas_that_fits(const BakeOptions& options)
         return atlas;
     if (atlas.sides == Sides::both)
         throw Error(ErrorKind::input, "--sides both",
-                    "is not possible where the light of each source is kept: scene.lumelmat has "
-                    "one place for both sides of a surface");
+                    "is not possible with separate sources: scene.lumelmat has one texel for both "
+                    "sides of a surface");
     if (atlas.sides == Sides::automatic)
         atlas.sides = Sides::brighter;
     return atlas;

@@ -15,6 +15,9 @@ namespace lumel {
 /// "12.3 MiB", or "1.2 KiB" if it is less than 1 MiB.
 std::string memory_text(std::uint64_t bytes);
 
+/// "1.5 %" or "110 %": two digits, or all before the point.
+std::string percent_text(double fraction);
+
 /// Throws Error{stopped} for work that ended without a result.
 [[noreturn]] void throw_stopped();
 

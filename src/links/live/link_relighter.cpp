@@ -22,8 +22,7 @@ const Scene& without_coloured_glass(const Scene& scene)
         if (is_coloured_glass(material))
             throw Error(ErrorKind::input, scene.path,
                         "has coloured glass (material \"" + material.name +
-                            "\"), which links that are kept do not know; make it white, or "
-                            "opaque");
+                            "\"), which links do not support; make it white, or opaque");
     return scene;
 }
 

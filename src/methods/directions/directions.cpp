@@ -255,8 +255,7 @@ std::vector<glm::vec3> GlobalDirections::irradiance()
     std::vector<glm::vec3> irradiance = iteration_.irradiance(pacer_);
     if (options_.layers == Layers::list && maps_.kept() < 1.0)
         throw Error(ErrorKind::device, "--layers list",
-                    "more surfaces lie behind one another than there is memory for; use --layers "
-                    "peel or stochastic");
+                    "out of memory for overlapping surfaces; use --layers peel or stochastic");
     return irradiance;
 }
 

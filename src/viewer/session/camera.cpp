@@ -49,7 +49,7 @@ void ViewCamera::look_at(const glm::vec3& target)
 {
     const glm::vec3 way = target - eye();
     if (!(glm::length(way) > 0.0f))
-        throw Error(ErrorKind::input, "", "the eye stands where it is to look");
+        throw Error(ErrorKind::input, "", "the eye is at the point to look at");
     const glm::vec3 to = glm::normalize(way);
     const float azimuth = to.x != 0.0f || to.z != 0.0f ? std::atan2(-to.x, -to.z) : angles().x;
     stand_upright({azimuth, std::asin(std::clamp(to.y, -1.0f, 1.0f))});

@@ -123,7 +123,7 @@ bool ScriptPlayer::solve(const ScriptCommand& command)
         for (const std::string& warning : light.warnings)
             log_warning(warning);
         if (!session_->take_solved(std::move(light), ended->edits()))
-            log_warning("the scene was changed while it was solved: the light of links is shown");
+            log_warning("the scene was changed during the solve: showing the light of links");
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::stopped)
             throw;
@@ -147,7 +147,7 @@ bool ScriptPlayer::write(const ScriptCommand& command)
         break;
     case Verb::window:
         if (!window_)
-            throw Error(ErrorKind::input, "", "there is no window to be seen with --headless");
+            throw Error(ErrorKind::input, "", "there is no window with --headless");
         write_png(output_->path(command.text), window_());
         break;
     case Verb::save:

@@ -59,11 +59,9 @@ std::vector<glm::vec3> ball_places(const Scene& scene, const RayScene& rays, dou
     const ProbeGrid grid = probe_grid(rays.low(), rays.high(), spacing);
     const double count = double(grid.counts.x) * double(grid.counts.y) * double(grid.counts.z);
     if (count > double(kMaxBalls))
-        throw Error(
-            ErrorKind::input, "",
-            fmt::format("{:.0f} probes are more than the {} that are shown; a wider spacing is "
-                        "needed",
-                        count, kMaxBalls));
+        throw Error(ErrorKind::input, "",
+                    fmt::format("{:.0f} probes are more than the limit of {}; use a wider spacing",
+                                count, kMaxBalls));
     for (const glm::dvec3& point : grid.points())
         places.emplace_back(point);
     for (const ProbePlace& place : probe_places(scene.path))

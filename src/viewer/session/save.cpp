@@ -92,7 +92,7 @@ void place_things(Json& gltf, const GltfDocument& document, const ViewSession& s
         const bool is_copy = extensions != node.end() && extensions->contains(kCopies);
         if (is_copy && moved[i])
             refuse("\"" + instance.name +
-                   "\" is one of many copies of its node, and cannot be saved elsewhere");
+                   "\" is one of many copies of its node: its move cannot be saved");
         if (deleted[i])
             gltf["nodes"][number].erase("mesh");
         else if (!is_copy && !is_same(world, given[number]))
@@ -144,7 +144,7 @@ void dim_lights(Json& gltf, const ViewSession& session)
         if (!lamp.is_light || lamp.factor == glm::vec3(1.0f))
             continue;
         if (!session.options().lights.profiles.empty())
-            refuse("a light that was dimmed cannot be saved together with --ies");
+            refuse("a dimmed light cannot be saved with --ies");
         bool found = false;
         for (const Json& node : gltf["nodes"]) {
             const auto extensions = node.find("extensions");
@@ -163,7 +163,7 @@ void dim_lights(Json& gltf, const ViewSession& session)
         }
         if (!found)
             refuse("\"" + lamp.name +
-                   "\" is dimmed, but no light of the file: it cannot be saved so");
+                   "\" is dimmed, but not a light of the file: it cannot be saved");
     }
 }
 
@@ -187,7 +187,7 @@ LightOptions lights_as_they_are(const ViewSession& session)
     LightOptions lights = session.options().lights;
     const bool ours = lights.sun.has_value();
     if (session.sun() && !ours)
-        refuse("the sun of the file was moved, which cannot be saved; --sun gives one that can");
+        refuse("the moved sun of the file cannot be saved; use --sun instead");
     if (ours)
         lights.sun = session.sun();
     const glm::vec3& factor = session.sky();
@@ -196,11 +196,11 @@ LightOptions lights_as_they_are(const ViewSession& session)
     else if (lights.sky_color)
         *lights.sky_color *= factor;
     else
-        refuse("a sky that was coloured cannot be saved, but one that was dimmed");
+        refuse("a coloured sky cannot be saved, only a dimmed one");
     if (session.sky_angle() == 0.0)
         return lights;
     if (ours && lights.sky_file.empty() && !lights.sky_color && !lights.overcast)
-        refuse("a clear sky that was turned away from its sun cannot be saved");
+        refuse("a clear sky turned away from its sun cannot be saved");
     lights.sky_rotation += session.sky_angle();
     if (ours)
         lights.sun->azimuth += session.sky_angle();  // keeps its direction

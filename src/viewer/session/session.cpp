@@ -214,7 +214,7 @@ MovableObject& ViewSession::picked_thing()
         throw Error(ErrorKind::input, "", "nothing is picked");
     if (!picked_->thing)
         throw Error(ErrorKind::input, "",
-                    fmt::format("\"{0}\" stays where it is; --movable \"{0}\" makes it a thing",
+                    fmt::format("\"{0}\" is not movable; add --movable \"{0}\"",
                                 shown_.instances[picked_->instance].name));
     return things_[*picked_->thing];
 }
@@ -378,7 +378,7 @@ void ViewSession::turn_sky(double angle)
 void ViewSession::set_sun(const SunPosition& sun)
 {
     if (!sun_light_)
-        throw Error(ErrorKind::input, "", "there is no sun; --sun AZIMUTH,ELEVATION gives one");
+        throw Error(ErrorKind::input, "", "there is no sun; use --sun AZIMUTH,ELEVATION");
     const bool is_ours = options_.lights.sun && options_.lights.sun->elevation > 0.0;
     sun_ = sun;
     SunPosition placed = sun;

@@ -94,7 +94,7 @@ bool ViewSession::take_solved(SolvedLight light, std::uint64_t edits)
 void ViewSession::show_solved(bool solved)
 {
     if (solved && !solved_)
-        throw Error(ErrorKind::input, "", "nothing is solved of the scene as it stands but links");
+        throw Error(ErrorKind::input, "", "the current scene has no solved light");
     shows_solved_ = solved;
 }
 

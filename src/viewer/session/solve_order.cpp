@@ -60,7 +60,7 @@ SolverOptions order_of(std::span<const std::string> words)
     for (std::size_t w = 1; w < words.size(); w += 2) {
         const std::string& word = words[w];
         if (!word.starts_with("--"))
-            throw Error(ErrorKind::input, word, "is no option; options begin with --");
+            throw Error(ErrorKind::input, word, "is not an option; options begin with --");
         if (w + 1 == words.size())
             throw Error(ErrorKind::input, word, "needs a value");
         if (const std::string name = word.substr(2); !take_limit(options, name, words[w + 1]))

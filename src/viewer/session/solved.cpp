@@ -42,7 +42,7 @@ StandingScene ViewSession::standing(MaterialModel model) const
     Scene scene = model == shown_.model ? shown_ : read_gltf(shown_.path, model);
     if (scene.instances.size() != shown_.instances.size() ||
         scene.materials.size() != shown_.materials.size())
-        throw Error(ErrorKind::input, shown_.path, "is another scene than when it was opened");
+        throw Error(ErrorKind::input, shown_.path, "has changed since it was opened");
     std::vector<char> deleted(shown_.instances.size(), 0);
     for (const MovableObject& thing : things_)
         for (const std::uint32_t instance : thing.instances)
@@ -135,7 +135,7 @@ SolvedLight SolveAside::take()
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::stopped)
             throw;
-        throw Error(ErrorKind::stopped, "", "solving was stopped before there was any light");
+        throw Error(ErrorKind::stopped, "", "solving was stopped before the first result");
     } catch (const std::exception& error) {  // such as out of memory: the display goes on
         throw Error(ErrorKind::device, "",
                     fmt::format("solving by {} failed: {}; a smaller atlas needs less memory",

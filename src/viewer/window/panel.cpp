@@ -12,6 +12,7 @@
 
 #include "base/core/error.h"
 #include "base/core/luminance.h"
+#include "jobs/solve/stages.h"
 #include "viewer/window/controls.h"
 #include "viewer/window/solver_panel.h"
 #include "viewer/window/widgets.h"
@@ -122,7 +123,7 @@ bool show_time(ViewSession& session, UiState& desk)
 bool show_picked(ViewSession& session)
 {
     if (!session.picked()) {
-        text("click on the picture");
+        text("click an object to pick it");
         return false;
     }
     const Picked picked = *session.picked();
@@ -131,11 +132,10 @@ bool show_picked(ViewSession& session)
     wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
     if (picked.lumel != kNoLumel) {
         const float percent = session.error_estimate()[picked.lumel];
-        text(fmt::format(
-            "{:.4g} lx, {}", luminance(session.irradiance()[picked.lumel]),
-            percent < 0.0f ? std::string("no error stated")
-                           : fmt::format("{:.2g} % {}", percent,
-                                         session.shows_solved() ? "of the mean" : "not settled")));
+        text(fmt::format("{:.4g} lx, error {}", luminance(session.irradiance()[picked.lumel]),
+                         percent < 0.0f ? "unknown"
+                                        : percent_text(double(percent) / 100.0) +
+                                              (session.shows_solved() ? " of the mean" : "")));
     }
     bool changed = false;
     glm::vec3 colour(material.base_color);
@@ -194,7 +194,7 @@ bool show_mode(ViewSession& session, UiState& desk)
             changed = true;
         }
     }
-    changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
+    changed |= ImGui::SliderInt("pixel size", &desk.coarse, 1, 4);
     return show_probes(session, desk) || changed;
 }
 
@@ -240,16 +240,16 @@ void show_light(ViewSession& session, UiState& desk)
     const LiveLinksState& light = session.light().state();
     desk.changed |= show_whose_light(session);
     auto budget = float(session.budget());
-    if (ImGui::SliderFloat("budget", &budget, kMinBudget, kMaxBudget, "%.0f ms"))
+    if (ImGui::SliderFloat("light budget", &budget, kMinBudget, kMaxBudget, "%.0f ms"))
         session.set_budget(double(budget));
-    text(light.at_rest     ? "at rest"
-         : light.under_way ? "following what moved"
-         : light.weighing  ? "at rest, but for the filter"
-                           : fmt::format("{:.3g} % of light to come, {} sweeps",
-                                         100.0 * light.residual, light.sweeps));
-    text(fmt::format("{} lumels, {} links anew", session.light().lumels().lumels.size(),
+    text(light.at_rest     ? "converged"
+         : light.under_way ? "updating after a move"
+         : light.weighing
+             ? "converged; building filter"
+             : fmt::format("residual {}, {} sweeps", percent_text(light.residual), light.sweeps));
+    text(fmt::format("{} lumels, {} links retraced", session.light().lumels().lumels.size(),
                      light.found.links.all()));
-    wrapped(fmt::format("last frame: light {:.1f}, picture {:.1f}, window {:.1f} ms", desk.light_ms,
+    wrapped(fmt::format("last frame: light {:.1f}, image {:.1f}, window {:.1f} ms", desk.light_ms,
                         desk.picture_ms, desk.window_ms));
     wrapped(desk.draws);
 }

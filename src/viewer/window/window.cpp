@@ -126,7 +126,7 @@ ViewWindow::ViewWindow(const ScriptRun& run, const SessionOptions& options, Stag
     desk_.seed = int(options.seed);
     if (options.solver)
         desk_.method.id = method_of(options.solver->method).id;
-    desk_.draws = fmt::format("light and picture by {}, window by {}", device_->info().name,
+    desk_.draws = fmt::format("light and image by {}, window by {}", device_->info().name,
                               screen_.draws_by());
 }
 
@@ -159,8 +159,8 @@ void ViewWindow::wait_for_light()
             screen_.take(first_picture(scene_, rays, view,
                                        glm::max(desk_.area / kFirstCoarse, glm::ivec2(1))));
         desk_.changed = false;
-        desk_.message = fmt::format("{:.0f} s: rays of all lumels are traced, on {}",
-                                    ms_since(start) / 1000.0, device_->info().name);
+        desk_.message =
+            fmt::format("{:.0f} s: tracing the rays of all lumels", ms_since(start) / 1000.0);
         draw(kIdle, false);
         goes_on = goes_on && stages_->progress(0.0);
         if (!goes_on)
@@ -213,7 +213,7 @@ void ViewWindow::step()
 void ViewWindow::solve_anew()
 {
     if (player_)
-        throw Error(ErrorKind::input, "", "a script is played; light can be solved anew after it");
+        throw Error(ErrorKind::input, "", "wait for the end of the script to solve again");
     solving_.drop();
     const SessionOptions before = options_;
     options_.link_rays = std::uint32_t(desk_.rays);
@@ -338,7 +338,7 @@ void ViewWindow::shoot()
     write_png(output.path(name), session_->picture());
     output.commit();
     files_.push_back(name);
-    desk_.message = name + " is written";
+    desk_.message = name + " written";
 }
 
 /// Saves a bake. Light pauses meanwhile; the window shows progress. Ctrl-C ends it early.
@@ -359,7 +359,7 @@ void ViewWindow::save()
         return stages_->progress(0.0);
     });
     files_.push_back(desk_.save_to);
-    desk_.message = fmt::format("{} is baked, in {:.1f} s", folder, saved.seconds);
+    desk_.message = fmt::format("{} baked in {:.1f} s", folder, saved.seconds);
 }
 
 /// Executes requests of the user.
