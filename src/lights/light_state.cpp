@@ -10,9 +10,9 @@
 namespace lumel {
 namespace {
 
-/// Lamps stay this near to the scene [m], as its meshes do.
+/// Maximum distance of lamps [m], as for meshes.
 constexpr double kFarthest = 1e9;
-/// Directions are longer.
+/// Minimum length of a direction vector.
 constexpr float kMinLength = 1e-20f;
 
 std::string list_of(const std::vector<std::string>& names)

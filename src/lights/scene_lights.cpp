@@ -89,7 +89,7 @@ void SceneLights::move(Lights& lights, std::size_t s, const LampPlace& place) co
     lamp = placed(lamp, place, scene_.origin);
 }
 
-/// What one material makes shine is dimmed as one.
+/// A material has one emission, so all its surfaces are dimmed together.
 void SceneLights::dim_surfaces(Lights& lights, const std::vector<glm::vec3>& factors) const
 {
     std::vector<std::optional<std::size_t>> source_of(lights.emitted.size());

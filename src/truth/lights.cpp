@@ -80,14 +80,14 @@ glm::vec3 Lights::from_emitter(const PathVertex& vertex, const BounceSamples& sa
 
     const glm::vec3 lifted =
         emitter.position + (cos_front > 0.0f ? ray_offset_ : -ray_offset_) * emitter.normal;
-    const glm::vec3 passing =
-        rays_.passing(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
-    if (passing == glm::vec3(0.0f))
-        return passing;
+    const glm::vec3 transmittance =
+        rays_.transmittance(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
+    if (transmittance == glm::vec3(0.0f))
+        return transmittance;
     const float density = emitter.density * squared / cos_there;  // per solid angle
     const Brdf::Response response = vertex.brdf.respond(direction);
     const float weight = power_heuristic(density, response.density);
-    return passing * emitter.luminance * (response.shape * (cos_here / density * weight));
+    return transmittance * emitter.luminance * (response.shape * (cos_here / density * weight));
 }
 
 glm::vec3 Lights::from_sky(const PathVertex& vertex, const BounceSamples& samples) const
@@ -96,13 +96,13 @@ glm::vec3 Lights::from_sky(const PathVertex& vertex, const BounceSamples& sample
     const float cosine = cosine_above(vertex, sky.direction);
     if (!(cosine > 0.0f) || !(sky.density > 0.0f))
         return glm::vec3(0.0f);
-    const glm::vec3 passing =
-        rays_.passing_out(vertex.position, sky.direction, samples.bits(Draw::sky));
-    if (passing == glm::vec3(0.0f))
-        return passing;
+    const glm::vec3 transmittance =
+        rays_.transmittance_out(vertex.position, sky.direction, samples.bits(Draw::sky));
+    if (transmittance == glm::vec3(0.0f))
+        return transmittance;
     const Brdf::Response response = vertex.brdf.respond(sky.direction);
     const float weight = power_heuristic(sky.density, response.density);
-    return passing * sky.radiance * (response.shape * (cosine / sky.density * weight));
+    return transmittance * sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
 /// Computes the unoccluded light of every lamp, and traces shadow rays to a few, selected by it.
@@ -128,7 +128,7 @@ glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samp
         offers.push_back({lamp, light, total});
     }
     const auto arrives = [&](const LampSample& lamp) {
-        return passing(rays_, vertex.position, lamp, 0.0f, samples.bits(Draw::lamp));
+        return transmittance(rays_, vertex.position, lamp, 0.0f, samples.bits(Draw::lamp));
     };
 
     glm::vec3 arriving(0.0f);

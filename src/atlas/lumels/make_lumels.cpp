@@ -320,7 +320,7 @@ void append_backs(std::size_t first, Lumels& lumels)
 
 }  // namespace
 
-Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallback& watch)
+Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallback& progress)
 {
     Lumels lumels;
     lumels.width = atlas.width;
@@ -336,7 +336,7 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallbac
     std::vector<Lifted> lifted;
     std::size_t chart_first = 0;
     for (std::size_t first = 0; first < texels.size(); first += kTexelsAtATime) {
-        tell(watch, double(first) / double(texels.size()));
+        notify(progress, double(first) / double(texels.size()));
         lifted.assign(std::min(kTexelsAtATime, texels.size() - first), {});
         parallel_for(lifted.size(), kGrain, [&](std::size_t from, std::size_t to) {
             for (std::size_t i = from; i < to; ++i)

@@ -289,7 +289,7 @@ float apply(Lumels& lumels, const OpenPart& part)
 }  // namespace
 
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
-                               const std::vector<char>& chosen, const ProgressCallback& watch)
+                               const std::vector<char>& chosen, const ProgressCallback& progress)
 {
     std::vector<OpenPart> parts(lumels.lumels.size());
     {
@@ -308,7 +308,7 @@ std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels&
             }
         };
         parallel_steps(world.size(), kLumelsPerStep, kGrain, look_at, [&](std::size_t done) {
-            tell(watch, double(done) / double(world.size()));
+            notify(progress, double(done) / double(world.size()));
             return true;
         });
     }

@@ -22,6 +22,6 @@ namespace lumel {
 /// alone and leaves the others as they are, with a share of 1; empty: all.
 std::vector<float> mark_buried(const Scene& scene, const RayScene& rays, Lumels& lumels,
                                const std::vector<char>& chosen = {},
-                               const ProgressCallback& watch = {});
+                               const ProgressCallback& progress = {});
 
 }  // namespace lumel

@@ -82,7 +82,7 @@ using ShowsBoth =
 /// coincide with edges of texels; parts thinner than a texel share the texels of a neighbour.
 /// Throws Error{input} if it cannot be made to fit. shows_both: if empty, sides share texels.
 Atlas make_atlas(const Scene& scene, const AtlasOptions& options,
-                 const ProgressCallback& watch = {}, const ShowsBoth& shows_both = {});
+                 const ProgressCallback& progress = {}, const ShowsBoth& shows_both = {});
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {
@@ -98,7 +98,7 @@ struct Lumels {
 
 /// Lifts every covered texel, however thinly covered, into a lumel. Where charts of a file's own
 /// layout meet in one texel, it belongs to the one that covers most of it.
-Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallback& watch = {});
+Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallback& progress = {});
 
 /// [texels][2]: front and back lumel of each texel, or kNoLumel.
 std::vector<std::uint32_t> lumels_by_side(const Lumels& lumels);

@@ -458,8 +458,8 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
 
 }  // namespace
 
-Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const ProgressCallback& watch,
-                 const ShowsBoth& shows_both)
+Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
+                 const ProgressCallback& progress, const ShowsBoth& shows_both)
 {
     check(scene, requested);
     Atlas atlas;
@@ -472,7 +472,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Progre
     }
 
     const std::vector<AuthoredReport> reports = check_all(scene, atlas.notes);
-    tell(watch, kChecked);
+    notify(progress, kChecked);
     // Lay out and pack.
     Plans plans;
     Packing packing;
@@ -483,14 +483,14 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested, const Progre
         packing = pack_scene_wide(scene, reports, options, plans, atlas.notes);
     } else {
         plans = plan(scene, reports, options);
-        tell(watch, kPlanned);
+        notify(progress, kPlanned);
         sheets.emplace(plans);
         if (shows_both)
             both = shows_both(scene, sheets->triangles());
-        tell(watch, kSidesKnown);
+        notify(progress, kSidesKnown);
         packing = pack_sides(plans, *sheets, both, options, back, atlas.notes);
     }
-    tell(watch, kPacked);
+    notify(progress, kPacked);
     atlas.pages = packing.pages;
     atlas.width = atlas.height = packing.pages.map_side();
     atlas.texels_per_metre = float(packing.density);

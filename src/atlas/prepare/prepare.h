@@ -20,13 +20,13 @@ void check_camera(const Scene& scene, int camera);
 /// into the scene.
 struct Prepared {
     /// Lays out and lifts a scene. Throws Error.
-    Prepared(Scene scene, const AtlasOptions& options, const ProgressCallback& watch = {});
+    Prepared(Scene scene, const AtlasOptions& options, const ProgressCallback& progress = {});
     /// The same with an atlas that `lay_out` makes of the scene, and with `bury` in place of
     /// mark_buried; its result is `open`.
     using LayOut = std::function<Atlas(const Scene&, const RayScene&, const ProgressCallback&)>;
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {},
-             const ProgressCallback& watch = {});
+             const ProgressCallback& progress = {});
     /// Reads it first.
     Prepared(const std::string& scene_path, const AtlasOptions& options);
     Prepared(const Prepared&) = delete;

@@ -49,8 +49,8 @@ public:
     SampledScene(Scene scene, const AtlasOptions& options)
         : prepared_(
               std::move(scene),
-              [&](const Scene& placed, const RayScene& rays, const ProgressCallback& watch) {
-                  return make_atlas(placed, options, watch, shows_both(options.sides, rays));
+              [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
+                  return make_atlas(placed, options, progress, shows_both(options.sides, rays));
               },
               [&](const Scene& placed, const RayScene& rays, Lumels& lumels) {
                   return mark_some(placed, rays, lumels);

@@ -392,14 +392,14 @@ glm::vec3 Gatherer::from_lamp_points(const Receiver& receiver) const
                             float(receiver.directions) * directions.density(direction, cosine);
         const std::uint32_t seed = samples.bits(kSeedPair);
         glm::vec3 radiance(0.0f);
-        const auto passing = [&](const SeenScene& seen) {
+        const auto transmittance = [&](const SeenScene& seen) {
             ++*receiver.rays;
-            return seen.rays->passing(x.position, x.position + to, ray_offset_, seed);
+            return seen.rays->transmittance(x.position, x.position + to, ray_offset_, seed);
         };
         if (is_now)
-            radiance += passing(now_) * now_.sent.emission[lamp.now];
+            radiance += transmittance(now_) * now_.sent.emission[lamp.now];
         if (!receiver.whole && lamp.before != kNoLumel)
-            radiance -= passing(before_) * before_.sent.emission[lamp.before];
+            radiance -= transmittance(before_) * before_.sent.emission[lamp.before];
         sum += radiance * (cosine / (kPi * mixed));
     }
     return sum;
@@ -423,7 +423,7 @@ glm::vec3 Gatherer::from_lamps(const Receiver& receiver) const
             const std::uint32_t seed = samples.bits(kSeedPair);
             const auto arrives = [&](const SeenScene& seen) {
                 ++*receiver.rays;
-                return passing(*seen.rays, x.position, lamp, ray_offset_, seed);
+                return transmittance(*seen.rays, x.position, lamp, ray_offset_, seed);
             };
             glm::vec3 passed = arrives(now_);
             if (!receiver.whole)

@@ -58,9 +58,10 @@ KeptLinksSolver::KeptLinksSolver(const Prepared& prepared, const KeptLightOption
                                  Stages& stages, const StoredLinks* kept)
 {
     stages.begin("links");
-    light_.emplace(prepared.scene, prepared.atlas, prepared.lumels, options, kept, stages.watch());
+    light_.emplace(prepared.scene, prepared.atlas, prepared.lumels, options, kept,
+                   stages.callback());
     stages.begin("solving");
-    irradiance_ = light_->irradiance(stages.watch());
+    irradiance_ = light_->irradiance(stages.callback());
 }
 
 SolverState KeptLinksSolver::state() const

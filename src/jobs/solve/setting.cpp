@@ -116,8 +116,8 @@ std::optional<LobeParticles> particles_for(const Prepared& prepared, const Solve
 Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& options, Stages& stages)
     : Setting(
           std::move(scene),
-          [&](const Scene& placed, const RayScene& rays, const ProgressCallback& watch) {
-              return make_atlas(placed, options.atlas, watch,
+          [&](const Scene& placed, const RayScene& rays, const ProgressCallback& progress) {
+              return make_atlas(placed, options.atlas, progress,
                                 shows_both(options.atlas.sides, rays));
           },
           device, options, stages)
@@ -126,7 +126,7 @@ Setting::Setting(Scene scene, const gpu::Device& device, const BakeOptions& opti
 
 Setting::Setting(Scene scene, const Prepared::LayOut& lay_out, const gpu::Device& device,
                  const BakeOptions& options, Stages& stages)
-    : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.watch()),
+    : prepared(in_stage(std::move(scene), stages), lay_out, {}, stages.callback()),
       near(near_field_of(prepared, device, options, stages)),
       world(world_on(device, prepared, options, stages)),
       particles(particles_for(prepared, options.solver))

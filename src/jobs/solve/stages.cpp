@@ -69,7 +69,7 @@ bool Stages::progress(double fraction, std::uint64_t shots, double error)
     return !stopped_;
 }
 
-ProgressCallback Stages::watch()
+ProgressCallback Stages::callback()
 {
     return [this](double fraction) {
         if (!progress(fraction))

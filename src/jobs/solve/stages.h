@@ -36,7 +36,7 @@ public:
     bool progress(double fraction, std::uint64_t shots = 0, double error = -1.0);
     /// Progress callback of the current stage. Throws Error{stopped} if the caller wants to stop:
     /// for stages without results to keep.
-    ProgressCallback watch();
+    ProgressCallback callback();
     /// Reports a one-line fact about the current stage.
     void note(const std::string& text);
     /// Warns the user; also in the report.

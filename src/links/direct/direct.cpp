@@ -208,7 +208,7 @@ glm::vec3 DirectEstimator::light_of(const ShadowRays& looks, std::uint32_t first
 {
     glm::vec3 light(0.0f);
     for (std::uint32_t look = first; look < first + looks_around(); ++look)
-        light += looks.passing(look) * looks.sample(look).irradiance;
+        light += looks.transmittance(look) * looks.sample(look).irradiance;
     return light;
 }
 
@@ -260,7 +260,7 @@ void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& foun
         const std::uint32_t first = group.first + h * group.rays;
         for (std::uint32_t look = first; look < first + group.rays; ++look)
             for (SourceEstimate* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
-                into->add(wave.looks.sample(look), wave.looks.passing(look));
+                into->add(wave.looks.sample(look), wave.looks.transmittance(look));
         found.half[h] += sums.light();
     }
     found.rays += of_both.free + of_both.hidden;

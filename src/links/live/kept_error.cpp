@@ -70,7 +70,7 @@ Half begun(const LightAtRest& light, std::uint32_t half)
 
 /// [N] Squared noise of each lumel, summed over channels.
 std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     Half halves[2] = {begun(light, 0), begun(light, 1)};
     while (!halves[0].rests || !halves[1].rests) {
@@ -78,7 +78,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
             for (std::size_t k = first; k < last; ++k)
                 halves[k].step();
         });
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     }
     std::vector<float> noise(light.lumels.size(), 0.0f);
     parallel_for(noise.size(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -94,7 +94,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
 
 /// [N] Signed squared filter bias of each lumel.
 std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     const std::size_t count = light.lumels.size();
     std::array<std::vector<glm::vec3>, 4> quarters;
@@ -110,7 +110,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
     });
     filter.begin({std::move(quarters[0]), std::move(quarters[1])});
     while (!filter.step())
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     const std::vector<glm::vec3>&a = quarters[2], &b = quarters[3];
     std::vector<float> wrong(count, 0.0f);
     parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
@@ -135,11 +135,13 @@ struct Sums {
 
 }  // namespace
 
-KeptError error_of(const LightAtRest& light, DisplayFilter* filter, const ProgressCallback& watch)
+KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
+                   const ProgressCallback& progress)
 {
-    const std::vector<float> noise = noise_of(light, filter, part_of(watch, 0.0, kHalves));
-    const std::vector<float> wrong = filter ? wrong_of(light, *filter, part_of(watch, kHalves, 1.0))
-                                            : std::vector<float>(noise.size(), 0.0f);
+    const std::vector<float> noise = noise_of(light, filter, part_of(progress, 0.0, kHalves));
+    const std::vector<float> wrong = filter
+                                         ? wrong_of(light, *filter, part_of(progress, kHalves, 1.0))
+                                         : std::vector<float>(noise.size(), 0.0f);
     const auto sums_below = [&](double most) {
         Sums sums;
         for (std::size_t i = 0; i < noise.size(); ++i) {

@@ -30,6 +30,6 @@ struct LightAtRest {
 /// includes noise transported by bounces. filter: null, or with the weights of H; its weights are
 /// changed.
 KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
-                   const ProgressCallback& watch = {});
+                   const ProgressCallback& progress = {});
 
 }  // namespace lumel

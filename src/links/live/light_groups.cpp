@@ -23,7 +23,7 @@ constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
 }  // namespace
 
 LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                         const ProgressCallback& watch)
+                         const ProgressCallback& progress)
     : place_(place),
       options_(options)
 {
@@ -37,7 +37,7 @@ LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& op
     this->place();
     const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
     for (std::size_t g = 0; g < groups_.size(); ++g)
-        find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
+        find(groups_[g], part_of(progress, share * double(g), share * double(g + 1)));
 }
 
 void LightGroups::list_senders()
@@ -115,7 +115,7 @@ void LightGroups::make_room(Group& group) const
         group.off.resize(group.light.size());
 }
 
-void LightGroups::find(Group& group, const ProgressCallback& watch)
+void LightGroups::find(Group& group, const ProgressCallback& progress)
 {
     const std::size_t lumels = place_.lumels.lumels.size();
     make_room(group);
@@ -126,7 +126,7 @@ void LightGroups::find(Group& group, const ProgressCallback& watch)
                 find_at(group, i);
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels));
+            notify(progress, double(done) / double(lumels));
             return true;
         });
     summed_ = false;
@@ -230,8 +230,8 @@ RayOrigin LightGroups::start_of(std::size_t i, std::uint32_t k) const
     return place_.starts.start(i, samples.stratified(kStartPair));
 }
 
-glm::vec3 LightGroups::passing(const RayOrigin& start, const SourceSample& sample,
-                               std::uint32_t seed) const
+glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample& sample,
+                                     std::uint32_t seed) const
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
@@ -254,7 +254,7 @@ LightGroups::Found LightGroups::by_one(std::uint32_t source, std::uint32_t strea
         const RayOrigin start = start_of(i, k);
         const SourceSample sample =
             place_.sources.sample(source, start, samples.stratified(kSourcePair));
-        found.add(sample, passing(start, sample, samples.bits(kSourcePair)));
+        found.add(sample, transmittance(start, sample, samples.bits(kSourcePair)));
     }
     const glm::vec3 light = found.light();
     return {light, half.light() - light};
@@ -283,8 +283,8 @@ LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t str
             continue;
         const SourceSample sample =
             place_.sources.sample(sender.sources[n], start, samples.stratified(kSourcePair));
-        sum +=
-            passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
+        sum += transmittance(start, sample, samples.bits(kSourcePair)) * sample.irradiance *
+               (total / own);
     }
     const glm::vec3 light = sum / float(options_.many_rays);
     return {light, half / (0.5f * float(options_.many_rays)) - light};

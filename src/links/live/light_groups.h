@@ -28,7 +28,7 @@ class LightGroups {
 public:
     /// Computes all light. All arguments must outlive this.
     LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                const ProgressCallback& watch = {});
+                const ProgressCallback& progress = {});
 
     /// Scales an emitter's light to `factor` × its value in the scene. Returns false if there is
     /// none.
@@ -82,14 +82,15 @@ private:
     void add_groups();
     void make_room(Group& group) const;
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
-    void find(Group& group, const ProgressCallback& watch = {});
+    void find(Group& group, const ProgressCallback& progress = {});
     void find_at(Group& group, std::size_t lumel) const;
     Found light_of(const Group& group, std::size_t lumel) const;
     Found light_of(const Emitter& sender, std::size_t lumel) const;
     Found by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
     Found by_many(const Emitter& sender, std::uint32_t stream, std::size_t lumel) const;
     RayOrigin start_of(std::size_t lumel, std::uint32_t ray) const;
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;
     bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
     bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;

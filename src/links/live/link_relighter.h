@@ -31,12 +31,12 @@ public:
     /// links of an earlier run, or null. Throws Error{input} for coloured glass.
     LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                   const KeptLightOptions& options, const StoredLinks* kept = nullptr,
-                  const ProgressCallback& watch = {});
+                  const ProgressCallback& progress = {});
     LinkRelighter(const LinkRelighter&) = delete;
     LinkRelighter& operator=(const LinkRelighter&) = delete;
 
     /// H [N] [lx] of the scene as it is now.
-    std::vector<glm::vec3> irradiance(const ProgressCallback& watch = {});
+    std::vector<glm::vec3> irradiance(const ProgressCallback& progress = {});
 
     /// Error estimate of the last light.
     const KeptError& error() const { return error_; }
@@ -49,9 +49,9 @@ private:
     LinkContext place() const;
     void find_sources();
     std::vector<glm::vec3> light_of_lamps(std::vector<glm::vec3>& off,
-                                          const ProgressCallback& watch);
-    void settle(const ProgressCallback& watch);
-    void make_weights(DisplayFilter& filter, const ProgressCallback& watch);
+                                          const ProgressCallback& progress);
+    void settle(const ProgressCallback& progress);
+    void make_weights(DisplayFilter& filter, const ProgressCallback& progress);
 
     const Scene& scene_;
     const Atlas& atlas_;

@@ -83,7 +83,8 @@ private:
 };
 
 LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side,
-                       std::uint32_t seed, const StoredLinks* kept, const ProgressCallback& watch)
+                       std::uint32_t seed, const StoredLinks* kept,
+                       const ProgressCallback& progress)
     : place_(place),
       near_(place.scene, atlas, place.lumels),
       side_(side),
@@ -100,13 +101,13 @@ LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32
         on_thing_.push_back(place_.rays.object_of(i));
     if (kept)
         if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
-            take_over(*kept, changes, watch);
+            take_over(*kept, changes, progress);
             return;
         }
-    trace_all(watch);
+    trace_all(progress);
 }
 
-void LumelLinks::trace_all(const ProgressCallback& watch)
+void LumelLinks::trace_all(const ProgressCallback& progress)
 {
     parallel_steps(
         lumels_, kStep, kGrain,
@@ -115,7 +116,7 @@ void LumelLinks::trace_all(const ProgressCallback& watch)
                 trace(i);
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels_));
+            notify(progress, double(done) / double(lumels_));
             return true;
         });
     traced_.started = links_.size();
@@ -123,7 +124,7 @@ void LumelLinks::trace_all(const ProgressCallback& watch)
 
 /// Retraces changed links. find_sky() computes the sky light.
 void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
-                           const ProgressCallback& watch)
+                           const ProgressCallback& progress)
 {
     links_ = kept.links;  // may contain StoredLinks::gone()
     std::mutex adding;
@@ -137,7 +138,7 @@ void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
             traced_ += sum;
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels_));
+            notify(progress, double(done) / double(lumels_));
             return true;
         });
     find_sky();
@@ -165,7 +166,7 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
     for (const LinkChanges::Moved& moved : changes.moved)
         for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
             const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
-            if (moved.tree.passing(ray) != glm::vec3(0.0f))
+            if (moved.tree.transmittance(ray) != glm::vec3(0.0f))
                 return;
             links[k] = end_of(rays_of, k);
             ++count.crossed;

@@ -40,7 +40,7 @@ public:
     /// outlive this. kept: links of the same scene, or of one with objects elsewhere: only links
     /// that can have changed are traced, with the same result.
     LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed,
-               const StoredLinks* kept = nullptr, const ProgressCallback& watch = {});
+               const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
 
     /// Retraces the rays of these lumels that start on `thing`, ended on it or hit it now. After
     /// all lumels, links equal those of a new LumelLinks.
@@ -90,9 +90,9 @@ public:
 private:
     class Rays;
 
-    void trace_all(const ProgressCallback& watch);
+    void trace_all(const ProgressCallback& progress);
     void take_over(const StoredLinks& kept, const LinkChanges& changes,
-                   const ProgressCallback& watch);
+                   const ProgressCallback& progress);
     Retraced take_over(std::size_t lumel, const LinkChanges& changes);
     template <class Visit>
     void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,

@@ -82,7 +82,7 @@ struct LinkTracer::RayBatch {
     // One reflection; members to reuse their memory.
     std::vector<std::uint32_t> open;  ///< hits that need a visible cell
     std::vector<RaySpan> to_cells;
-    std::vector<glm::vec3> passing;  ///< [to_cells]
+    std::vector<glm::vec3> transmittance;  ///< [to_cells]
     ShadowRays looks;
     std::vector<RaySpan> next_rays;
     std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
@@ -270,9 +270,9 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
             arrival.goes_on = arrival.looks_around = wave.reflections < kMaxReflections;
             return true;
         });
-        wave.passing.resize(wave.to_cells.size());
-        place_.caster.passing(wave.to_cells, wave.passing);
-        auto passed = wave.passing.begin();
+        wave.transmittance.resize(wave.to_cells.size());
+        place_.caster.transmittance(wave.to_cells, wave.transmittance);
+        auto passed = wave.transmittance.begin();
         std::erase_if(open, [&](std::uint32_t a) {
             const bool sees = *passed++ != glm::vec3(0.0f);
             if (!sees)

@@ -126,8 +126,9 @@ LobeParticles::Sought LobeParticles::seek_light(const LumelPoint& y,
         offer(lamps_.sample(lamp, position, disc));
     if (choice.empty())
         return {};
-    return {choice.lamp().direction, choice.light() * passing(*rays_, position, choice.lamp(), 0.0f,
-                                                              samples.bits(kChoicePair))};
+    return {choice.lamp().direction,
+            choice.light() *
+                transmittance(*rays_, position, choice.lamp(), 0.0f, samples.bits(kChoicePair))};
 }
 
 /// Traces a particle to its next hit; false if none.

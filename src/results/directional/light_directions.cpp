@@ -85,9 +85,9 @@ private:
             const glm::vec3 sky = sources_.dim_sky(direction);
             if (sky == glm::vec3(0.0f) || !(glm::dot(start.geometric, direction) > 0.0f))
                 continue;
-            const glm::vec3 passing =
-                rays_.passing_out(start.position, direction, samples.bits(kSeedPair));
-            add(i, direction, passing * sky * (2.0f * kPi / float(kSkyRays)), sums);
+            const glm::vec3 transmittance =
+                rays_.transmittance_out(start.position, direction, samples.bits(kSeedPair));
+            add(i, direction, transmittance * sky * (2.0f * kPi / float(kSkyRays)), sums);
         }
     }
 
@@ -119,9 +119,9 @@ private:
         const float cosine = start.cosine(sample.direction);
         if (!(cosine > 0.0f) || sample.irradiance == glm::vec3(0.0f))
             return;
-        const glm::vec3 passing =
-            rays_.passing(ray_towards(sample, start, rays_.ray_offset(), samples.bits(kSeedPair)));
-        add(i, sample.direction, passing * sample.irradiance * (weight / cosine), sums);
+        const glm::vec3 transmittance = rays_.transmittance(
+            ray_towards(sample, start, rays_.ray_offset(), samples.bits(kSeedPair)));
+        add(i, sample.direction, transmittance * sample.irradiance * (weight / cosine), sums);
     }
 
     const RayScene& rays_;

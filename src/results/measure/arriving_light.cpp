@@ -81,12 +81,12 @@ glm::vec3 ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& d
     return hit.tint * reflected_[lumel];
 }
 
-glm::vec3 ArrivingLight::passing(const RayOrigin& start, const SourceSample& sample,
-                                 std::uint32_t seed) const
+glm::vec3 ArrivingLight::transmittance(const RayOrigin& start, const SourceSample& sample,
+                                       std::uint32_t seed) const
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
-    return rays_.passing(ray_towards(sample, start, rays_.ray_offset(), seed));
+    return rays_.transmittance(ray_towards(sample, start, rays_.ray_offset(), seed));
 }
 
 }  // namespace lumel

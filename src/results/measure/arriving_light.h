@@ -34,7 +34,8 @@ public:
                         std::uint32_t& backs) const;
 
     /// Transmittance to a sample; traces no ray if its light is 0.
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
 
     const LightSources& sources() const { return sources_; }
     float ray_offset() const { return rays_.ray_offset(); }

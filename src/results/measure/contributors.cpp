@@ -181,7 +181,7 @@ private:
             if (!(cosine > 0.0f))
                 continue;
             const glm::vec3 passes =
-                passing(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
+                transmittance(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
             sum += cosine * passes * toward.illuminance;
         }
         return sum / float(kLampPoints);

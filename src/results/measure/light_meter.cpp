@@ -78,7 +78,7 @@ glm::vec3 LightMeter::from_sources(const RayOrigin& start, const RayAllocation& 
     for_shared_rays(shares, stream, 0, shares.rest_rays,
                     [&](std::size_t source, float chance, const glm::vec2& at, std::uint32_t seed) {
                         const SourceSample sample = light_.sources().sample(source, start, at);
-                        sum += light_.passing(start, sample, seed) * sample.irradiance /
+                        sum += light_.transmittance(start, sample, seed) * sample.irradiance /
                                (chance * float(shares.rest_rays));
                     });
     return sum;
@@ -90,7 +90,7 @@ glm::vec3 LightMeter::from_source(const RayOrigin& start, const RayAllocation::O
     SourceEstimate found;
     for_rays_towards(own.source, stream, 0, own.rays, [&](const glm::vec2& at, std::uint32_t seed) {
         const SourceSample sample = light_.sources().sample(own.source, start, at);
-        found.add(sample, light_.passing(start, sample, seed));
+        found.add(sample, light_.transmittance(start, sample, seed));
     });
     return found.light();
 }

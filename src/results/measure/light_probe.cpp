@@ -157,7 +157,7 @@ void LightProbe::add_sample(std::size_t source, const glm::vec3& position, const
         const float cosine = start.cosine(sample.direction);
         if (cosine > 0.0f)
             add(sums, sample.direction,
-                light_.passing(start, sample, seed) * sample.irradiance * (weight / cosine));
+                light_.transmittance(start, sample, seed) * sample.irradiance * (weight / cosine));
     }
 }
 

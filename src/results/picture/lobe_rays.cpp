@@ -187,7 +187,8 @@ private:
         }
         if (choice.empty())
             return glm::vec3(0.0f);
-        return choice.light() * passing(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
+        return choice.light() *
+               transmittance(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
     }
 
     /// Weight by Russian roulette before another lobe: 0 for rays that end.
