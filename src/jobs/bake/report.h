@@ -15,11 +15,9 @@ BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const
 /// View of preview.png; empty without a preview.
 std::optional<PreviewRow> preview_row(const WrittenLight& written, const Scene& scene);
 
-/// Report of a bake.
 Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages);
 
-/// Report of a reference.
 Report reference_report(const BakeOptions& options, const ReferenceOptions& reference,
                         const Prepared& prepared, bool stopped, const Stages& stages);
 

@@ -25,7 +25,6 @@ Report report_on(const Scene& scene, const LightOptions& lights);
 /// Adds times, memory and warnings.
 void add_usage(Report& report, const Scene& scene, const Stages& stages);
 
-/// Adds the sizes of atlas and lumels.
 void add_sizes(Report& report, const Scene& scene, const Atlas& atlas, const Lumels& lumels);
 
 /// Adds usage, sizes and notes.

@@ -26,7 +26,6 @@ constexpr double kMargin = 1.1;
 constexpr std::size_t kParticlesPerTask = 1024, kParticlesPerStep = 1 << 17;
 /// Maximum bounces of a particle: white rooms would reflect it forever.
 constexpr std::uint32_t kMaxBounces = 256;
-/// Bounces with stratified directions.
 constexpr std::uint32_t kStratifiedBounces = 1;
 /// Dimension pairs of a particle's random numbers.
 constexpr std::uint32_t kPointPair = 0, kFirstBouncePair = 1, kPairsPerBounce = 2;

@@ -52,7 +52,6 @@ std::string name_of(const glm::ivec2& texel, const Pages& pages)
                        there.x, there.y);
 }
 
-/// The nearest covered texel.
 glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm::ivec2& texel)
 {
     glm::ivec2 best(0);

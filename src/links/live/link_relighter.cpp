@@ -10,8 +10,8 @@ namespace {
 
 /// Lumels per task, and per part of a sweep between progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
-/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of what
-/// remains.
+/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of the
+/// remainder.
 constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace

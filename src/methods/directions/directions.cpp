@@ -42,7 +42,6 @@
 namespace lumel {
 namespace {
 
-/// Directions per chunk.
 constexpr std::uint32_t kChunk = 1024;
 /// Dimension pairs of a direction's random numbers.
 constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;

@@ -22,7 +22,6 @@ namespace {
 
 /// States per product, which share a read of the matrix.
 constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
-/// Lumels per task.
 constexpr std::size_t kLumelsPerTask = 4096;
 
 SourceNames names_of(const Relightable& light)

@@ -100,7 +100,6 @@ public:
     /// Orbits the picked object, or the surface at the image's centre [rad].
     void orbit(float around, float over);
 
-    /// The surface at a pixel.
     std::optional<Picked> seen_at(const glm::ivec2& pixel);
     /// Picks the surface at a pixel; unpicks if there is none.
     void pick(const glm::ivec2& pixel);

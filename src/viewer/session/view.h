@@ -28,7 +28,6 @@ struct ViewSummary {
 ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
                         const ProgressFunction& progress = {});
 
-/// Summary of a finished session.
 ViewSummary summary_of(const std::string& scene, ViewSession& session,
                        const std::vector<std::string>& files, double seconds);
 

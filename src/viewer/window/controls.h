@@ -32,7 +32,7 @@ private:
     void move_thing(ViewSession& session, const UiState& desk);
 
     Drag drag_ = Drag::none;
-    glm::vec3 grip_{0.0f};  ///< point of the thing under the mouse [m]
+    glm::vec3 grip_{0.0f};  ///< point of the object under the mouse [m]
 };
 
 }  // namespace lumel
