@@ -17,7 +17,7 @@ std::vector<char> flags_of(const Scene& scene, const LeakyOptions& options)
     for (const std::uint32_t instance : options.movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, "instance " + std::to_string(instance),
-                        "is to move, but the scene has only " + std::to_string(flags.size()));
+                        "cannot move: the scene has only " + std::to_string(flags.size()));
         flags[instance] = char(!options.still);
     }
     return flags;
@@ -27,7 +27,7 @@ Lumels lumels_of(const Scene& scene, const Atlas& atlas, const std::vector<char>
 {
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     mark_buried_by_still(scene, movers, lumels);
     return lumels;
 }
@@ -82,9 +82,9 @@ void LeakyScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not one of those that may move");
+        throw Error(ErrorKind::input, name, "is not movable");
     if (!is_rigid(scene_.instances[instance].transform, transform))
-        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+        throw Error(ErrorKind::input, name, "can be rotated and moved, but not stretched");
     requested_[instance] = transform;
 }
 

@@ -113,7 +113,7 @@ RowsParams VisibilityRows::params(std::uint32_t first, std::uint32_t last,
 void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("keep what is seen", count_, kProbeLumels,
+    solver_->pacer().work("record visibility", count_, kProbeLumels,
                           [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
                               commands.dispatch(
                                   record_,
@@ -135,7 +135,7 @@ void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 void VisibilityRows::shoot(const ShotList& list, std::uint32_t first, float sign)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("shoot what is seen", count_, kProbeLumels,
+    solver_->pacer().work("shoot by visibility", count_, kProbeLumels,
                           [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
                               RowsParams given = params(from, to, first);
                               given.sign_factor = sign;
