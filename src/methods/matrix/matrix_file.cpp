@@ -6,7 +6,7 @@
 //     8 bytes   their Fingerprint
 //     contents  in the order of fields(); a list is its length in 8 bytes, then its elements
 //
-// Contents that the fingerprint vouches for are checked again before anything is indexed by them.
+// Contents with a valid fingerprint are still checked before they are used as indices.
 
 #include "methods/matrix/matrix_file.h"
 
@@ -45,7 +45,7 @@ std::uint64_t fingerprint_of(const void* bytes, std::size_t count)
     return fingerprint.value();
 }
 
-/// Numbers of a colour, one after the other.
+/// Components of colours, one after the other.
 std::span<const float> numbers_of(const std::vector<glm::vec3>& colors)
 {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
@@ -68,7 +68,7 @@ public:
         append(values.data(), values.size() * sizeof(T));
     }
     void text(const std::string& text) { list(std::vector<char>(text.begin(), text.end())); }
-    /// What one half stands for, then all numbers.
+    /// The scale of all halves, then the numbers.
     void halves(const std::vector<glm::vec3>& colors)
     {
         const std::span<const float> numbers = numbers_of(colors);
@@ -187,8 +187,8 @@ void lamp_fields(Archive& archive, Lamp& lamp)
             archive.value(lamp.transform[column][row]);
 }
 
-/// All of the contents, in order, read from or written to `archive`. matrix: its bytes, none if
-/// there are no patches.
+/// All contents, in order, read from or written to `archive`. matrix: its bytes, empty without
+/// patches.
 template <class Archive, class Light, class Matrix>
 void fields(Archive& archive, Light& light, Matrix& matrix)
 {
@@ -273,8 +273,7 @@ bool is_sound(const LumelRows& rows, std::size_t lumels, std::size_t patches)
            });
 }
 
-/// Everything fits together, and every index has something behind it; the matrix is sound in
-/// itself.
+/// True if sizes are consistent and indices in range; the matrix checks itself.
 bool is_sound(const Relightable& light)
 {
     const std::size_t lumels = light.size(), patches = light.patches.size();
@@ -298,15 +297,14 @@ bool is_sound(const Relightable& light)
            is_sound(light.rows, lumels, patches) && size_of(light.matrix) == patches;
 }
 
-/// Throws unless the head shows that the contents are ours and complete.
+/// Throws unless the header shows that the file is of this format and complete.
 void check_head(const std::string& path, const Bytes& bytes)
 {
     Head head;
     if (bytes.size() >= sizeof head)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
-        throw Error(ErrorKind::input, path,
-                    "is not a matrix that lumel bake --solver matrix wrote");
+        throw Error(ErrorKind::input, path, "is not a matrix file of lumel bake --solver matrix");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

@@ -1,5 +1,5 @@
 #pragma once
-// Projection and resolution of the views from shooters.
+// Projection and resolution of views from shooters.
 
 #include <cstdint>
 
@@ -8,15 +8,15 @@
 namespace lumel {
 
 enum class Projection : std::uint32_t {
-    hemicube = kHemicube,      ///< five faces, each drawn for itself
-    hemisphere = kHemisphere,  ///< one disc, drawn once with edges cut to their curves
+    hemicube = kHemicube,      ///< five faces, each rasterised separately
+    hemisphere = kHemisphere,  ///< one disc, with edges subdivided to follow their curves
 };
 
 /// Without defaults: each method has its own.
 struct ViewOptions {
     Projection projection;
     int hemicube;  ///< side of the front face [pixels], see EyeViews
-    int batch;     ///< K, eyes at a time
+    int batch;     ///< K, eyes per batch
 };
 
 }  // namespace lumel

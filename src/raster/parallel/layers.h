@@ -8,9 +8,9 @@
 namespace lumel {
 
 enum class Layers : std::uint32_t {
-    stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
-    list = kListedLayers,            ///< every surface, in a list for each pixel
-    peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
+    stochastic = kStochasticLayers,  ///< [TN11] section 3: one random surface per pixel
+    list = kListedLayers,            ///< all surfaces, in a list per pixel
+    peel = kPeeledLayers,            ///< all surfaces, one per pixel and pass
 };
 
 }  // namespace lumel

@@ -10,8 +10,8 @@ enum class Scheme {
 
 struct IterationOptions {
     Scheme scheme = Scheme::phased;
-    /// With Scheme::paper: the part of the solution that each shot replaces, [TN11] section 5
-    /// (0.01), so that light that changes is followed. 0: the mean of all shots, which converges.
+    /// Scheme::paper: fraction of the solution that each shot replaces, [TN11] section 5 (0.01), so
+    /// that it follows changes of the light. 0: the mean of all shots, which converges.
     double leak = 0.0;
 };
 

@@ -10,8 +10,8 @@ namespace lumel {
 /// Without defaults: they are MatrixOptions'.
 struct TransportOptions {
     ViewOptions views;
-    std::uint32_t patches;  ///< n at most
-    std::uint32_t bounces;  ///< k, reflections that count, 0: all
+    std::uint32_t patches;  ///< maximum n
+    std::uint32_t bounces;  ///< reflections k, 0: all
 };
 
 }  // namespace lumel
