@@ -39,6 +39,8 @@ inline constexpr Word<Rays> kRays[] = {{"auto", Rays::automatic},
                                        {"host", Rays::host},
                                        {"query", Rays::query},
                                        {"raster", Rays::raster}};
+inline constexpr Word<MatrixForm> kForms[] = {{"tiles", MatrixForm::tiles},
+                                              {"bc1", MatrixForm::bc1}};
 inline constexpr Word<bool> kSwitch[] = {{"on", true}, {"off", false}};
 inline constexpr Word<int> kLookups[] = {{"1", 1}, {"3", 3}, {"5", 5}};
 
@@ -123,6 +125,11 @@ inline constexpr auto patches = [](auto& o) -> auto&
 inline constexpr auto bounces = [](auto& o) -> auto&
 {
     return o.transport.bounces;
+};
+
+inline constexpr auto form = [](auto& o) -> auto&
+{
+    return o.form;
 };
 
 // Options that several methods read.
@@ -223,6 +230,10 @@ inline constexpr OptionInfo kMatrixOptions[] = {
          "Largest number of patches that exchange light; memory grows with its square"}),
     number<MatrixOptions, 1u, kMaxReflections, bounces, Zero::all>(
         {"bounces", "all|K", "Reflections that count"}),
+    choice<MatrixOptions, kForms, form>(
+        {"form", "tiles|bc1",
+         "How the matrix is stored for relighting: tiles of the coefficients that matter, or the "
+         "paper's texture of BC1 blocks, which is larger and needs a device with such textures"}),
 };
 
 }  // namespace lumel::option_tables
