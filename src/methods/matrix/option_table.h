@@ -13,6 +13,7 @@ inline constexpr std::int64_t kMinPatches = 8, kMaxPatches = 16384;
 inline constexpr std::int64_t kMaxReflections = 1'000'000;
 
 inline constexpr OptionWord kAllBounces[] = {{"all", 0}};
+inline constexpr OptionWord kForms[] = {{"tiles", MatrixForm::tiles}, {"bc1", MatrixForm::bc1}};
 
 inline constexpr OptionInfo kMatrixOptions[] = {
     seed_option(member<&MatrixOptions::seed>),
@@ -34,6 +35,12 @@ inline constexpr OptionInfo kMatrixOptions[] = {
      .lowest = 1,
      .highest = kMaxReflections,
      .member = member<&MatrixOptions::transport, &TransportOptions::bounces>},
+    {.name = "form",
+     .help = "Storage of the matrix for relighting: tiles of the coefficients that matter, or the "
+             "paper's texture of BC1 blocks, which is larger and requires a device with such "
+             "textures",
+     .words = kForms,
+     .member = member<&MatrixOptions::form>},
 };
 
 }  // namespace lumel

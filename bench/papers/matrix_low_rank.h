@@ -1,10 +1,10 @@
 #pragma once
-// A color matrix by the few patterns of light that it passes on most.
+// Low-rank approximation of a color matrix, by a randomised basis [HMT11].
 
 #include "solve/matrix/color_matrix.h"
 #include "solve/matrix/elements.h"
 
-namespace lumel {
+namespace lumel::bench {
 
 /// M_c = D^-1 U S_c U^T D C: colours C, D = √area.
 struct LowRankMatrix {
@@ -23,4 +23,4 @@ LowRankMatrix compress_low_rank(const ColorMatrix& matrix, const Elements& eleme
                                 std::uint32_t rank);
 ColorMatrix decompress(const LowRankMatrix& compressed);
 
-}  // namespace lumel
+}  // namespace lumel::bench

@@ -1,16 +1,15 @@
 #pragma once
 // A matrix of coded entries times colours of patches, on the GPU.
 
-#include "solve/matrix/rows_product.h"
+#include "bench/papers/matrix_rows.h"
 #include "solve/matrix/vectors.h"
 
-namespace lumel {
+namespace lumel::bench {
 
 class MultiplyCoded {
 public:
     /// For at most `states` vectors at once. Throws Error{device}.
-    MultiplyCoded(const gpu::Device& device, const CodedMatrix& matrix, std::uint32_t states,
-                  Decoder decoder = Decoder::automatic);
+    MultiplyCoded(const gpu::Device& device, const CodedMatrix& matrix, std::uint32_t states);
 
     void record(gpu::Commands& commands, const gpu::Array<glm::vec3>& x,
                 const gpu::Array<glm::vec3>& y, std::uint32_t states);
@@ -23,4 +22,4 @@ private:
     Scatter scatter_;
 };
 
-}  // namespace lumel
+}  // namespace lumel::bench

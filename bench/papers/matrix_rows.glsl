@@ -1,5 +1,5 @@
-#ifndef LUMEL_MATRIX_ROWS_PRODUCT_GLSL
-#define LUMEL_MATRIX_ROWS_PRODUCT_GLSL
+#ifndef LUMEL_MATRIX_ROWS_GLSL
+#define LUMEL_MATRIX_ROWS_GLSL
 
 // result ← matrix vectors. A group has 8 rows; what a lane reads of the vectors serves all of them.
 // Each team of lanes goes through a strip of columns of its own, so that memory is read in order,
@@ -8,10 +8,10 @@
 // Its argument is the macro PLANES, how many planes a block holds. Declares the parameters `p` and
 // `block`, which whoever includes this defines.
 
-#include "solve/matrix/rows_product.shared.h"
+#include "../bench/papers/matrix_rows.shared.h"
 
 #ifndef PLANES
-#error "rows_product.glsl: define PLANES"
+#error "matrix_rows.glsl: define PLANES"
 #endif
 
 layout(push_constant, scalar) uniform Params { ProductParams p; };

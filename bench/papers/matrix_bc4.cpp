@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/matrix/block_codes.h"
+#include "bench/papers/matrix_blocks.h"
 
-namespace lumel {
+namespace lumel::bench {
 namespace {
 
 constexpr int kRefinements = 3;
@@ -131,4 +131,4 @@ GrayBlock decode_bc4(const BlockWords& words)
     return texels;
 }
 
-}  // namespace lumel
+}  // namespace lumel::bench

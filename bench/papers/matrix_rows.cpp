@@ -1,15 +1,14 @@
-#include "solve/matrix/rows_product.h"
+#include "bench/papers/matrix_rows.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "solve/matrix/block_codes.h"
+#include "bench/papers/matrix_rows.shared.h"
 #include "solve/matrix/half.h"
 #include "solve/matrix/log_code.shared.h"
-#include "solve/matrix/rows_product.shared.h"
 
-namespace lumel {
+namespace lumel::bench {
 namespace {
 
 /// Vectors that a kernel takes at once: each has a sum for every row of a group in registers.
@@ -38,31 +37,20 @@ std::size_t lanes_for(std::uint32_t rows)
     return std::size_t(rows / kProductRows) * kProductLanes;
 }
 
-/// Software reads blocks faster itself than through its sampler.
-bool in_texture(const gpu::Device& device, Decoder decoder)
-{
-    return decoder == Decoder::automatic ? device.can_read_blocks() && device.info().type != "cpu"
-                                         : decoder == Decoder::hardware;
-}
-
 }  // namespace
 
 RowsProduct::RowsProduct(const gpu::Device& device, Code code,
                          std::span<const std::vector<std::uint32_t>> words, std::uint32_t rows,
-                         std::uint32_t columns, const Decoding& decoding, Decoder decoder)
+                         std::uint32_t columns, const Decoding& decoding)
     : device_(&device),
       code_(code),
-      one_for_all_(code != Code::bc1 && words.size() == 1),
+      one_for_all_(!is_bc1(code) && words.size() == 1),
       rows_(rows),
       plane_rows_(whole_groups(rows)),
       quads_(filled_up(columns) / 4),
-      decoding_(decoding),
-      sampler_(device, gpu::Filter::nearest, gpu::Address::clamp, gpu::Address::clamp)
+      decoding_(decoding)
 {
-    if (code == Code::bc1 && in_texture(device, decoder))
-        upload_texture(words[0]);
-    else
-        upload(words);
+    upload(words);
 }
 
 void RowsProduct::upload(std::span<const std::vector<std::uint32_t>> words)
@@ -92,33 +80,22 @@ void RowsProduct::upload(std::span<const std::vector<std::uint32_t>> words)
     }
 }
 
-void RowsProduct::upload_texture(const std::vector<std::uint32_t>& words)
-{
-    std::vector<std::uint32_t> image = words;
-    image.resize(block_row_words(code_, quads_) * (plane_rows_ / kBlockRows));
-    bytes_ = image.size() * sizeof(std::uint32_t);
-    texture_.emplace(*device_, gpu::Pixel::bc1, quads_ * 4, plane_rows_, 1u, 1u,
-                     "rows_product.codes");
-    texture_->upload(image.data());
-}
-
 RowsProduct::ProductKernel RowsProduct::make_kernel(std::uint32_t vectors) const
 {
     switch (code_) {
     case Code::float32:
-        return gpu::Kernel<shaders::RowsProductFloat>(*device_, vectors);
+        return gpu::Kernel<shaders::MatrixRowsFloat>(*device_, vectors);
     case Code::float16:
-        return gpu::Kernel<shaders::RowsProductHalf>(*device_, vectors);
+        return gpu::Kernel<shaders::MatrixRowsHalf>(*device_, vectors);
     case Code::log8:
-        return gpu::Kernel<shaders::RowsProductLog8>(*device_, vectors);
+        return gpu::Kernel<shaders::MatrixRowsLog8>(*device_, vectors);
     case Code::bc4:
-        return gpu::Kernel<shaders::RowsProductBc4>(*device_, vectors);
+        return gpu::Kernel<shaders::MatrixRowsBc4>(*device_, vectors);
     case Code::bc1:
+    case Code::bc1_of_codes:
         break;
     }
-    if (texture_)
-        return gpu::Kernel<shaders::RowsProductTexture>(*device_, vectors);
-    return gpu::Kernel<shaders::RowsProductBc1>(*device_, vectors);
+    return gpu::Kernel<shaders::MatrixRowsBc1>(*device_, vectors);
 }
 
 const RowsProduct::ProductKernel& RowsProduct::kernel(std::uint32_t vectors)
@@ -127,16 +104,6 @@ const RowsProduct::ProductKernel& RowsProduct::kernel(std::uint32_t vectors)
     if (found != kernels_.end())
         return found->second;
     return kernels_.emplace(vectors, make_kernel(vectors)).first->second;
-}
-
-void RowsProduct::record_all(gpu::Commands& commands,
-                             const gpu::Kernel<shaders::RowsProductTexture>& kernel,
-                             const gpu::Array<float>& x, const gpu::Array<float>& y,
-                             const ProductParams& params)
-{
-    commands.dispatch(kernel,
-                      {.vectors = gpu::packed(x), .result = y, .matrix = {*texture_, sampler_}},
-                      params, lanes_for(plane_rows_));
 }
 
 template <class Shader>
@@ -169,7 +136,7 @@ void RowsProduct::record(gpu::Commands& commands, const gpu::Array<float>& x,
         params.log_factor[c] =
             std::log2(std::max(decoding_.largest[c], kMinLargest)) - decoding_.offset * log2_e;
     const std::uint32_t vectors = one_for_all_ ? 3 * states : states;
-    const std::uint32_t most = code_ == Code::bc1 ? kMaxColorVectors : kMaxVectors;
+    const std::uint32_t most = is_bc1(code_) ? kMaxColorVectors : kMaxVectors;
     for (std::uint32_t first = 0; first < vectors; first += most) {
         const std::uint32_t at_once = std::min(most, vectors - first);
         params.first_vector = first * params.vector_step;
@@ -178,4 +145,4 @@ void RowsProduct::record(gpu::Commands& commands, const gpu::Array<float>& x,
     }
 }
 
-}  // namespace lumel
+}  // namespace lumel::bench

@@ -2,34 +2,25 @@
 // Vectors times a matrix that the GPU reads row by row.
 
 #include <map>
-#include <optional>
 #include <span>
 #include <variant>
 
 #include <glm/glm.hpp>
 
+#include "bench/papers/matrix_codes.h"
+#include "bench/papers/matrix_rows.bc1.comp.h"
+#include "bench/papers/matrix_rows.bc4.comp.h"
+#include "bench/papers/matrix_rows.float.comp.h"
+#include "bench/papers/matrix_rows.half.comp.h"
+#include "bench/papers/matrix_rows.log8.comp.h"
 #include "gpu/commands.h"
-#include "solve/matrix/coded_matrix.h"
-#include "solve/matrix/rows_product.bc1.comp.h"
-#include "solve/matrix/rows_product.bc4.comp.h"
-#include "solve/matrix/rows_product.float.comp.h"
-#include "solve/matrix/rows_product.half.comp.h"
-#include "solve/matrix/rows_product.log8.comp.h"
-#include "solve/matrix/rows_product.texture.comp.h"
 
-namespace lumel {
+namespace lumel::bench {
 
 /// What a code stands for, for each plane.
 struct Decoding {
     glm::vec3 largest{1.0f};  ///< float16: kLargestHalf; logarithms: code 255
     float offset = 1.0f;      ///< logarithms: what code 0 lies below the largest
-};
-
-/// Where blocks are decoded.
-enum class Decoder : std::uint8_t {
-    automatic,  ///< hardware's where there is some
-    hardware,   ///< BC1 in a texture; needs Device::can_read_blocks
-    shader,
 };
 
 /// y = M x, of either three matrices, one for each channel, or one for all channels.
@@ -39,8 +30,7 @@ public:
     /// channels. M has `rows` rows of `columns` entries. Throws Error{device} if there is no room.
     RowsProduct(const gpu::Device& device, Code code,
                 std::span<const std::vector<std::uint32_t>> words, std::uint32_t rows,
-                std::uint32_t columns, const Decoding& decoding,
-                Decoder decoder = Decoder::automatic);
+                std::uint32_t columns, const Decoding& decoding);
 
     /// x [states][3][filled_up(columns)], filled with 0; y [states][3][y_width].
     void record(gpu::Commands& commands, const gpu::Array<float>& x, const gpu::Array<float>& y,
@@ -56,17 +46,12 @@ private:
     };
 
     void upload(std::span<const std::vector<std::uint32_t>> words);
-    void upload_texture(const std::vector<std::uint32_t>& words);
     using ProductKernel =
-        std::variant<gpu::Kernel<shaders::RowsProductFloat>, gpu::Kernel<shaders::RowsProductHalf>,
-                     gpu::Kernel<shaders::RowsProductLog8>, gpu::Kernel<shaders::RowsProductBc4>,
-                     gpu::Kernel<shaders::RowsProductBc1>,
-                     gpu::Kernel<shaders::RowsProductTexture>>;
+        std::variant<gpu::Kernel<shaders::MatrixRowsFloat>, gpu::Kernel<shaders::MatrixRowsHalf>,
+                     gpu::Kernel<shaders::MatrixRowsLog8>, gpu::Kernel<shaders::MatrixRowsBc4>,
+                     gpu::Kernel<shaders::MatrixRowsBc1>>;
     ProductKernel make_kernel(std::uint32_t vectors) const;
     const ProductKernel& kernel(std::uint32_t vectors);
-    void record_all(gpu::Commands& commands, const gpu::Kernel<shaders::RowsProductTexture>& kernel,
-                    const gpu::Array<float>& x, const gpu::Array<float>& y,
-                    const ProductParams& params);
     template <class Shader>
     void record_all(gpu::Commands& commands, const gpu::Kernel<Shader>& kernel,
                     const gpu::Array<float>& x, const gpu::Array<float>& y, ProductParams params);
@@ -78,9 +63,7 @@ private:
     Decoding decoding_;
     std::uint64_t bytes_ = 0;
     std::vector<Part> parts_;
-    std::optional<gpu::Target> texture_;
-    gpu::Sampler sampler_;
     std::map<std::uint32_t, ProductKernel> kernels_;  ///< by the vectors that they take at once
 };
 
-}  // namespace lumel
+}  // namespace lumel::bench

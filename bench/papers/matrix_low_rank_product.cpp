@@ -1,9 +1,9 @@
-#include "solve/matrix/multiply_low_rank.h"
+#include "bench/papers/matrix_low_rank_product.h"
 
 #include "solve/matrix/balanced.h"
 #include "solve/matrix/half.h"
 
-namespace lumel {
+namespace lumel::bench {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
@@ -86,4 +86,4 @@ void MultiplyLowRank::record(gpu::Commands& commands, const gpu::Array<glm::vec3
     scatter_.record(commands, out_, x, y, states);
 }
 
-}  // namespace lumel
+}  // namespace lumel::bench

@@ -1,21 +1,41 @@
-// BC1: two colours of 5, 6 and 5 bits and two between them; each texel is one of the four.
+// BC1 made for the codes themselves, as encoders of pictures do: two colours of 5, 6 and 5 bits and
+// two between them; each texel is one of the four.
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "solve/matrix/bc1_colors.h"
-#include "solve/matrix/block_codes.h"
+#include <glm/glm.hpp>
 
-namespace lumel {
+#include "bench/papers/matrix_blocks.h"
 
-using namespace bc1;
+namespace lumel::bench {
 
 namespace {
 
 constexpr int kRefinements = 3;       // more change little
 constexpr int kAxisIterations = 8;    // of the power method; blocks are nearly lines
 constexpr float kFullTexel = 255.0f;  // a channel's largest
+
+constexpr std::array<int, 3> kBits = {5, 6, 5};
+
+using Coded = std::array<int, 3>;
+
+/// 0…255. The hardware repeats the upper bits below the last one.
+constexpr int expand(int code, int bits)
+{
+    return code << (8 - bits) | code >> (2 * bits - 8);
+}
+
+glm::vec3 expand(const Coded& code)
+{
+    return {expand(code[0], kBits[0]), expand(code[1], kBits[1]), expand(code[2], kBits[2])};
+}
+
+constexpr std::uint32_t pack(const Coded& code)
+{
+    return std::uint32_t(code[0] << 11 | code[1] << 5 | code[2]);
+}
 
 /// Share of the first colour in what an index names.
 constexpr std::array<float, 4> kFirstShare = {1.0f, 0.0f, 2.0f / 3.0f, 1.0f / 3.0f};
@@ -160,20 +180,4 @@ BlockWords encode_bc1(const ColorBlock& texels)
     return words_of(flat.error < best.error ? flat : best);
 }
 
-ColorBlock decode_bc1(const BlockWords& words)
-{
-    const std::uint32_t first = words[0] & 0xffffu, second = words[0] >> 16;
-    const glm::vec3 a = expand(unpack(first)), b = expand(unpack(second));
-    // Three colours and black where the first is not larger.
-    const std::array<glm::vec3, 4> colors = {
-        a, b, first > second ? glm::mix(b, a, kFirstShare[2]) : 0.5f * (a + b),
-        first > second ? glm::mix(b, a, kFirstShare[3]) : glm::vec3(0.0f)};
-    ColorBlock texels;
-    for (std::size_t i = 0; i < kBlockTexels; ++i) {
-        const glm::vec3& color = colors[words[1] >> (2 * i) & 3u];
-        texels[i] = {color.r, color.g, color.b};
-    }
-    return texels;
-}
-
-}  // namespace lumel
+}  // namespace lumel::bench

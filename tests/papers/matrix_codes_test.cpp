@@ -2,29 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "solve/matrix/bc1_logarithms.h"
-#include "solve/matrix/block_codes.h"
-#include "solve/matrix/coded_matrix.h"
+#include "bench/papers/matrix_blocks.h"
+#include "bench/papers/matrix_codes_product.h"
+#include "tests/solve/matrix/products.h"
 #include "tests/solve/matrix/random_matrix.h"
 
-namespace lumel {
+namespace lumel::bench {
 namespace {
 
-double squared_difference(const ColorMatrix& a, const ColorMatrix& b)
-{
-    double sum = 0.0;
-    for (int c = 0; c < 3; ++c)
-        for (std::size_t i = 0; i < a.channel[c].values.size(); ++i)
-            sum += std::pow(double(a.channel[c].values[i]) - double(b.channel[c].values[i]), 2);
-    return sum;
-}
+constexpr std::uint32_t kSize = 203;  // no multiple of anything
 
-TEST(Bc1, ABlockOfOneStoredColorIsExact)
+TEST(Bc1OfCodes, ABlockOfOneStoredColorIsExact)
 {
     for (const std::array<float, 3> color :
          {std::array{0.0f, 0.0f, 0.0f}, std::array{255.0f, 255.0f, 255.0f},
@@ -38,7 +30,7 @@ TEST(Bc1, ABlockOfOneStoredColorIsExact)
 }
 
 // Mixtures 2 : 1 of two stored values lie closer together than those do.
-TEST(Bc1, ABlockOfAnyOneColorIsWithinTwoSteps)
+TEST(Bc1OfCodes, ABlockOfAnyOneColorIsWithinTwoSteps)
 {
     for (int value = 0; value < 256; ++value) {
         ColorBlock block;
@@ -50,7 +42,7 @@ TEST(Bc1, ABlockOfAnyOneColorIsWithinTwoSteps)
 }
 
 // Each endpoint is rounded to 5 bits at worst: half a step of 255 / 31.
-TEST(Bc1, ABlockOfTwoColorsIsWithinHalfAStepOfItsEndpoints)
+TEST(Bc1OfCodes, ABlockOfTwoColorsIsWithinHalfAStepOfItsEndpoints)
 {
     const std::array<float, 3> dark = {10.0f, 40.0f, 90.0f}, light = {200.0f, 220.0f, 140.0f};
     ColorBlock block;
@@ -95,10 +87,10 @@ double squared_error_of_entries(const ColorBlock& codes, const BlockWords& words
 
 // Blocks of logarithms are made for what these stand for: nearer than blocks made for the codes,
 // for every one of them, and by two fifths in all.
-TEST(Bc1, OfLogarithmsIsNearerToTheEntriesThanABlockOfTheirCodes)
+TEST(Bc1OfCodes, IsFartherFromTheEntriesThanABlockMadeForThem)
 {
     std::mt19937 random(1);
-    const LogarithmsInBc1 encoder(kOffset, {1.0f, 1.0f, 1.0f});
+    const Bc1Encoder encoder(kOffset, {1.0f, 1.0f, 1.0f});
     double ours = 0.0, of_codes = 0.0;
     for (int trial = 0; trial < 200; ++trial) {
         const ColorBlock block = random_codes(random);
@@ -109,19 +101,6 @@ TEST(Bc1, OfLogarithmsIsNearerToTheEntriesThanABlockOfTheirCodes)
         of_codes += other;
     }
     EXPECT_LT(ours, 0.6 * of_codes);
-}
-
-// DXT1 has a mode of three colours and black; what is kept exactly leaves a 0.
-TEST(Bc1, ZerosAmongLargeEntriesStayZeroAndCostTheOthersNothing)
-{
-    ColorBlock block;
-    for (std::size_t i = 0; i < kBlockTexels; ++i)
-        block[i] = i % 4 == 1 ? std::array{0.0f, 0.0f, 0.0f} : std::array{198.0f, 199.0f, 198.0f};
-    const LogarithmsInBc1 encoder(kOffset, {1.0f, 1.0f, 1.0f});
-    const ColorBlock decoded = decode_bc1(encoder.encode(block));
-    for (std::size_t i = 0; i < kBlockTexels; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(decoded[i][c], block[i][c], block[i][c] > 0.0f ? 4.2f : 0.0f);
 }
 
 TEST(Bc4, ABlockOfTwoValuesIsExact)
@@ -142,43 +121,6 @@ TEST(Bc4, AZeroAmongLargeValuesStaysZero)
     EXPECT_EQ(decoded[7], 0.0f);
     for (std::size_t i = 0; i < kBlockTexels; ++i)
         EXPECT_NEAR(decoded[i], block[i], 15.0f / 10.0f + 0.5f);
-}
-
-TEST(Reordering, IsAPermutationThatKeepsTheFirst)
-{
-    const ColorMatrix matrix = shuffled_kernel(37, 1);
-    const std::vector<std::uint32_t> order = order_by_likeness(matrix.channel[0].values, 37, 37);
-    EXPECT_EQ(order.front(), 0u);
-    std::vector<std::uint32_t> sorted = order, all(37);
-    std::sort(sorted.begin(), sorted.end());
-    std::iota(all.begin(), all.end(), 0u);
-    EXPECT_EQ(sorted, all);
-}
-
-TEST(Reordering, WalksFromLikeToLike)
-{
-    const std::vector<float> rows = {0, 0, 9, 9, 1, 1, 8, 8, 2, 2};
-    EXPECT_EQ(order_by_likeness(rows, 5, 2), (std::vector<std::uint32_t>{0, 2, 4, 3, 1}));
-}
-
-TEST(SparsePart, HoldsTheLargestOfEachRow)
-{
-    const ColorMatrix matrix = shuffled_kernel(50, 2);
-    const SparsePart part = largest_entries(matrix, 0.1f);
-    EXPECT_EQ(part.per_row, 5u);
-    for (int c = 0; c < 3; ++c)
-        for (std::uint32_t i = 0; i < 50; ++i) {
-            std::vector<float> row(matrix.channel[c].values.begin() + 50 * i,
-                                   matrix.channel[c].values.begin() + 50 * (i + 1));
-            for (int k = 0; k < 5; ++k)
-                EXPECT_EQ(part.value[c][i * 5 + k], row[part.column[c][i * 5 + k]]);
-            std::vector<float> kept(part.value[c].begin() + 5 * i,
-                                    part.value[c].begin() + 5 * (i + 1));
-            std::sort(row.rbegin(), row.rend());
-            std::sort(kept.rbegin(), kept.rend());
-            row.resize(5);
-            EXPECT_EQ(kept, row);
-        }
 }
 
 TEST(CodedMatrix, OfFloatsIsTheMatrix)
@@ -212,8 +154,8 @@ TEST(CodedMatrix, OfLogarithmsIsWithinHalfAStepAndItsLargestAreExact)
                 EXPECT_NEAR(decoded.channel[c].values[i], value,
                             value * (std::exp(25.0f / 510.0f) - 1.0f) * 1.001f);
             }
-            for (std::uint32_t entry = 0; entry < coded.exact.value[c].size(); ++entry) {
-                const std::uint32_t row = entry / 5, column = coded.exact.column[c][entry];
+            for (std::uint32_t entry = 0; entry < coded.decoding.exact.value[c].size(); ++entry) {
+                const std::uint32_t row = entry / 5, column = coded.decoding.exact.column[c][entry];
                 EXPECT_FLOAT_EQ(decoded.channel[c].at(row, column),
                                 matrix.channel[c].at(row, column));
             }
@@ -224,7 +166,7 @@ TEST(CodedMatrix, OfLogarithmsIsWithinHalfAStepAndItsLargestAreExact)
 TEST(CodedMatrix, OfBlocksComesBackInTheCallersOrderAndIsCloserWhenReordered)
 {
     const ColorMatrix matrix = shuffled_kernel(90, 5);
-    for (const Code code : {Code::bc1, Code::bc4}) {
+    for (const Code code : {Code::bc1_of_codes, Code::bc4}) {
         const auto error = [&](Reordering how) {
             return squared_difference(decode(encode(matrix, {.code = code, .reordering = how})),
                                       matrix);
@@ -247,8 +189,24 @@ TEST(CodedMatrix, TakesTheBytesOfItsBlocks)
     EXPECT_EQ(bytes(Code::float16), 64u * 64u * 6u);
     EXPECT_EQ(bytes(Code::log8), 64u * 64u * 3u);
     EXPECT_EQ(bytes(Code::bc4), 64u * 64u * 3u / 2u);
-    EXPECT_EQ(bytes(Code::bc1), 64u * 64u / 2u);
+    EXPECT_EQ(bytes(Code::bc1_of_codes), 64u * 64u / 2u);
+}
+
+TEST(CodedMatrix, OnTheGpuIsTheStoredMatrixForEveryCode)
+{
+    const gpu::Device device;
+    const ColorMatrix matrix = shuffled_kernel(kSize, 1);
+    for (const Code code : {Code::float32, Code::float16, Code::log8, Code::bc1, Code::bc4})
+        for (const std::uint32_t states : {1u, 6u}) {
+            const CodedMatrix coded = encode(matrix, {.code = code});
+            const std::vector<glm::vec3> x = random_light(std::size_t(states) * kSize);
+            SCOPED_TRACE(int(code));
+            expect_products(
+                on_gpu(device, MultiplyCoded(device, coded, states), x, states),
+                decode(coded), x, kPowerRounding);
+        }
+    EXPECT_EQ(device.validation_messages(), "");
 }
 
 }  // namespace
-}  // namespace lumel
+}  // namespace lumel::bench

@@ -1,6 +1,6 @@
 #version 460
 #define PLANES 1u
-#include "solve/matrix/rows_product.glsl"
+#include "../bench/papers/matrix_rows.glsl"
 
 // Entries as half floats, [rows][columns].
 

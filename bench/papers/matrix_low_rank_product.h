@@ -1,11 +1,11 @@
 #pragma once
 // A matrix of low rank times colours of patches, on the GPU: three thin products.
 
-#include "solve/matrix/compressed_low_rank.h"
-#include "solve/matrix/rows_product.h"
+#include "bench/papers/matrix_low_rank.h"
+#include "bench/papers/matrix_rows.h"
 #include "solve/matrix/vectors.h"
 
-namespace lumel {
+namespace lumel::bench {
 
 class MultiplyLowRank {
 public:
@@ -23,4 +23,4 @@ private:
     Scatter scatter_;
 };
 
-}  // namespace lumel
+}  // namespace lumel::bench

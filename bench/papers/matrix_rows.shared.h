@@ -1,5 +1,5 @@
-#ifndef LUMEL_SOLVE_MATRIX_ROWS_PRODUCT_SHARED_H
-#define LUMEL_SOLVE_MATRIX_ROWS_PRODUCT_SHARED_H
+#ifndef LUMEL_BENCH_MATRIX_ROWS_SHARED_H
+#define LUMEL_BENCH_MATRIX_ROWS_SHARED_H
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
@@ -9,7 +9,7 @@ LUMEL_CONST uint kTeam = 8u;           ///< of them read neighbouring columns: 1
 /// under way at once.
 LUMEL_CONST uint kProductRows = 8u;
 
-/// Push constants of rows_product.*.comp.
+/// Push constants of matrix_rows.*.comp.
 struct ProductParams {
     uint quads;         ///< columns / 4
     uint first_row;     ///< of this part of the matrix; planes lie below one another

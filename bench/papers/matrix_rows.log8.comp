@@ -1,7 +1,7 @@
 #version 460
 #define PLANES 1u
-#include "solve/matrix/rows_product.glsl"
-#include "solve/matrix/log_code.glsl"
+#include "../bench/papers/matrix_rows.glsl"
+#include "../bench/papers/matrix_log_code.glsl"
 
 // Logarithms of 8 bits, [rows][columns].
 

@@ -2,7 +2,7 @@
 // few rounds through it. The balanced matrix K is symmetric, so that one basis serves both sides,
 // and its channels are nearly the same, so that one basis serves all three.
 
-#include "solve/matrix/compressed_low_rank.h"
+#include "bench/papers/matrix_low_rank.h"
 
 #include <algorithm>
 #include <random>
@@ -11,8 +11,18 @@
 #include "solve/matrix/blas.h"
 #include "solve/matrix/half.h"
 
-namespace lumel {
+// LAPACK's own symbols: OpenBLAS has them, without a header in C.
+extern "C" void sgeqrf_(const int* rows, const int* columns, float* a, const int* stride,
+                        float* factors, float* work, const int* work_size, int* info);
+extern "C" void sorgqr_(const int* rows, const int* columns, const int* reflectors, float* a,
+                        const int* stride, const float* factors, float* work, const int* work_size,
+                        int* info);
+
+namespace lumel::bench {
 namespace {
+
+/// Floats per column that LAPACK works in; its block size, so that it need not go column by column.
+constexpr int kWorkPerColumn = 64;
 
 constexpr std::uint32_t kMoreThanRank = 16;  // random vectors beyond the rank, cut off at the end
 constexpr int kRounds = 3;                   // through K; values of a room fall slowly
@@ -28,6 +38,17 @@ SquareMatrix mean_of_channels(const ColorMatrix& matrix)
     return mean;
 }
 
+/// Makes the rows of a [rows][columns], rows ≤ columns, orthonormal; they span what they did.
+void orthonormalise(std::span<float> a, std::uint32_t rows, std::uint32_t columns)
+{
+    const int length = int(columns), count = int(rows), work_size = kWorkPerColumn * count;
+    std::vector<float> factors(rows), work(std::max(work_size, 1));
+    int info = 0;
+    sgeqrf_(&length, &count, a.data(), &length, factors.data(), work.data(), &work_size, &info);
+    sorgqr_(&length, &count, &count, a.data(), &length, factors.data(), work.data(), &work_size,
+            &info);
+}
+
 /// U^T [rank][n]
 std::vector<float> find_basis(const SquareMatrix& k, std::uint32_t rank)
 {
@@ -40,7 +61,7 @@ std::vector<float> find_basis(const SquareMatrix& k, std::uint32_t rank)
     for (int round = 0; round < kRounds; ++round) {
         blas::product({rows, tried, n}, blas::transposed(k.values, n, n), next);
         std::swap(rows, next);
-        blas::orthonormalise(rows, tried, n);
+        orthonormalise(rows, tried, n);
     }
     // The best of what they span: eigenvectors of K seen through them, by K² so that signs are
     // equal.
@@ -112,4 +133,4 @@ ColorMatrix decompress(const LowRankMatrix& compressed)
     return unbalanced(result, compressed.color, compressed.root_area);
 }
 
-}  // namespace lumel
+}  // namespace lumel::bench
