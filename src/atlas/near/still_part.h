@@ -13,9 +13,9 @@ namespace lumel {
 /// The scene with nothing in the places of what moves.
 Scene without(const Scene& scene, const std::vector<char>& movers);
 
-/// Marks lumels that lie under or inside what never moves (atlas/near/buried.h). What moves buries
-/// nothing, and is not buried.
-void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels);
+/// Lumels of a scene in which `movers` [instances] move. Static geometry buries static lumels that
+/// lie under or inside it (atlas/near/buried.h). Throws Error{input} if there are no lumels.
+Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers);
 
 /// Where an instance's vertices are, under a transform [m].
 MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform);
