@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
+#include "jobs/bake/bake.h"
 #include "long_work.h"
 #include "methods/methods.h"
 #include "results/page/page.h"

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "commands.h"
+#include "jobs/bake/bake.h"
 
 namespace lumel {
 

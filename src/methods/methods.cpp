@@ -36,7 +36,8 @@ std::unique_ptr<Solver> make(const SolverInputs& in, const SolverOptions& option
 {
     const auto& own = std::get<Options>(options.method);
     if constexpr (std::is_same_v<Method, LinkRadiosity>)
-        return std::make_unique<Method>(in.device, *in.host, in.lumels, own, options, in.parts);
+        return std::make_unique<Method>(in.device, *in.host, in.lumels, own, options.limits(),
+                                        in.parts);
     else if constexpr (std::is_same_v<Method, GlossyIllumination>)
         return std::make_unique<Method>(in.device, *in.world, in.lumels, in.near, own, in.known,
                                         in.particles, in.first_emission);

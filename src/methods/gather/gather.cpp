@@ -35,6 +35,7 @@
 
 #include "atlas/near/near_field.h"
 #include "raster/eyes/hemicube_tiles.h"
+#include "raster/eyes/view_options.h"
 #include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {

@@ -53,7 +53,7 @@ private:
     gpu::Kernel<shaders::GatherEyes> eyes_kernel_;
     gpu::Kernel<shaders::GatherIntegrate> integrate_;
     gpu::Kernel<shaders::GatherBounce> bounce_;
-    gpu::Kernel<shaders::GatherFigures> figures_kernel_;
+    gpu::Kernel<shaders::GatherSums> figures_kernel_;
     LitViews views_;
     std::uint32_t batch_;                 ///< lumels of a batch
     gpu::Array<std::uint32_t> order_;     ///< [M] lumels that are not buried

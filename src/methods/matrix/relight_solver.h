@@ -7,6 +7,7 @@
 #include "lights/light_sources.h"
 #include "methods/matrix/matrix.h"
 #include "methods/matrix/relightable.h"
+#include "solve/solver/solve_limits.h"
 
 namespace lumel {
 

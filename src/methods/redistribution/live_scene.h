@@ -9,6 +9,7 @@
 
 #include "atlas/near/moving_near_field.h"
 #include "atlas/packing/atlas.h"
+#include "methods/options.h"
 #include "methods/redistribution/cross.h"
 #include "methods/redistribution/incremental.h"
 #include "methods/redistribution/live.show.comp.h"

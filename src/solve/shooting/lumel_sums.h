@@ -45,7 +45,7 @@ public:
 
 private:
     gpu::Array<Terms> parts_, sums_, host_;
-    gpu::Kernel<shaders::FiguresTotal> total_;
+    gpu::Kernel<shaders::LumelSumsTotal> total_;
     bool waiting_ = false;
     std::uint64_t ticket_ = 0;
     std::uint64_t read_at_ = 0, next_ = 0;  ///< iterations

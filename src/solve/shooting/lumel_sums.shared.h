@@ -11,7 +11,7 @@ struct Terms {
     vec4 column[kTermColumns];
 };
 
-/// Push constants of figures.total.comp.
+/// Push constants of lumel_sums.total.comp.
 struct TotalParams {
     uint parts;
 };

@@ -8,6 +8,7 @@
 
 #include "base/core/error.h"
 #include "base/core/files.h"
+#include "jobs/bake/bake.h"
 #include "results/files/folder.h"
 #include "results/files/glb_builder.h"
 #include "scene/load/gltf_nodes.h"
