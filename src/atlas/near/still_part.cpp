@@ -37,7 +37,7 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<cha
 {
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     const Scene still = without(scene, movers);
     const RayScene rays(still);
     const std::vector<Lumel> before = lumels.lumels;

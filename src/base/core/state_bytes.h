@@ -101,8 +101,8 @@ private:
 /// Reads the output of a StateWriter. Throws Error{input} if it is damaged.
 class StateReader {
 public:
-    /// `size`: length of the stream [bytes]. where: its name, and damage: what is wrong with it, for
-    /// messages.
+    /// `size`: length of the stream [bytes]. where: its name, and damage: what is wrong with it,
+    /// for messages.
     StateReader(std::istream& from, std::uint64_t size, std::string where,
                 std::string damage = "is damaged")
         : from_(from),

@@ -108,8 +108,7 @@ void contents(Archive& archive, Light& light, Matrix& matrix)
                     lamp.outer_cone, lamp.radius, lamp.angle, lamp.profile, lamp.transform);
         });
     });
-    each(archive, light.profiles,
-         [&](auto& profile) { archive(profile.name, profile.candela); });
+    each(archive, light.profiles, [&](auto& profile) { archive(profile.name, profile.candela); });
     static_assert(sizeof(VoxelPatch) == 10 * sizeof(float));  // written as it lies in memory
     archive(light.origin, light.patches.side, light.patches.patch_of, light.patches.patches,
             light.rows.first, light.rows.entry, matrix);
