@@ -9,15 +9,15 @@ build_packages="g++ cmake ninja-build pkg-config glslc libvulkan-dev libvulkan-v
     libmeshoptimizer-dev libdraco-dev libwebp-dev libglfw3-dev libimgui-dev
     libgl1-mesa-dri"
 test_packages="$build_packages vulkan-validationlayers libgtest-dev xvfb xdotool"
-fuzz_packages="clang-14 libclang-rt-14-dev"
+fuzz_packages="clang libclang-rt-dev"
 ci_packages="$test_packages clang-format clang-tidy"
 
-# What proves each package where there is no dpkg to ask: a command or a header.
+# What proves each package where there is no dpkg to ask: a command or a header, or one of several.
 package_commands="g++:g++ cmake:cmake ninja-build:ninja pkg-config:pkg-config glslc:glslc
-    xvfb:Xvfb xdotool:xdotool clang-14:clang++-14 clang-format:clang-format clang-tidy:clang-tidy"
+    xvfb:Xvfb xdotool:xdotool clang:clang++ clang-format:clang-format clang-tidy:clang-tidy"
 package_headers="libvulkan-dev:vulkan/vulkan.h libvulkan-volk-dev:volk.h libglm-dev:glm/glm.hpp
     libopenexr-dev:OpenEXR/ImfHeader.h libpng-dev:png.h libzstd-dev:zstd.h libstb-dev:stb/stb_image.h
-    libopenblas-pthread-dev:cblas.h libtbb-dev:tbb/parallel_for.h libembree-dev:embree3/rtcore.h
+    libopenblas-pthread-dev:cblas.h libtbb-dev:tbb/parallel_for.h libembree-dev:embree4/rtcore.h,embree3/rtcore.h
     libcli11-dev:CLI/CLI.hpp libfmt-dev:fmt/core.h libspdlog-dev:spdlog/spdlog.h
     nlohmann-json3-dev:nlohmann/json.hpp zlib1g-dev:zlib.h
     libmeshoptimizer-dev:meshoptimizer.h libdraco-dev:draco/compression/mesh/mesh_sequential_decoder.h
@@ -50,7 +50,7 @@ missing_by_dpkg() {
 }
 
 missing_by_probe() {
-    local pair source=""
+    local pair headers source=""
     for pair in $package_commands; do
         [[ " $* " == *" ${pair%%:*} "* ]] || continue
         command -v "${pair#*:}" >/dev/null || echo "${pair%%:*}"
@@ -63,9 +63,32 @@ missing_by_probe() {
     command -v g++ >/dev/null || return 0
     for pair in $package_headers; do
         [[ " $* " == *" ${pair%%:*} "* ]] || continue
-        source+="#if !__has_include(<${pair#*:}>)"$'\n'"${pair%%:*}"$'\n'"#endif"$'\n'
+        headers=${pair#*:}
+        source+="#if !(__has_include(<${headers//,/>) || __has_include(<}>))"$'\n'"${pair%%:*}"$'\n'"#endif"$'\n'
     done
     g++ -x c++ -E -P - <<<"$source"
+}
+
+# unfit <package …>: a line for each that apt cannot get, or not in a version that CMakeLists.txt asks for.
+unfit() {
+    local package name least below version
+    local -A offered=()
+    while read -r package version; do
+        offered[$package]=${version#*:}
+    done < <(LC_ALL=C apt-cache policy "$@" | awk '/^[^ ]/ { package = substr($1, 1, length($1) - 1) }
+        $1 == "Candidate:" && $2 != "(none)" { print package, $2 }')
+    for package in "$@"; do
+        [[ -n ${offered[$package]:-} ]] || echo "there is no package $package"
+    done
+    while read -r package name least below; do
+        version=${offered[$package]:-}
+        [[ -n $version && -n $least ]] || continue
+        if dpkg --compare-versions "$version" lt "$least" ||
+            { [[ -n $below ]] && dpkg --compare-versions "$version" ge "$below"; }; then
+            echo "$package is $version, and Lumel needs $least or newer${below:+, below $below}"
+        fi
+    done < <(sed -nE -e 's/^cmake_minimum_required\(VERSION (.*)\)/cmake CMake \1/p' \
+        -e 's/^lumel_find\((.*)\)/\1/p' "$root/CMakeLists.txt")
 }
 
 # need_packages <package …>: returns with all of them present, or does not return.
@@ -84,12 +107,18 @@ need_packages() {
         as_root=sudo
     fi
     progress "installing $missing"
+    local log=$root/build/apt.log environment="env DEBIAN_FRONTEND=noninteractive"
+    local update="$as_root $environment apt-get -qq update"
+    local install="$as_root $environment apt-get -qq -y --no-install-recommends install $missing" unfit
     # The package lists may be absent or too old to match the mirror: then fetch them and retry.
-    local install="apt-get -qq -y --no-install-recommends install $missing" log=$root/build/apt.log
-    local environment="env DEBIAN_FRONTEND=noninteractive"
-    if ! $as_root $environment $install >"$log" 2>&1 </dev/null; then
-        quietly "$log" "apt-get update" $as_root $environment apt-get -qq update || exit 1
-        quietly "$log" "installing $missing" $as_root $environment $install || exit 1
+    if [[ -n $(unfit "$@") ]]; then
+        quietly "$log" "apt-get update" $update || exit 1
+        unfit=$(unfit "$@")
+        [[ -z $unfit ]] || die "this release's packages do not fit: ${unfit//$'\n'/; }."
+    fi
+    if ! $install >"$log" 2>&1 </dev/null; then
+        quietly "$log" "apt-get update" $update || exit 1
+        quietly "$log" "installing $missing" $install || exit 1
     fi
 }
 
@@ -111,7 +140,9 @@ need_configured() {
         $(<"$folder/configured") != "$wanted" ]] || return 0
     progress "configuring"
     mkdir -p "$folder"
-    [[ ! -f $folder/configured || $(head -n 1 "$folder/configured") == "$root" ]] || fresh=--fresh
+    # Another path, or presets that may name another compiler: nothing that CMake has cached holds.
+    [[ ! -f $folder/configured || ($(head -n 1 "$folder/configured") == "$root" &&
+        $folder/configured -nt $root/CMakePresets.json) ]] || fresh=--fresh
     cd "$root"
     quietly "$folder/configure.log" "configuring" cmake $fresh --preset "$preset" $options || exit 1
     cd "$OLDPWD"

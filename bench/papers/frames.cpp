@@ -25,9 +25,9 @@ struct Frame {
     Frame(const FramesSettings& settings, Scene posed, const std::optional<Atlas>& atlas,
           const SolverOptions& options, const gpu::Device& device)
         : world(std::move(posed),
-                [&](const Scene& scene, const RayScene&, const ProgressCallback& watch) {
+                [&](const Scene& scene, const RayScene&, const ProgressCallback& progress) {
                     return atlas ? *atlas
-                                 : make_atlas(scene, {.size = settings.shared.size}, watch);
+                                 : make_atlas(scene, {.size = settings.shared.size}, progress);
                 }),
           near(near_field_for(world.scene, world.rays, world.lumels, options)),
           resident(device, world.scene, world.lumels, &world.atlas),

@@ -1,19 +1,20 @@
-// Lumel: lightmaps by radiosity, baked in memory, kept right while things move, or lit anew.
+// Lumel: radiosity lightmaps, baked in memory, kept up to date while objects move, or relit.
 //
-// This header is the whole interface; lumel/vulkan.h adds what hosts with a Vulkan device of their
-// own need. Start at bake(), LiveScene, LiveLinks or Relight.
+// This header is the whole interface; lumel/vulkan.h adds support for the host's own Vulkan device.
+// Start at bake(), LiveScene, LiveLinks or Relight.
 //
 // Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
+// Units    metres; right-handed, +y up; angles in radians; light and colours in linear Rec. 709:
 //          irradiance in lx, luminance in cd/m², intensity of lamps in cd.
-//          A diffuse surface of reflectance ρ under irradiance H shows the luminance ρ H / π.
-// Memory   Arguments are copied, results belong to the caller. What is made with a Device refers
-//          to it, and the Device must outlive it. Objects move; a moved-from one may only be
+//          A diffuse surface of reflectance ρ under irradiance H has the luminance ρ H / π.
+// Memory   Arguments are copied; results belong to the caller. Objects made with a Device refer to
+//          it; the Device must outlive them. Objects are movable; a moved-from object may only be
 //          destroyed or assigned to.
 // Threads  No call may overlap another that uses the same Device or object. Calls block until they
-//          are done and use all processors. Devices of different Vulkan drivers may not be in use
+//          are done and use all CPU cores. Devices of different Vulkan drivers must not be in use
 //          at the same time in one process.
-// Errors   A call that cannot do what it says throws Error; out of memory, std::bad_alloc. After
-//          Error{input} all is as before the call; after Error{device} end what uses the Device.
+// Errors   Functions throw Error on failure, std::bad_alloc if out of memory. After Error{input}
+//          everything is as before the call; after Error{device} destroy whatever uses the Device.
 //          The library prints nothing.
 // Chance   Equal arguments, seed and device give equal bytes.
 #ifndef LUMEL_LUMEL_H
@@ -32,14 +33,14 @@
 #define LUMEL_VERSION_MAJOR 0
 #define LUMEL_VERSION_MINOR 1
 #define LUMEL_VERSION_PATCH 0
-/// Of this header, for comparisons: 10000 × major + 100 × minor + patch.
+/// Version of this header, for comparisons: 10000 × major + 100 × minor + patch.
 #define LUMEL_VERSION                                                                              \
     (10000 * LUMEL_VERSION_MAJOR + 100 * LUMEL_VERSION_MINOR + LUMEL_VERSION_PATCH)
 
 #define LUMEL_API __attribute__((visibility("default")))
 
-/// Everything is in namespace lumel; v0 marks what one binary interface has in common. The
-/// library's own sources define LUMEL_BUILDING, since other names of theirs are in lumel itself.
+/// Everything is in namespace lumel; v0 is the version of the binary interface. The library's own
+/// sources define LUMEL_BUILDING because they have other names in lumel itself.
 #ifndef LUMEL_BUILDING
 namespace lumel {
 namespace v0 {
@@ -53,10 +54,10 @@ namespace lumel::v0 {
 using Vec2 = std::array<float, 2>;
 using Vec3 = std::array<float, 3>;
 using Vec4 = std::array<float, 4>;
-/// Column after column: element (row, column) is at [4 × column + row].
+/// Column-major: element (row, column) is at [4 × column + row].
 using Mat4 = std::array<float, 16>;
 
-// What these hold is the library's own.
+// Internal types.
 struct DeviceImpl;
 struct SceneImpl;
 struct LiveImpl;
@@ -67,19 +68,19 @@ struct HostDevice;  // lumel/vulkan.h
 
 inline constexpr Mat4 kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
-/// LUMEL_VERSION of the library that runs.
+/// LUMEL_VERSION of the library at run time.
 LUMEL_API int version() noexcept;
 
 // ---------------------------------------------------------------------------------------- errors
 
 enum class ErrorKind {
-    input,    ///< an argument, a file or a scene is not as it must be
-    device,   ///< there is no usable device, or it failed, or has too little memory
+    input,    ///< invalid argument, file or scene
+    device,   ///< no usable device, or it failed or ran out of memory
     output,   ///< a file cannot be written
-    stopped,  ///< progress ended a bake before there was any light
+    stopped,  ///< progress ended a bake before it had a solution
 };
 
-/// what() is one sentence for the user: where, what is wrong, what to do.
+/// The message what() is one sentence for the user: location, fault and remedy.
 class LUMEL_API Error : public std::runtime_error {
 public:
     Error(ErrorKind kind, const std::string& sentence);
@@ -97,20 +98,20 @@ struct DeviceInfo {
     std::string type;                ///< "discrete", "integrated", "virtual", "cpu" or "other"
     std::string api_version;         ///< "1.3.230"
     std::string driver;              ///< name and version
-    std::uint64_t memory_bytes = 0;  ///< of its largest device-local heap
+    std::uint64_t memory_bytes = 0;  ///< size of the largest device-local heap
     bool usable = false;
-    std::string reason;  ///< why not usable, else empty
+    std::string reason;  ///< why the device is not usable, else empty
 };
 
 /// All Vulkan devices of this machine. Throws Error{device} if there is no Vulkan loader.
 LUMEL_API std::vector<DeviceInfo> list_devices();
 
-/// Where the work is done. For one that the host has made, see lumel/vulkan.h.
+/// A Vulkan device for computation. use_device() in lumel/vulkan.h wraps a device of the host.
 class LUMEL_API Device {
 public:
-    /// `pick`: an index into list_devices() or a part of a name; empty: the best, which is
-    /// discrete before integrated before virtual before cpu.
-    /// Throws Error{device} with what was found and why it will not do.
+    /// `pick`: index into list_devices() or part of a name. Empty selects the best usable device,
+    /// in the order discrete, integrated, virtual, cpu. Throws Error{device} with the devices found
+    /// and why each is unsuitable.
     explicit Device(const std::string& pick = "");
     ~Device();
     Device(Device&&) noexcept;
@@ -118,7 +119,7 @@ public:
 
     const DeviceInfo& info() const;
 
-    const DeviceImpl& impl() const noexcept { return *impl_; }  // for the library itself
+    const DeviceImpl& impl() const noexcept { return *impl_; }  // internal
 
 private:
     friend LUMEL_API Device use_device(const HostDevice& host);
@@ -135,34 +136,34 @@ struct Texture {
     std::vector<std::uint8_t> rgba;  ///< [height][width][4]; colours sRGB-coded, alpha linear
 };
 
-inline constexpr int kNone = -1;  ///< in place of an index
+inline constexpr int kNone = -1;  ///< instead of an index
 
 enum class Alpha { opaque, mask, blend };
 
-/// As in glTF 2.0, whose texture coordinates have (0, 0) at the top left. Textures are read with
-/// Primitive::texcoords, repeated and bilinear.
+/// As in glTF 2.0: texture coordinates have (0, 0) at the top left. Textures use
+/// Primitive::texcoords, repeat wrapping and bilinear filtering.
 struct Material {
     std::string name;
     Vec4 base_color{0.8f, 0.8f, 0.8f, 1.0f};  ///< 0…1; RGB is the diffuse reflectance ρ
-    int base_color_texture = kNone;           ///< multiplies it
+    int base_color_texture = kNone;           ///< multiplies base_color
     Vec3 emitted{0.0f, 0.0f, 0.0f};           ///< luminance [cd/m²]
-    int emitted_texture = kNone;              ///< multiplies it
-    float metallic = 0.0f;   ///< 0…1; only method "glossy" reads this and the next
-    float roughness = 1.0f;  ///< 0…1
+    int emitted_texture = kNone;              ///< multiplies emitted
+    float metallic = 0.0f;                   ///< 0…1; this and the next two: method "glossy" only
+    float roughness = 1.0f;                  ///< 0…1
     int metallic_roughness_texture = kNone;  ///< linear; blue × metallic, green × roughness
-    Alpha alpha = Alpha::opaque;             ///< what the alpha of the base colour means
-    float alpha_cutoff = 0.5f;               ///< of Alpha::mask
-    float transmission = 0.0f;               ///< 0…1, share that is glass: light passes straight
+    Alpha alpha = Alpha::opaque;             ///< meaning of the alpha of base_color
+    float alpha_cutoff = 0.5f;               ///< for Alpha::mask
+    float transmission = 0.0f;  ///< 0…1, transmitted share: light passes without refraction
     bool double_sided = false;
 };
 
-/// Triangles of one material. Fronts are counter-clockwise.
+/// Triangles of one material, front faces counter-clockwise.
 struct Primitive {
     std::vector<Vec3> positions;  ///< [V]
-    std::vector<Vec3> normals;    ///< [V], or empty: flat
+    std::vector<Vec3> normals;    ///< [V], or empty for flat shading
     std::vector<Vec2> texcoords;  ///< [V], or empty
-    std::vector<Vec2> lightmap;   ///< [V] a layout of your own in 0…1, used unless it overlaps
-    std::vector<Vec4> colors;     ///< [V] linear, multiply the base colour; or empty
+    std::vector<Vec2> lightmap;  ///< [V] your own layout in 0…1, used unless it overlaps; or empty
+    std::vector<Vec4> colors;    ///< [V] linear, multiply the base colour; or empty
     std::vector<std::uint32_t> indices;  ///< [3T]
     std::uint32_t material = 0;          ///< index into SceneContent::materials
 };
@@ -172,31 +173,31 @@ struct Mesh {
     std::vector<Primitive> primitives;
 };
 
-/// A mesh in its place. Each instance gets texels of its own.
+/// A placed mesh. Each instance has its own texels.
 struct Instance {
     std::string name;
     std::uint32_t mesh = 0;
     Mat4 transform = kIdentity;  ///< mesh to world
-    int node = kNone;            ///< of a file: index of its node
+    int node = kNone;            ///< index of its node in the file
 };
 
-/// A lamp that is no surface, as KHR_lights_punctual has it.
+/// A punctual light, as in KHR_lights_punctual.
 struct Light {
     enum class Kind { point, spot, directional } kind = Kind::point;
     std::string name;
     Vec3 color{1.0f, 1.0f, 1.0f};
     float intensity = 1.0f;             ///< [cd]; directional: [lx]
-    Vec3 position{0.0f, 0.0f, 0.0f};    ///< not of directional
-    Vec3 direction{0.0f, -1.0f, 0.0f};  ///< that it shines in, of any length; not of point
-    float range = 0.0f;                 ///< where its light ends; 0: nowhere
+    Vec3 position{0.0f, 0.0f, 0.0f};    ///< [m] ignored if directional
+    Vec3 direction{0.0f, -1.0f, 0.0f};  ///< direction of its light, any length; ignored if point
+    float range = 0.0f;                 ///< maximum distance of its light [m]; 0: unlimited
     float inner_cone = 0.0f;            ///< half angles of a spot, 0 ≤ inner ≤ outer ≤ π/2
     float outer_cone = 0.785398f;
-    float radius = 0.0f;  ///< of the ball that shines; 0: a point, with sharp shadows
-    float angle = 0.0f;   ///< half the angle of the disc of a directional light; 0: sharp shadows
+    float radius = 0.0f;  ///< [m] radius of a spherical source; 0: a point, sharp shadows
+    float angle = 0.0f;   ///< angular radius of a directional light; 0: sharp shadows
 };
 
-/// Luminance over all directions as a latitude-longitude image: row 0 is up (+y), the middle of
-/// the image is towards +x, three quarters of its width towards +z.
+/// Luminance over all directions as a latitude-longitude image. Row 0 is up (+y), the middle of the
+/// image is +x, and +z is at three quarters of its width.
 struct Sky {
     int width = 0, height = 0;
     std::vector<Vec3> luminance;  ///< [height][width] [cd/m²]; empty: no sky
@@ -211,53 +212,52 @@ struct SceneContent {
     Sky sky;
 };
 
-/// Sky and sun that Scene::add_daylight adds. The sky is of the file, else of the luminance, else,
-/// with a sun, that of a clear day, else the scene's own.
+/// Sky and sun for Scene::add_daylight. The first of these that is given becomes the sky: the file,
+/// the luminance, the clear sky of the sun, the scene's own.
 struct Daylight {
     std::string sky_file;               ///< .exr or .hdr, latitude-longitude [cd/m²]; or empty
-    std::optional<Vec3> sky_luminance;  ///< the same from everywhere [cd/m²]
-    /// As bright as on a clear day.
+    std::optional<Vec3> sky_luminance;  ///< uniform sky [cd/m²]
+    /// Sun of a clear day.
     struct Sun {
         double azimuth = 0.0;    ///< clockwise from north (-z), seen from above: east (+x) is π/2
-        double elevation = 0.0;  ///< above the horizon, up to π/2
+        double elevation = 0.0;  ///< above the horizon, -π/2…π/2
     };
     std::optional<Sun> sun;
-    float sky_scale = 1.0f;  ///< factor to the sky, not to the sun
-    double rotation = 0.0;   ///< of sky and sun about +y, counter-clockwise seen from above
+    float sky_scale = 1.0f;  ///< factor for the sky, not for the sun
+    double rotation = 0.0;   ///< rotation of sky and sun about +y, counter-clockwise from above
 };
 
-/// What is read of a file's materials.
+/// Material properties to read from a file.
 enum class Materials {
     diffuse,  ///< base colour and emission
-    glossy,   ///< metallic, roughness and specular too, for method "glossy"
+    glossy,   ///< also metallic, roughness and specular, for method "glossy"
 };
 
-/// A checked scene. Needs no device.
+/// A checked scene; needs no device.
 class LUMEL_API Scene {
 public:
-    /// Reads a glTF 2.0 file (.gltf or .glb) with the files it names.
-    /// Throws Error{input} with the file, the place in it and the reason.
+    /// Reads a glTF 2.0 file (.gltf or .glb) and the files that it names. Throws Error{input} with
+    /// the file, the location in it and the reason.
     static Scene load(const std::string& path, Materials materials = Materials::diffuse);
-    /// Takes a copy. Triangles without area are dropped, normals made unit.
-    /// Throws Error{input}, e.g. "meshes[2].primitives[0]: indices[3] is 24, …", for indices out of
-    /// range, arrays of different lengths, what is not finite, and transforms that flatten.
+    /// Copies `content`, drops triangles of zero area and normalises normals. Throws Error{input},
+    /// e.g. "meshes[2].primitives[0]: indices[3] is 24, …", for indices out of range, arrays of
+    /// different lengths, values that are not finite, and transforms without volume.
     explicit Scene(const SceneContent& content);
     ~Scene();
     Scene(Scene&&) noexcept;
     Scene& operator=(Scene&&) noexcept;
 
-    /// A sky takes the place of one that is there; a sun is one more light, named "sun".
-    /// Throws Error{input}.
+    /// Replaces the sky and adds the sun as a light named "sun". Throws Error{input}.
     void add_daylight(const Daylight& daylight);
 
-    std::vector<Instance> instances() const;  ///< those shown, in the world of the scene's file
+    std::vector<Instance> instances() const;  ///< visible ones, world space of the file
     std::vector<std::string> lights() const;  ///< names
-    /// Index of the first instance of a name. Throws Error{input} if there is none.
+    /// Index of the first instance with this name. Throws Error{input} if there is none.
     std::uint32_t find_instance(const std::string& name) const;
-    /// What reading left out or repaired, as sentences.
+    /// Warnings: features ignored or data repaired while loading.
     const std::vector<std::string>& warnings() const;
 
-    const SceneImpl& impl() const noexcept { return *impl_; }  // for the library itself
+    const SceneImpl& impl() const noexcept { return *impl_; }  // internal
 
 private:
     explicit Scene(std::unique_ptr<SceneImpl> impl);
@@ -267,247 +267,244 @@ private:
 
 // --------------------------------------------------------------------------------------- results
 
-/// The density of what is named so.
+/// Texel density of nodes, meshes or materials whose name matches `pattern`.
 struct DensityRule {
-    std::string pattern;  ///< of names of nodes, meshes or materials, as the shell's: * ? []
-    float texels_per_metre = 0.0f;  ///< above 0
+    std::string pattern;            ///< shell wildcards * ? []
+    float texels_per_metre = 0.0f;  ///< > 0
 };
 
-/// Sizes of the square lightmap, all in texels.
+/// Sizes of the square lightmap [texels].
 struct AtlasSettings {
-    float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`
-    int size = 0;                   ///< fixes the side, 1…16384; 0: as the density asks for
-    int max_size = 4096;            ///< largest side; the density is scaled to fit
-    int gutter = 2;                 ///< kept free between any two charts, 0…64
-    /// Most squares of that side that the map is made of where one is too small, 1…256. All of
-    /// them together have 16384 texels a side at most. No chart lies on two of them.
+    float texels_per_metre = 0.0f;  ///< 0: the highest density that fits `size`
+    int size = 0;                   ///< fixed side, 1…16384; 0: derived from the density
+    int max_size = 4096;            ///< maximum side; the density is reduced to fit
+    int gutter = 2;                 ///< free space between two charts, 0…64
+    /// Maximum number of squares of this side, 1…256, used if one is too small. All squares
+    /// together have at most 16384 texels a side. No chart is on two of them.
     int pages = 1;
-    std::vector<DensityRule> densities;  ///< beside the file's; of two that fit, the later counts
+    std::vector<DensityRule> densities;  ///< beside the file's; the last match applies
     bool coarse_afar = false;            ///< fewer texels far from cameras and detail
 };
 
-/// One primitive of one instance in the lightmap. Vertices are split where charts end.
+/// One primitive of one instance in the lightmap. Vertices are split at chart borders.
 struct Surface {
     std::uint32_t instance = 0;                ///< index into Scene::instances()
-    std::uint32_t primitive = 0;               ///< in its mesh, or in the mesh of the file
-    std::vector<std::uint32_t> source_vertex;  ///< [V] the primitive's vertex that it copies
+    std::uint32_t primitive = 0;               ///< index in the source mesh or in that of the file
+    std::vector<std::uint32_t> source_vertex;  ///< [V] the source primitive's vertex
     std::vector<Vec2> lightmap;                ///< [V] coordinates in 0…1, (0, 0) at the top left
-    std::vector<std::uint32_t> indices;        ///< [3T] in the primitive's order
-    /// [V] which page holds it, or empty: the map has one. Triangles do not mix pages.
+    std::vector<std::uint32_t> indices;        ///< [3T] triangles in the primitive's order
+    /// [V] index into pages, or empty if there is one page. A triangle has one page.
     std::vector<std::uint16_t> page;
-    float texels_per_metre = 0.0f;  ///< its density
+    float texels_per_metre = 0.0f;  ///< texel density of this surface
 };
 
-/// A lightmap: RGB is H [lx], A is 0 where no surface is. Gutters are filled and seams matched, so
-/// that it may be filtered. A double-sided surface shows, chart by chart, its brighter side.
+/// A lightmap: RGB is H [lx], A is 0 where no surface is. Gutters are filled and seams matched for
+/// filtering. Each chart of a double-sided surface has the light of its brighter side.
 struct Map {
     int width = 0, height = 0;
     std::vector<float> rgba;  ///< [height][width][4], top row first
 };
 
-/// A square of the map, for hosts whose textures cannot be as large as that [texels].
+/// A square of the map, for hosts with smaller textures [texels].
 struct Page {
     int x = 0, y = 0;  ///< top left
     int side = 0;
 };
 
-/// A page by itself. A place of the map is at (lightmap × width − (x, y)) / side there.
-/// Throws Error{input} if the page is not inside of the map.
+/// Returns one page. Position in it: (lightmap × width − (x, y)) / side. Throws Error{input} if the
+/// page is not inside the map.
 LUMEL_API Map cut_page(const Map& map, const Page& page);
 
 // ------------------------------------------------------------------------------------------ bake
 
-/// Where a bake stands.
+/// Status of a bake.
 struct Progress {
     std::string stage;        ///< "charts", "near field", "solving", …
-    double fraction = 0.0;    ///< of the stage, 0…1
+    double fraction = 0.0;    ///< fraction of the stage, 0…1
     std::uint64_t shots = 0;  ///< shooters so far
-    double error = -1.0;      ///< estimated relative error, < 0: not known yet
+    double error = -1.0;      ///< estimated relative error; < 0: unknown
     double seconds = 0.0;     ///< since the stage began
 };
 
-/// Called on the thread that bakes, at each stage and often while solving. False ends the bake
-/// early with the best solution so far, or before there is one with Error{stopped}. Must not throw.
+/// Called on the thread that bakes, at each stage and repeatedly while solving. Returning false
+/// ends the bake early: with the best solution so far, or with Error{stopped} if there is none.
+/// Must not throw.
 using ProgressFunction = std::function<bool(const Progress&)>;
 
-/// Of the light that arrives.
+/// Components of the irradiance.
 enum class Parts {
     all,
-    direct,    ///< straight from emissive surfaces, lamps and sky
-    indirect,  ///< what has been reflected on its way
+    direct,    ///< from emissive surfaces, lamps and sky without reflection
+    indirect,  ///< reflected at least once
 };
 
 struct BakeSettings {
     AtlasSettings atlas;
-    /// As `lumel methods` lists them: "links", "stochastic", "glossy", "directions", "progressive",
-    /// "gather", "matrix".
+    /// An id that `lumel methods` lists: "links", "stochastic", "glossy", "directions",
+    /// "progressive", "gather", "matrix".
     std::string method = "links";
-    /// Of the method, by their names on the command line: {{"patches", "512"}}.
+    /// Options of the method, by their names on the command line: {{"patches", "512"}}.
     std::map<std::string, std::string> options;
     Parts parts = Parts::all;
     std::uint32_t seed = 1;
-    double error = 0.02;      ///< estimated relative error to end at, 0: none
-    double seconds = 0.0;     ///< since the bake began, to end solving at; 0: none
-    std::uint64_t shots = 0;  ///< to end at, 0: none
+    double error = 0.02;      ///< target for the estimated relative error; 0: none
+    double seconds = 0.0;     ///< time limit, counted from the start of the bake; 0: none
+    std::uint64_t shots = 0;  ///< limit of shots; 0: none
 };
 
-/// A finished bake. `relightable` is set by method "matrix" with Parts::all, for Relight.
+/// A finished bake. Method "matrix" with Parts::all sets `relightable`, for Relight.
 struct Baked {
     Map map;
     std::vector<Surface> surfaces;  ///< by instance, then primitive
-    std::vector<Page> pages;        ///< that the map is made of; one, where it is enough
+    std::vector<Page> pages;        ///< pages of the map, at least one
     float texels_per_metre = 0.0f;
-    double error = -1.0;  ///< estimated relative error, < 0: not known
+    double error = -1.0;  ///< estimated relative error; < 0: unknown
     std::uint64_t shots = 0;
     double seconds = 0.0;
-    bool interrupted = false;        ///< progress ended it
-    std::vector<std::string> notes;  ///< sentences for the user
+    bool interrupted = false;        ///< ended by progress
+    std::vector<std::string> notes;  ///< messages for the user
     std::shared_ptr<const RelightableBake> relightable;
 };
 
-/// Lays the scene out and solves for its light. The same map as `lumel bake` writes.
-/// Throws Error{input} if a setting is out of its limits, no limit ends the bake, or nothing of
-/// the scene can be lit; Error{device}.
+/// Builds the atlas and solves for the light; returns the same map as `lumel bake` writes. Throws
+/// Error{input} if a setting is out of range, no limit ends the bake, or no surface can be lit;
+/// Error{device}.
 LUMEL_API Baked bake(const Device& device, const Scene& scene, const BakeSettings& settings = {},
                      const ProgressFunction& progress = {});
 
 // ------------------------------------------------------------------------------------------ live
 
-/// How light follows a move.
+/// Update of the light after a move.
 enum class Redistribution {
-    incremental,  ///< exact: every patch that shot looks at what moved
-    cross,        ///< only what moves looks: much faster where it is small
+    incremental,  ///< exact: all patches that shot render views of moved objects
+    cross,        ///< views from movable objects only: much faster if they are small
 };
 
 struct LiveSettings {
     AtlasSettings atlas;
     Redistribution redistribution = Redistribution::incremental;
-    std::vector<std::uint32_t> movers;  ///< instances that may move; empty: only lamps change
+    std::vector<std::uint32_t> movers;  ///< movable instances; empty: only lamps change
     std::uint32_t seed = 1;
-    double residual = 0.0005;  ///< light still to be shot, as a part of all, to rest at
+    double residual = 0.0005;  ///< convergence threshold for LiveState::residual
 };
 
-/// Where a LiveScene stands.
+/// Status of a LiveScene.
 struct LiveState {
-    double residual = 1.0;      ///< light still to be shot, as a part of all
-    bool under_way = false;     ///< a move is not wholly redistributed yet
-    bool at_rest = false;       ///< update() has nothing left to do
-    double milliseconds = 0.0;  ///< that the last update() took
+    double residual = 1.0;      ///< unshot light relative to all light
+    bool under_way = false;     ///< a move is not completely redistributed yet
+    bool at_rest = false;       ///< converged: update() has no work left
+    double milliseconds = 0.0;  ///< duration of the last update()
 };
 
-/// A scene that stays lit while instances move and lamps change, by shooting on a device.
+/// Keeps a scene lit while instances move and lamps change, by shooting on a GPU.
 class LUMEL_API LiveScene {
 public:
-    /// Lays the scene out; the first updates find its light.
-    /// Throws Error{input} if nothing of it can be lit or a mover is no instance; Error{device}.
+    /// Builds the atlas; the light is computed by update(). Throws Error{input} if no surface can
+    /// be lit or a mover is no instance; Error{device}.
     LiveScene(const Device& device, const Scene& scene, const LiveSettings& settings);
     ~LiveScene();
     LiveScene(LiveScene&&) noexcept;
     LiveScene& operator=(LiveScene&&) noexcept;
 
-    /// Puts a mover elsewhere (mesh to world, as of Scene::instances()); takes effect in update().
-    /// Of several moves before one update(), the last counts. Turns and shifts only. Throws
+    /// Sets the transform of a mover (mesh to world, as in Scene::instances()); update() applies
+    /// it. The last of several moves before an update() counts. Requires a rigid motion. Throws
     /// Error{input}.
     void move(std::uint32_t instance, const Mat4& transform);
 
-    /// An instance emits, or reflects, `factor` times what the scene says; reflectances are kept
-    /// from 0 to 1. Throws Error{input} if there is no such instance, or for factors that are
-    /// negative or no numbers.
+    /// Scales the emission or reflectance of an instance relative to the scene; reflectances are
+    /// clamped to 0…1. Throws Error{input} if there is no such instance or a factor is negative or
+    /// not finite.
     void set_emission(std::uint32_t instance, const Vec3& factor);
     void set_reflectance(std::uint32_t instance, const Vec3& factor);
-    /// The same for a light (index into Scene::lights()) and for the sky.
+    /// Scales a light (index into Scene::lights()) or the sky, likewise.
     void set_light(std::uint32_t light, const Vec3& factor);
     void set_sky(const Vec3& factor);
 
-    /// Works for about this long: moves first, then light that is not shot yet. Does one batch at
-    /// least, and takes longer by one batch at most. Infinity: until at rest.
+    /// Runs for about `budget_ms`: applies moves first, then shoots. Runs at least one batch and
+    /// exceeds the budget by at most one batch. Infinity: until converged.
     LiveState update(double budget_ms);
-    const LiveState& state() const;  ///< as the last update() left it
+    const LiveState& state() const;  ///< after the last update()
 
-    /// The lightmap after the last move that is wholly redistributed, finished as by bake(), which
-    /// takes time; lumel/vulkan.h has it as an image on the device, at once.
+    /// The lightmap after the last completely redistributed move, finished as by bake(), which
+    /// takes time. lumel/vulkan.h returns it as an image on the GPU, without delay.
     Map map() const;
     const std::vector<Surface>& surfaces() const;   ///< by instance, then primitive
-    const std::vector<std::string>& notes() const;  ///< of the layout, for the user
+    const std::vector<std::string>& notes() const;  ///< atlas warnings, for the user
 
-    const LiveImpl& impl() const noexcept { return *impl_; }  // for the library itself
+    const LiveImpl& impl() const noexcept { return *impl_; }  // internal
 
 private:
     std::unique_ptr<LiveImpl> impl_;
 };
 
-/// Where a lamp is.
+/// Position and direction of a lamp.
 struct LampPlace {
-    std::optional<Vec3> position;   ///< [m] not of directional lights
-    std::optional<Vec3> direction;  ///< in which it shines, of any length
+    std::optional<Vec3> position;   ///< [m] not for directional lights
+    std::optional<Vec3> direction;  ///< direction of its light, any length
 };
 
 struct LiveLinksSettings {
     AtlasSettings atlas;
-    std::vector<std::uint32_t> movers;  ///< instances that may move
-    std::uint32_t rays = 64;            ///< that each lumel keeps: 4, 16, 64 or 256
-    bool filter = true;                 ///< of the noise in what is shown
+    std::vector<std::uint32_t> movers;  ///< movable instances
+    std::uint32_t rays = 64;            ///< stored rays per lumel: 4, 16, 64 or 256
+    bool filter = true;                 ///< filters ray noise for display
     std::uint32_t seed = 1;
-    double residual = 0.0001;  ///< light still to bounce, as a part of all, to rest at
+    double residual = 0.0001;  ///< convergence threshold for both residuals
 };
 
-/// Where LiveLinks stand.
+/// Status of LiveLinks.
 struct LiveLinksState {
-    double residual = 1.0;       ///< light still to bounce, as a part of all
-    double dark_residual = 1.0;  ///< the same of lumels between 0.5 and 30 % of the mean, of theirs
-    bool under_way = false;      ///< a move is not wholly followed yet
-    bool at_rest = false;        ///< update() has nothing left to do
-    double milliseconds = 0.0;   ///< that the last update() took
+    double residual = 1.0;       ///< residual indirect light, relative to all light
+    double dark_residual = 1.0;  ///< lumels at 0.5…30 % of the mean, relative to theirs
+    bool under_way = false;      ///< a move is not completely retraced yet
+    bool at_rest = false;        ///< converged: update() has no work left
+    double milliseconds = 0.0;   ///< duration of the last update()
 };
 
-/// A scene that stays lit while instances and lamps move, lamps are dimmed and surfaces painted.
-/// Every lumel traces its rays once, and what they met is kept: dimming and painting trace nothing,
-/// a move only the rays that it starts, ends or stops. At rest the light is that of a scene solved
-/// anew, within the residual. Works on the host, needs no Device, and takes about 4 × rays + 100
-/// bytes for each lumel, 12 for each of them and each lamp, and up to 250 more with the filter.
+/// Keeps a scene lit while instances and lamps move, lamps are dimmed and albedos change. Every
+/// lumel traces its rays once and stores their hits. Dimming and albedo changes trace no rays; a
+/// move retraces only the rays that start on the object, ended on it or now hit it. Converged light
+/// equals that of a new solution within the residual. Runs on the CPU without a Device. Takes about
+/// 4 × rays + 100 bytes per lumel, 12 per lumel and lamp, and up to 250 per lumel for the filter.
 class LUMEL_API LiveLinks {
 public:
-    /// Lays the scene out, traces all links and finds all direct light. The scene is copied.
-    /// Throws Error{input} if nothing of it can be lit, a mover is no instance, all of it moves,
-    /// it has coloured glass, or a setting is out of its limits; Error{device} if rays cannot be
-    /// cast.
+    /// Builds the atlas, traces all links and computes direct light. Throws Error{input} if no
+    /// surface can be lit, a mover is no instance, all instances move, there is coloured glass, or
+    /// a setting is out of range; Error{device} if rays cannot be traced.
     explicit LiveLinks(const Scene& scene, const LiveLinksSettings& settings = {});
     ~LiveLinks();
     LiveLinks(LiveLinks&&) noexcept;
     LiveLinks& operator=(LiveLinks&&) noexcept;
 
-    /// Puts a mover elsewhere (mesh to world, as of Scene::instances()); takes effect in update().
-    /// Of several moves before it is followed, the last counts. Turns and shifts only. Throws
-    /// Error{input}.
+    /// Sets the transform of a mover (mesh to world, as in Scene::instances()); update() applies
+    /// it. The last of several pending moves counts. Requires a rigid motion. Throws Error{input}.
     void move(std::uint32_t instance, const Mat4& transform);
-    /// Moves or turns the lamps of that name; what of `place` is not set is as it is. Finds their
-    /// light at once. Throws Error{input} if there is none, for positions of directional lights,
-    /// and for what is no number.
+    /// Moves or turns all lamps of this name and updates their light at once. Members of `place`
+    /// without a value do not change. Throws Error{input} if there is no such lamp, for
+    /// positions of directional lights, and for values that are not finite.
     void move_lamp(const std::string& name, const LampPlace& place);
 
-    /// All lights of that name, and all surfaces of a material of that name, send `factor` times
-    /// what the scene says. Throws Error{input} if there is none, or for factors that are negative
-    /// or no numbers.
+    /// Scales all lights of this name and the emission of materials of this name, relative to the
+    /// scene. Throws Error{input} if there are none, or a factor is negative or not finite.
     void set_lamp(const std::string& name, const Vec3& factor);
-    /// The same of the sky. Throws Error{input} if there is none.
+    /// Scales the sky relative to the scene. Throws Error{input} if there is no sky.
     void set_sky(const Vec3& factor);
-    /// A material reflects with this base colour, 0…1, times its texture. The first time for each
-    /// material takes longer. Throws Error{input}.
+    /// Sets the base colour of a material, 0…1, which its texture multiplies. The first call for
+    /// each material takes longer. Throws Error{input}.
     void set_color(const std::string& material, const Vec3& color);
 
-    /// Works for about this long: on light that arrives straight in the new places, which is shown
-    /// when it is whole; then on what bounces. Takes longer by a few milliseconds at most.
-    /// Infinity: until at rest.
+    /// Runs for about `budget_ms`: updates direct light, which is shown when it is complete, then
+    /// indirect light. Exceeds the budget by at most a few milliseconds. Infinity: until converged.
     LiveLinksState update(double budget_ms);
-    const LiveLinksState& state() const;  ///< as the last update() left it
+    const LiveLinksState& state() const;  ///< after the last update()
 
-    /// The lightmap as update() left it, finished as by bake(), which takes time.
+    /// The lightmap after the last update(), finished as by bake(), which takes time.
     Map map() const;
-    /// H [lx] alone, without gutters and seams, which takes little: RGB, A is 1 where there is a
-    /// lumel, else 0; of front sides.
+    /// H [lx] of front sides without gutters and seams, in little time: RGB; A is 1 at lumels, else
+    /// 0.
     Map lumels() const;
     const std::vector<Surface>& surfaces() const;   ///< by instance, then primitive
-    const std::vector<std::string>& notes() const;  ///< of the layout, for the user
+    const std::vector<std::string>& notes() const;  ///< atlas warnings, for the user
 
 private:
     std::unique_ptr<LinksImpl> impl_;
@@ -515,15 +512,15 @@ private:
 
 // --------------------------------------------------------------------------------------- relight
 
-/// A baked scene under any light, by one multiply: H = Σ f_s H_s over its sources s. All factors
-/// are 1 at first.
+/// A baked scene under any light, by one matrix product: H = Σ f_s H_s over its sources s. All
+/// factors f_s are initially 1.
 class LUMEL_API Relight {
 public:
     /// Throws Error{input} if the bake is not relightable; Error{device}.
     Relight(const Device& device, const Baked& baked);
-    /// Reads scene.lumelmat, as save() or `lumel bake --solver matrix` wrote it. Its maps have
-    /// filled gutters, but seams and buried texels as they are.
-    /// Throws Error{input} if it is missing or damaged; Error{device}.
+    /// Reads scene.lumelmat, written by save() or `lumel bake --solver matrix`. Its maps have
+    /// filled gutters; seams and buried texels are not corrected. Throws Error{input} if the file
+    /// is missing or damaged; Error{device}.
     Relight(const Device& device, const std::string& path);
     ~Relight();
     Relight(Relight&&) noexcept;
@@ -531,15 +528,15 @@ public:
 
     /// Names of the sources: lights, emissive instances, "sky".
     std::vector<std::string> lights() const;
-    /// What a source, or all that a material of this name makes shine, sends is `factor` times what
-    /// was baked. Throws Error{input}, with the names there are, for another name and for factors
-    /// that are negative or no numbers.
+    /// Scales a source, or all emission of a material of this name, relative to the bake. Throws
+    /// Error{input}, with the valid names, for an unknown name and for factors that are negative or
+    /// not finite.
     void set_light(const std::string& name, const Vec3& factor);
-    /// Moves or turns a lamp; map() then draws its shadow maps anew. What of `place` is not set is
-    /// as it was baked. Throws Error{input} for surfaces, the sky and names of several lamps, for
-    /// positions of directional lights, and if this was read from a file, which has no scene.
+    /// Moves or turns a lamp; map() renders its shadow maps again. Members of `place` without a
+    /// value are as baked. Throws Error{input} for surfaces, the sky, ambiguous names, positions of
+    /// directional lights, and if this was read from a file, which has no scene.
     void move_light(const std::string& name, const LampPlace& place);
-    /// The lightmap with factors and places set, in the layout of the bake.
+    /// The lightmap for the current factors and lamp positions, in the atlas of the bake.
     Map map();
     /// Writes scene.lumelmat. Throws Error{output}.
     void save(const std::string& path) const;

@@ -1,4 +1,4 @@
-// Lumel on a Vulkan device of the host's, and lightmaps that stay on it. See lumel/lumel.h.
+// Lumel on a Vulkan device of the host, and lightmaps that stay on it. See lumel/lumel.h.
 #ifndef LUMEL_VULKAN_H
 #define LUMEL_VULKAN_H
 
@@ -8,8 +8,8 @@
 
 namespace lumel::v0 {
 
-/// A device that the host has made. It must have Vulkan 1.3, the extension VK_KHR_push_descriptor,
-/// and these features on: dynamicRendering, synchronization2, maintenance4, scalarBlockLayout,
+/// A Vulkan device created by the host. Requires Vulkan 1.3, the extension VK_KHR_push_descriptor,
+/// and the features dynamicRendering, synchronization2, maintenance4, scalarBlockLayout and
 /// fullDrawIndexUint32.
 struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE;
@@ -17,20 +17,20 @@ struct HostDevice {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;  ///< for graphics, compute and transfer
     std::uint32_t queue_family = 0;
-    bool tessellation = false;     ///< the feature tessellationShader is on
-    bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
-    bool block_textures = false;   ///< the feature textureCompressionBC is on
-    /// VK_KHR_ray_query and what it needs are on, with the features rayQuery, accelerationStructure
-    /// and bufferDeviceAddress.
+    bool tessellation = false;     ///< feature tessellationShader is enabled
+    bool fragment_stores = false;  ///< feature fragmentStoresAndAtomics is enabled
+    bool block_textures = false;   ///< feature textureCompressionBC is enabled
+    /// VK_KHR_ray_query and its dependencies are enabled, with the features rayQuery,
+    /// accelerationStructure and bufferDeviceAddress.
     bool ray_queries = false;
 };
 
-/// Works on the host's device and queue, which stay the host's: it keeps its own work off the queue
-/// while calls to Lumel run, and destroys the device after all that was made with it.
-/// Throws Error{device} if a handle is null or the device cannot do what is needed.
+/// Uses the device and queue of the host, which keeps ownership. The host must not use the queue
+/// during calls to Lumel, and must destroy the device last. Throws Error{device} if a handle is
+/// null or a required feature is missing.
 LUMEL_API Device use_device(const HostDevice& host);
 
-/// An image of Lumel's on the Device's VkDevice, in the general layout, ready to be sampled.
+/// An image owned by Lumel on the Device's VkDevice, in the general layout, ready for sampling.
 struct DeviceImage {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
@@ -38,10 +38,9 @@ struct DeviceImage {
     std::uint32_t width = 0, height = 0;
 };
 
-/// The lightmap as the last update() left it: RGB is H [lx] of front sides, A is 1 where a surface
-/// is, else 0; gutters are empty. VK_FORMAT_R32G32B32A32_SFLOAT. Each update() that changes it
-/// draws into the other of two images, so that the host may still read the one before. They live
-/// as long as the LiveScene.
+/// The lightmap after the last update(): RGB is H [lx] of front sides, A is 1 on surfaces, else 0;
+/// gutters are empty. VK_FORMAT_R32G32B32A32_SFLOAT. Two images alternate: an update() that changes
+/// the lightmap leaves the previous image readable. They live as long as the LiveScene.
 LUMEL_API DeviceImage device_image(const LiveScene& live);
 
 }  // namespace lumel::v0

@@ -1,4 +1,4 @@
-// The score of `lumel bake`, without its files.
+// The pipeline of `lumel bake`, without files.
 
 #include "api/bake.h"
 

@@ -7,7 +7,7 @@
 
 namespace lumel::v0 {
 
-/// A bake's light with its sources apart, and what its maps are finished with.
+/// A bake's light, separated by source, and the data to finish its maps.
 struct RelightableBake {
     lumel::Relightable light;
     lumel::Scene scene;

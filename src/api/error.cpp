@@ -2,7 +2,7 @@
 
 namespace lumel::v0 {
 
-// The header is read by people and by compilers of hosts, so its numbers stand there as text.
+// Hosts and people read the header, so the version is plain text there.
 static_assert(LUMEL_VERSION == LUMEL_PROJECT_VERSION, "the header is of another version");
 
 int version() noexcept

@@ -19,7 +19,7 @@ LiveOptions checked_options(const LiveSettings& settings)
     options.atlas = checked_options(settings.atlas);
     options.movers = settings.movers;
     options.still = settings.movers.empty();
-    // Where nothing moves there is nothing to cross.
+    // Without movers, there is nothing for the cross method to do.
     options.redistribution = settings.redistribution == Redistribution::cross && !options.still
                                  ? lumel::Redistribution::cross
                                  : lumel::Redistribution::incremental;
@@ -41,7 +41,7 @@ LiveState state_of(const lumel::LiveState& state)
 struct LiveImpl {
     const gpu::Device* device;
     lumel::LiveScene live;
-    std::vector<glm::mat4> given;  ///< [instances] places of the scene
+    std::vector<glm::mat4> given;  ///< [instances] transforms in the scene
     std::vector<Surface> surfaces;
     LiveState state;
 
@@ -73,10 +73,10 @@ void LiveScene::move(std::uint32_t instance, const Mat4& transform)
         const glm::mat4 place = instance < impl_->given.size()
                                     ? place_in_scene(transform, impl_->given[instance],
                                                      impl_->live.scene().origin)
-                                    : to_glm(transform);  // which is refused
+                                    : to_glm(transform);  // move() throws
         if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, "instance " + std::to_string(instance),
-                               "is moved to a place that is no number, or too far out");
+                               "is moved to a position that is not finite or too far out");
         impl_->live.move(instance, place);
     });
 }

@@ -14,7 +14,7 @@
 namespace lumel::v0 {
 namespace {
 
-/// Directions shorter than this point nowhere.
+/// Minimum length of a direction vector.
 constexpr float kMinLength = 1e-20f;
 
 lumel::LiveLinksOptions links_options(const LiveLinksSettings& settings)
@@ -37,7 +37,7 @@ lumel::LiveLinksOptions links_options(const LiveLinksSettings& settings)
     return options;
 }
 
-/// Where a lamp is once it was put there; directions and positions that are not given stay.
+/// Transform of a lamp after a move; members of `place` without a value do not change it.
 glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::dvec3& origin)
 {
     const auto refuse = [&](const char* what) {
@@ -48,7 +48,7 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
         const glm::vec3 direction = to_glm(*place.direction);
         const float length = glm::length(direction);
         if (!std::isfinite(length) || length < kMinLength)
-            refuse("has a direction that points nowhere");
+            refuse("has a direction of no length");
         result = glm::mat4(frame_about(direction / -length));
         result[3] = lamp.transform[3];
     }
@@ -59,7 +59,7 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
         if (!is_finite(*place.position) ||
             reaches_too_far(Bounds{}, glm::mat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0},
                                                 glm::vec4(position, 1.0f))))
-            refuse("is moved to a place that is no number, or too far out");
+            refuse("is moved to a position that is not finite or too far out");
         result[3] = glm::vec4(position, 1.0f);
     }
     return result;
@@ -70,7 +70,7 @@ glm::mat4 placed(const PunctualLight& lamp, const LampPlace& place, const glm::d
 struct LinksImpl {
     std::vector<std::uint32_t> movers;
     lumel::LiveLinks live;
-    std::vector<glm::mat4> given;  ///< [instances] places of the scene
+    std::vector<glm::mat4> given;  ///< [instances] transforms in the scene
     std::vector<Surface> surfaces;
     LiveLinksState state;
 
@@ -100,12 +100,12 @@ void LiveLinks::move(std::uint32_t instance, const Mat4& transform)
         const std::string name = "instance " + std::to_string(instance);
         const auto mover = std::find(impl_->movers.begin(), impl_->movers.end(), instance);
         if (mover == impl_->movers.end())
-            throw lumel::Error(lumel::ErrorKind::input, name, "is not one that may move");
+            throw lumel::Error(lumel::ErrorKind::input, name, "is not movable");
         const glm::mat4 &given = impl_->given[instance],
                         place = place_in_scene(transform, given, impl_->live.scene().origin);
         if (!is_finite(transform) || reaches_too_far(Bounds{}, place))
             throw lumel::Error(lumel::ErrorKind::input, name,
-                               "is moved to a place that is no number, or too far out");
+                               "is moved to a position that is not finite or too far out");
         const glm::mat4 motion =
             place == given ? glm::mat4(1.0f)
                            : glm::mat4(glm::dmat4(place) * glm::inverse(glm::dmat4(given)));

@@ -19,7 +19,7 @@ const lumel::Relightable& light_of(const Baked& baked)
     return baked.relightable->light;
 }
 
-/// What a texel shows of lumels without charts: the front where there is one.
+/// Map of lumels without charts: front sides hide back sides.
 Map map_of_places(const lumel::Relightable& light, const std::vector<glm::vec3>& irradiance)
 {
     Image map(int(light.side), int(light.side), 4);
@@ -42,10 +42,10 @@ Map map_of_places(const lumel::Relightable& light, const std::vector<glm::vec3>&
 struct RelightImpl {
     const gpu::Device* device;
     RelightSession session;
-    std::shared_ptr<const RelightableBake> baked;  ///< null: read from a file
-    std::unique_ptr<World> world;                  ///< once a light has moved
+    std::shared_ptr<const RelightableBake> baked;  ///< null if read from a file
+    std::unique_ptr<World> world;                  ///< set by the first move_light()
 
-    /// Puts the scene that was baked onto the device.
+    /// Uploads the baked scene.
     void load_world()
     {
         if (world || !baked)

@@ -9,7 +9,7 @@ struct SceneImpl {
     lumel::Scene scene;
 };
 
-/// Checks and copies. Throws lumel::Error{input} with the place of what is wrong.
+/// Checks and converts. Throws lumel::Error{input} with the location of the fault.
 lumel::Scene scene_of(const SceneContent& content);
 
 }  // namespace lumel::v0

@@ -1,4 +1,4 @@
-// From a host's arrays to a checked scene.
+// Converts a host's arrays to a checked scene.
 
 #include <cmath>
 #include <numbers>
@@ -47,8 +47,7 @@ lumel::Texture texture_of(const Texture& from, const std::string& place)
         refuse(place, fmt::format("its sides must lie between 1 and {}", kLargestSide));
     const std::size_t bytes = std::size_t(from.width) * std::size_t(from.height) * kChannels;
     if (from.rgba.size() != bytes)
-        refuse(place,
-               fmt::format("has {} bytes, but its sides ask for {}", from.rgba.size(), bytes));
+        refuse(place, fmt::format("has {} bytes, but its size needs {}", from.rgba.size(), bytes));
     return {.width = from.width, .height = from.height, .rgba = from.rgba};
 }
 
@@ -97,8 +96,8 @@ lumel::Material material_of(const Material& from, std::size_t textures, const st
     return material;
 }
 
-/// Throws unless there is one value per vertex, or none at all, and all are numbers. Normals that
-/// are no numbers are repaired instead.
+/// Throws unless `values` is empty or has one finite value per vertex. Normals are not checked:
+/// they are repaired.
 template <class T>
 void check_attribute(const std::vector<T>& values, std::size_t vertices, const std::string& place,
                      const char* name)
@@ -107,7 +106,7 @@ void check_attribute(const std::vector<T>& values, std::size_t vertices, const s
         refuse(place, fmt::format("has {} {} for {} positions", values.size(), name, vertices));
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!is_finite(values[i]))
-            refuse(place, fmt::format("{}[{}] is no number", name, i));
+            refuse(place, fmt::format("{}[{}] is not finite", name, i));
 }
 
 void check_indices(const Primitive& from, const std::string& place)
@@ -145,7 +144,7 @@ lumel::Primitive primitive_of(const Primitive& from, std::size_t materials,
     return primitive;
 }
 
-/// Primitives without a triangle are left out.
+/// Omits primitives without triangles.
 lumel::Mesh mesh_of(const Mesh& from, std::size_t materials, const std::string& place,
                     lumel::Scene& scene)
 {
@@ -168,11 +167,11 @@ lumel::Instance instance_of(const Instance& from, const std::vector<lumel::Mesh>
     check_index(from.mesh, meshes.size(), place, "meshes");
     const glm::mat4 transform = to_glm(from.transform);
     if (!is_finite(from.transform))
-        refuse(place, "its transform is not made of numbers");
+        refuse(place, "its transform is not finite");
     if (is_flat(transform))
         refuse(place, "its transform leaves the mesh no volume");
     if (reaches_too_far(bounds_of(meshes[from.mesh]), transform))
-        refuse(place, "reaches more than 1e9 m from the origin, too far out to be computed");
+        refuse(place, "is too far out, more than 1e9 m from the origin");
     return {.name = from.name, .mesh = int(from.mesh), .node = from.node, .transform = transform};
 }
 
@@ -188,12 +187,12 @@ PunctualLight::Kind kind_of(Light::Kind kind)
     }
 }
 
-/// Shines along -z.
+/// Light to world; the light points along -z.
 glm::mat4 placed(const Light& light, const std::string& place)
 {
     const float length = glm::length(to_glm(light.direction));
     if (!(length > 0.0f) || !std::isfinite(length) || !is_finite(light.position))
-        refuse(place, "its direction or position is no number, or the direction has no length");
+        refuse(place, "its direction or position is not finite, or the direction has no length");
     glm::mat4 transform(frame_about(to_glm(light.direction) / -length));
     transform[3] = glm::vec4(to_glm(light.position), 1.0f);
     return transform;
@@ -233,7 +232,7 @@ lumel::Sky sky_of(const Sky& from)
         return {};
     if (from.width < 1 || from.height < 1 ||
         from.luminance.size() != std::size_t(from.width) * std::size_t(from.height))
-        refuse("sky", "its luminances are not as many as its sides ask for");
+        refuse("sky", "the number of luminances does not match its size");
     for (const Vec3& texel : from.luminance)
         for (const float value : texel)
             check_positive(value, "sky", "luminance");

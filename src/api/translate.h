@@ -1,5 +1,5 @@
 #pragma once
-// From the rooms' errors to those that hosts catch.
+// Internal errors as errors of the API.
 
 #include <utility>
 
@@ -22,7 +22,7 @@ inline ErrorKind kind_of(lumel::ErrorKind kind)
     }
 }
 
-/// What `work` returns; what it throws as an error of the rooms becomes the API's.
+/// Runs `work` and returns its result; rethrows internal errors as lumel::v0::Error.
 template <class Work>
 decltype(auto) translated(Work&& work)
 {

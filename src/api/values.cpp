@@ -8,7 +8,7 @@
 namespace lumel::v0 {
 namespace {
 
-constexpr int kLargestAtlas = 16384;  // the largest image side that common devices offer [texels]
+constexpr int kLargestAtlas = 16384;  // [texels] largest image side of common devices
 constexpr int kLargestGutter = 64;    // [texels]
 
 void check_range(int value, int least, int most, const std::string& name)

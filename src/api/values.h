@@ -1,5 +1,5 @@
 #pragma once
-// Between plain values and those of the rooms.
+// Conversion between API values and internal ones.
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ glm::vec2 to_glm(const Vec2& v);
 glm::vec3 to_glm(const Vec3& v);
 glm::vec4 to_glm(const Vec4& v);
 glm::mat4 to_glm(const Mat4& m);
-/// A place of a scene in the world of its file. origin: of the scene, in that world.
+/// Transform in the world of the file. origin: of the scene, in that world.
 Mat4 place_in_file(const glm::mat4& place, const glm::dvec3& origin);
-/// A place in the world of the file in the scene's own. given: where the scene has what is placed;
-/// place_in_file() of that is exactly there, though far out floats are coarse.
+/// Transform of the file's world in the scene's own. given: the transform that the scene has; it is
+/// returned exactly for place_in_file(given), although floats are coarse far from the origin.
 glm::mat4 place_in_scene(const Mat4& place, const glm::mat4& given, const glm::dvec3& origin);
 template <class T>
 auto to_glm(const std::vector<T>& values)
@@ -34,17 +34,17 @@ auto to_glm(const std::vector<T>& values)
 }
 Mat4 from_glm(const glm::mat4& m);
 
-/// True if all of it are numbers.
+/// True if all values are finite.
 template <class Array>
 bool is_finite(const Array& values)
 {
     return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
 }
 
-/// Throws lumel::Error{input} if it is negative somewhere or no number. `what`: whose it is.
+/// Throws lumel::Error{input} if a value is negative or not finite. `what`: subject of the message.
 glm::vec3 checked_factor(const Vec3& factor, const std::string& what);
 
-/// Throws lumel::Error{input} if a number is out of its limits.
+/// Throws lumel::Error{input} if a value is out of range.
 AtlasOptions checked_options(const AtlasSettings& settings);
 
 Map map_of(Image&& image);

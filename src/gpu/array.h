@@ -15,8 +15,8 @@ namespace lumel::gpu {
 /// Bytes in GPU memory, usable as storage, vertex, index, indirect and transfer buffer.
 class Buffer {
 public:
-    /// host: mapped, for read-backs and uploads. addressed: on the device, for what triangle trees
-    /// are made of.
+    /// host: mapped, for readback and upload. addressed: on the GPU, with an address, as input to
+    /// triangle trees.
     enum class Place { device, host, addressed };
 
     Buffer(const Device& device, std::uint64_t bytes, Place place = Place::device,
@@ -27,9 +27,9 @@ public:
 
     VkBuffer handle() const { return buffer_; }
     std::uint64_t bytes() const { return bytes_; }
-    std::byte* mapped() const { return memory_.mapped; }  ///< host place only
+    std::byte* mapped() const { return memory_.mapped; }  ///< Place::host only
 
-    /// Blocking copies between host and device.
+    /// Blocking copies between CPU and GPU.
     void upload(const void* data, std::uint64_t bytes, std::uint64_t to_byte = 0);
     void download(void* data, std::uint64_t bytes) const;
 
@@ -40,8 +40,8 @@ private:
     std::uint64_t bytes_ = 0;
 };
 
-/// T[count] in GPU memory. An empty array still occupies one element, so it can be bound. Debuggers
-/// call it by its name, which is the line of source that makes it unless a name is given.
+/// T[count] in GPU memory. An empty array occupies one element, so that it can be bound. Debuggers
+/// show its name, by default the source line that creates it.
 template <class T>
 class Array {
 public:
@@ -65,7 +65,7 @@ public:
     const Buffer& buffer() const { return buffer_; }
 
     void upload(std::span<const T> values) { buffer_.upload(values.data(), values.size_bytes()); }
-    /// Elements from `first` on.
+    /// Uploads elements from `first` on.
     void upload_part(std::size_t first, std::span<const T> values)
     {
         buffer_.upload(values.data(), values.size_bytes(), first * sizeof(T));
@@ -76,7 +76,7 @@ public:
         buffer_.download(values.data(), count_ * sizeof(T));
         return values;
     }
-    /// Host place only: what the device last wrote, once its commands have finished.
+    /// Place::host only: data last written by the GPU. Requires finished commands.
     const T* mapped() const { return reinterpret_cast<const T*>(buffer_.mapped()); }
 
 private:

@@ -10,7 +10,7 @@
 namespace lumel::gpu {
 namespace {
 
-constexpr std::uint32_t kMaxTimestamps = 256;  // stages in one submission, more are not timed
+constexpr std::uint32_t kMaxTimestamps = 256;  // per submission; further stages are not timed
 constexpr std::uint64_t kForever = ~std::uint64_t(0);
 
 VkImageMemoryBarrier2 to_general(const Target& target)
@@ -36,12 +36,12 @@ VkBufferImageCopy rows_of(const Target& target, std::uint32_t first, std::uint32
             .imageExtent = {target.width(), count, 1}};
 }
 
-/// Textures are not told apart by type, so that what their texels are is checked here.
+/// Textures have no element type, so their pixel format is checked here.
 void check_texture(const Layout& layout, const Slot& slot, const Target& texture)
 {
     if ((slot.kind == SlotKind::uint_texture) != (texture.pixel() == Pixel::rg32u))
         throw std::logic_error(std::string(layout.name()) +
-                               " was given a texture of other texels than it declares");
+                               " was given a texture whose pixels differ from its declaration");
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Commands::Commands(const Device& device, Timing timing) : device_(&device)
 
 Commands::~Commands()
 {
-    if (submitted_)  // an exception passes through: let the device finish before memory goes
+    if (submitted_)  // during an exception: the GPU must finish before memory is freed
         vkWaitForFences(device_->handle(), 1, &fence_, VK_TRUE, kForever);
     vkDestroyQueryPool(device_->handle(), queries_, nullptr);
     vkDestroyFence(device_->handle(), fence_, nullptr);
@@ -116,8 +116,8 @@ void Commands::begin_stage(const char* name)
     if (queries_) {
         vkCmdWriteTimestamp2(buffer_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_,
                              std::uint32_t(stages_.size()));
-        // Some drivers (llvmpipe) write a timestamp only when something makes them flush, which may
-        // be after the work that follows.
+        // Some drivers (llvmpipe) write a timestamp only at a flush, possibly after the work that
+        // follows.
         barrier();
     }
     stages_.emplace_back(name);
@@ -130,7 +130,7 @@ void Commands::end_stage()
 }
 
 // Everything before happens before, and is visible to, everything after. One barrier for all
-// hazards: the layers cannot see those of dynamic rendering, so none is left to judgement.
+// hazards: the validation layers do not detect hazards of dynamic rendering.
 void Commands::barrier()
 {
     const VkMemoryBarrier2 all{

@@ -1,6 +1,6 @@
 #pragma once
-// Recording work for the device. Program order holds: everything recorded sees the results of
-// what was recorded before it, through the one barrier helper in commands.cpp.
+// Command recording for the GPU, in program order: all commands see the results of earlier ones, by
+// one barrier function (commands.cpp).
 
 #include <array>
 #include <map>
@@ -20,24 +20,25 @@ struct Area {
     std::uint32_t x, y, width, height;
 };
 
-/// A part of a mesh's indices.
+/// A range of a mesh's indices.
 struct Range {
     std::uint32_t first, count;
 };
 
-/// Time the device spent per stage [ms].
+/// GPU time per stage [ms].
 using StageTimes = std::map<std::string, double>;
 
 enum class Timing { on, off };
 
 class Commands;
 
-/// Draws with the Raster that Commands::use() was given, until another is used.
+/// Draws with the Raster given to Commands::use(), until the next use().
 template <class Shaders>
 class Drawing {
 public:
     void draw(const typename Shaders::Params& params, const Range& range) const;
-    /// As many vertices as the device wrote: element `index` of an array of Vulkan's arguments.
+    /// Takes the number of vertices from element `index` of an array of Vulkan draw arguments on
+    /// the GPU.
     template <class Arguments>
     void draw_indirect(const typename Shaders::Params& params, const Array<Arguments>& arguments,
                        std::size_t index) const;
@@ -49,22 +50,22 @@ private:
     Commands* commands_;
 };
 
-/// One command buffer with its fence and timestamps. Record, then run() or submit() and wait();
-/// after either it records anew.
+/// A command buffer with its fence and timestamps. Record, then call run(), or submit() and wait();
+/// both start a new recording.
 class Commands {
 public:
-    /// timing: off leaves out the timestamps, and the barriers that they need.
+    /// timing: off omits the timestamps and their barriers.
     explicit Commands(const Device& device, Timing timing = Timing::on);
     ~Commands();
     Commands(const Commands&) = delete;
     Commands& operator=(const Commands&) = delete;
 
-    /// Gives the work recorded from here on a name in the timings and to debuggers.
+    /// Starts a stage, named in the timings and in debuggers.
     void stage(const char* name);
-    /// False if the next stage's time would be counted to the last one's.
+    /// False if the next stage's time would be added to that of the last.
     bool has_room_for_stages() const;
 
-    /// Runs the kernel over at least `threads` invocations (rounded up to whole groups).
+    /// Runs the kernel for at least `threads` invocations (rounded up to whole groups).
     template <class Shader>
     void dispatch(const Kernel<Shader>& kernel, const typename Shader::Bindings& given,
                   const typename Shader::Params& params, std::size_t threads)
@@ -81,18 +82,18 @@ public:
     void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes);
     void copy_part(const Buffer& from, std::uint64_t from_byte, const Buffer& to,
                    std::uint64_t to_byte, std::uint64_t bytes);
-    void copy(const Buffer& from, const Target& to);  ///< level 0, then makes the smaller levels
-    /// Rows [first, first + count) of level 0, which the buffer holds from its beginning on.
+    void copy(const Buffer& from, const Target& to);  ///< level 0; then builds the smaller levels
+    /// Copies rows [first, first + count) of level 0; the buffer starts with the first of them.
     void copy_rows(const Buffer& from, const Target& to, std::uint32_t first, std::uint32_t count);
     void copy_rows(const Target& from, const Buffer& to, std::uint32_t first, std::uint32_t count);
-    void make_levels(const Target& target);  ///< all smaller ones, of level 0
-    void prepare(const Target& target);      ///< a new image's first use
+    void make_levels(const Target& target);  ///< builds all smaller levels from level 0
+    void prepare(const Target& target);      ///< initial layout transition of a new image
 
-    /// Clears (depth to 0 = infinitely far, colour to `clear`) and begins drawing into the area.
+    /// Clears (depth to 0 = infinitely far, colour to `clear`) and begins rendering to the area.
     void begin_pass(const Target* color, const Target& depth, const Area& area,
                     std::array<float, 4> clear = {});
     void viewport(const Area& area);
-    /// What the following draws of this pass use. An indexed triangle list.
+    /// Sets the resources of the following draws of this pass, an indexed triangle list.
     template <class Shaders>
     Drawing<Shaders> use(const Raster<Shaders>& raster, const typename Shaders::Bindings& given,
                          const typename Shaders::Mesh& mesh, const Array<std::uint32_t>& indices)
@@ -101,7 +102,7 @@ public:
         use_mesh(Shaders::list(mesh), indices.buffer());
         return Drawing<Shaders>(*this);
     }
-    /// The same of shaders that find their vertices themselves.
+    /// For shaders that fetch their vertices themselves.
     template <class Shaders>
     Drawing<Shaders> use(const Raster<Shaders>& raster, const typename Shaders::Bindings& given)
     {
@@ -113,14 +114,14 @@ public:
 
     /// Submits without waiting.
     void submit();
-    /// Waits for the last submit, if any, and takes its timings.
+    /// Waits for the last submit, if any, and collects its timings.
     void wait();
     /// submit() and wait().
     void run();
 
-    /// Stage times of the submissions finished since the last call.
+    /// Stage times of submissions finished since the last call.
     StageTimes take_times() { return std::exchange(times_, {}); }
-    double last_milliseconds() const { return last_milliseconds_; }  ///< of the last submission
+    double last_milliseconds() const { return last_milliseconds_; }  ///< last submission
 
 private:
     void start();
@@ -153,10 +154,10 @@ private:
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer buffer_ = VK_NULL_HANDLE;
     VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool queries_ = VK_NULL_HANDLE;   ///< null: not timed
-    const Layout* layout_in_use_ = nullptr;  ///< of the Raster in use
+    VkQueryPool queries_ = VK_NULL_HANDLE;   ///< null if not timed
+    const Layout* layout_in_use_ = nullptr;  ///< current Raster
     bool recording_ = false, submitted_ = false;
-    std::vector<std::string> stages_;  ///< name of the interval that begins at timestamp i
+    std::vector<std::string> stages_;  ///< name of the interval that starts at timestamp i
     StageTimes times_;
     double last_milliseconds_ = 0.0;
 };

@@ -57,7 +57,7 @@ const char* type_text(VkPhysicalDeviceType type)
     }
 }
 
-/// Smaller is better.
+/// Rank of a device type; smaller is better.
 int preference(const std::string& type)
 {
     const char* order[] = {"discrete", "integrated", "virtual", "cpu", "other"};
@@ -77,7 +77,7 @@ void load_vulkan()
                     std::string("no Vulkan loader (libvulkan.so.1) was found; ") + kInstallDriver);
 }
 
-/// Names and labels are of use without the layers too: to debuggers that look on.
+/// Debuggers use names and labels even without the validation layers.
 bool has_debug_utils()
 {
     std::uint32_t count = 0;
@@ -159,7 +159,7 @@ std::uint32_t timestamp_bits(VkPhysicalDevice physical, std::uint32_t family)
     return families[family].timestampValidBits;
 }
 
-/// The features Lumel needs, chained for a query or for device creation.
+/// The required features, chained for a query or for device creation.
 struct Features {
     VkPhysicalDeviceVulkan13Features v13{.sType =
                                              VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -169,7 +169,7 @@ struct Features {
                                    .pNext = &v12};
 };
 
-/// What ray queries need beside, in a chain of its own.
+/// Additional features of ray queries, in a separate chain.
 struct RayFeatures {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR trees{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
@@ -252,7 +252,7 @@ std::string listing(const std::vector<DeviceInfo>& infos)
     return text;
 }
 
-/// Index into infos of the device the user means.
+/// Index into `infos` of the device that `pick` names.
 std::size_t choose(const std::vector<DeviceInfo>& infos, const std::string& pick)
 {
     if (pick.empty()) {
@@ -416,7 +416,8 @@ Device::Device(const HostDevice& host)
 
 void Device::load_debug_utils()
 {
-    // Of this instance: volk's globals may be those of another, and a host may lack the extension.
+    // Loaded from this instance: volk's globals may belong to another, and a host may lack the
+    // extension.
     const auto load = [&](auto& function, const char* name) {
         function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(
             vkGetInstanceProcAddr(instance_, name));

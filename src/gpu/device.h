@@ -1,5 +1,5 @@
 #pragma once
-// Choosing a Vulkan device and holding it.
+// Selection and ownership of a Vulkan device.
 
 #include <cstdint>
 #include <memory>
@@ -10,46 +10,46 @@
 
 namespace lumel::gpu {
 
-/// One device as the loader lists it.
+/// A device listed by the loader.
 struct DeviceInfo {
     std::string name;
     std::string type;                ///< "discrete", "integrated", "virtual", "cpu" or "other"
     std::string api_version;         ///< "1.3.230"
     std::string driver;              ///< name and version
-    std::uint64_t memory_bytes = 0;  ///< of its largest device-local heap
+    std::uint64_t memory_bytes = 0;  ///< size of the largest device-local heap
     bool usable = false;
-    std::string reason;  ///< why not usable, empty if it is
+    std::string reason;  ///< why it is not usable, else empty
 };
 
 /// All devices, in the loader's order. Throws Error{device} if there is no Vulkan loader.
 std::vector<DeviceInfo> list_devices();
 
-/// The one of them that a Device takes where none is named; null if none can be used.
+/// The default device among them; null if none is usable.
 const DeviceInfo* best_of(const std::vector<DeviceInfo>& infos);
 
-/// How much work was recorded.
+/// Numbers of recorded commands.
 struct Recorded {
     std::uint64_t dispatches = 0, passes = 0, draws = 0;
 };
 
-/// A device that a host application made. It must have Vulkan 1.3, the extension
-/// VK_KHR_push_descriptor, and these features on: dynamicRendering, synchronization2, maintenance4,
-/// scalarBlockLayout, fullDrawIndexUint32.
+/// A Vulkan device created by the host. Requires Vulkan 1.3, the extension VK_KHR_push_descriptor,
+/// and the features dynamicRendering, synchronization2, maintenance4, scalarBlockLayout and
+/// fullDrawIndexUint32.
 struct HostDevice {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;  ///< for graphics, compute and transfer
     std::uint32_t queue_family = 0;
-    bool tessellation = false;     ///< the feature tessellationShader is on
-    bool fragment_stores = false;  ///< the feature fragmentStoresAndAtomics is on
-    bool block_textures = false;   ///< the feature textureCompressionBC is on
-    /// VK_KHR_ray_query and what it needs are on, with the features rayQuery, accelerationStructure
-    /// and bufferDeviceAddress.
+    bool tessellation = false;     ///< feature tessellationShader is enabled
+    bool fragment_stores = false;  ///< feature fragmentStoresAndAtomics is enabled
+    bool block_textures = false;   ///< feature textureCompressionBC is enabled
+    /// VK_KHR_ray_query and its dependencies are enabled, with the features rayQuery,
+    /// accelerationStructure and bufferDeviceAddress.
     bool ray_queries = false;
 };
 
-/// Entry points of VK_EXT_debug_utils, null where the instance lacks it.
+/// Functions of VK_EXT_debug_utils, null if the instance lacks it.
 struct DebugUtils {
     PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_region = nullptr;
@@ -59,19 +59,18 @@ struct DebugUtils {
 class Memory;
 class Staging;
 
-/// A logical device with one queue for graphics, compute and transfer. Not copyable: everything
-/// made from it holds a reference and must not outlive it. One thread at a time may use it and what
-/// is made from it.
+/// A logical device with one queue for graphics, compute and transfer. Not copyable: objects made
+/// from it refer to it and must not outlive it. Only one thread at a time may use it and them.
 class Device {
 public:
-    /// `pick`: an index or a part of a name as list_devices() gives them; empty: the best, which
-    /// is discrete before integrated before virtual before cpu.
-    /// Environment: LUMEL_VALIDATION=1 turns the Khronos validation layer on.
-    /// Throws Error{device} listing what was found and why it will not do.
+    /// `pick`: index into list_devices() or part of a name. Empty selects the best usable device,
+    /// in the order discrete, integrated, virtual, cpu. Environment: LUMEL_VALIDATION=1 enables the
+    /// Khronos validation layer. Throws Error{device} with the devices found and why each is
+    /// unsuitable.
     explicit Device(const std::string& pick = "");
-    /// Works on a host's device and queue, which stay the host's: it keeps its own work off the
-    /// queue while calls to this library run, and destroys the device after this. Throws
-    /// Error{device} if a handle is missing or the device cannot do what is needed.
+    /// Uses the device and queue of the host, which keeps ownership. The host must not use the
+    /// queue during calls to this library, and destroys the device after this. Throws Error{device}
+    /// if a handle is null or a required feature is missing.
     explicit Device(const HostDevice& host);
     ~Device();
     Device(const Device&) = delete;
@@ -79,31 +78,31 @@ public:
 
     const DeviceInfo& info() const { return info_; }
 
-    /// Messages of the validation layers so far, one a line; empty: none.
+    /// Messages of the validation layers so far, one per line.
     std::string validation_messages() const;
     /// Throws Error{device} with these messages, if there are any.
     void check_validation() const;
 
     std::uint64_t max_array_bytes() const { return max_array_bytes_; }
     std::uint32_t max_image_side() const { return max_image_side_; }
-    std::uint32_t max_groups() const { return max_groups_; }         ///< of one dispatch
+    std::uint32_t max_groups() const { return max_groups_; }         ///< per dispatch
     bool can_list_fragments() const { return can_list_fragments_; }  ///< fragments may write arrays
-    bool can_tessellate() const { return can_tessellate_; }          ///< has tessellation shaders
-    bool can_clip() const { return can_clip_; }                      ///< by planes of a shader
-    bool can_read_blocks() const { return can_read_blocks_; }        ///< has textures of Pixel::bc1
-    bool can_query_rays() const { return can_query_rays_; }  ///< shaders may ask a TriangleTree
-    /// Of an address that trees are built at [bytes].
+    bool can_tessellate() const { return can_tessellate_; }  ///< supports tessellation shaders
+    bool can_clip() const { return can_clip_; }              ///< supports clip distances of shaders
+    bool can_read_blocks() const { return can_read_blocks_; }  ///< supports textures of Pixel::bc1
+    bool can_query_rays() const { return can_query_rays_; }    ///< supports ray queries
+    /// Alignment of scratch addresses for building trees [bytes].
     std::uint64_t scratch_alignment() const { return scratch_alignment_; }
-    /// Are samples where Vulkan's standard has them?
+    /// True if sample positions are Vulkan's standard ones.
     bool has_standard_samples() const { return standard_samples_; }
-    /// Of arrays and images, as they asked for it: now, and the most at once.
+    /// Memory of arrays and images as requested: now, and the maximum so far.
     std::uint64_t held_bytes() const;
     std::uint64_t peak_bytes() const;
 
-    /// By all Commands of this device so far; they count here themselves.
+    /// Counts of all Commands of this device, which update them.
     Recorded& recorded() const { return recorded_; }
 
-    /// Time between two timestamps, which may wrap round [ms].
+    /// Time between two timestamps, which may wrap around [ms].
     double milliseconds(std::uint64_t from, std::uint64_t to) const
     {
         return double((to - from) & timestamp_mask_) * timestamp_period_ * 1e-6;
@@ -117,7 +116,7 @@ public:
     const DebugUtils& debug_utils() const { return debug_utils_; }  ///< see names.h
 
     Memory& memory() const { return *memory_; }
-    Staging& staging() const;  ///< made when it is first asked for
+    Staging& staging() const;  ///< created on first use
 
 private:
     void load_debug_utils();
@@ -132,7 +131,7 @@ private:
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     std::uint32_t queue_family_ = 0;
-    bool owned_ = true;  ///< false: instance and device are a host's
+    bool owned_ = true;  ///< false if the host owns instance and device
     DeviceInfo info_;
     std::uint64_t max_array_bytes_ = 0;
     std::uint32_t max_image_side_ = 0, max_groups_ = 0;

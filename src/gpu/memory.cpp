@@ -6,12 +6,11 @@
 namespace lumel::gpu {
 namespace {
 
-/// Size of a shared block. Large enough that a bake takes a few dozen, small enough that the last
-/// one wastes little.
+/// Size of a shared block. A bake needs a few dozen, and the last one wastes little.
 constexpr std::uint64_t kBlockBytes = std::uint64_t(64) << 20;
-/// A small heap, such as 256 MiB that the host sees of a graphics card, is not spent on one block.
+/// Limits the block size in small heaps, such as 256 MiB of host-visible memory of a graphics card.
 constexpr std::uint64_t kBlocksInHeap = 16;
-/// What takes more than this share of a block gets one of its own.
+/// Larger requests than this fraction of a block have their own.
 constexpr std::uint64_t kShareOfBlock = 2;
 
 constexpr VkMemoryPropertyFlags kCoherent =
@@ -21,7 +20,7 @@ struct Wishes {
     VkMemoryPropertyFlags best, enough;
 };
 
-/// Cached host memory first, for read-backs; then any that serves.
+/// Prefers cached host memory, for readback; falls back to any suitable type.
 Wishes wishes_of(MemoryUse use)
 {
     if (use == MemoryUse::host)
@@ -88,7 +87,7 @@ bool Memory::take_of_type(std::uint32_t type, const VkMemoryRequirements& requir
                 return true;
         block = add_block(type, use, shared);
     }
-    if (!block)  // too large to share a block, or no memory is left for one to share
+    if (!block)  // too large to share a block, or no memory for a shared one
         block = add_block(type, use, requirements.size);
     return block && take_from(*block, requirements, part);
 }

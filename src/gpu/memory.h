@@ -1,6 +1,6 @@
 #pragma once
-// Memory of a device, taken from the driver in large blocks and lent out in parts: drivers allow
-// only some thousands of allocations, and each costs time.
+// GPU memory suballocator. Uses large blocks: drivers limit the number of allocations, and each is
+// slow.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,27 +13,27 @@
 
 namespace lumel::gpu {
 
-/// What memory is used for. Each has blocks of its own: arrays and images in one block would have
-/// to keep VkPhysicalDeviceLimits::bufferImageGranularity apart.
+/// Use of memory. Each has separate blocks: arrays and images in one block would have to respect
+/// VkPhysicalDeviceLimits::bufferImageGranularity.
 enum class MemoryUse {
     array,      ///< on the device
-    addressed,  ///< on the device, for arrays that have an address
+    addressed,  ///< on the device, for arrays with an address
     image,      ///< on the device, with optimal tiling
     host,       ///< visible to the host, coherent and mapped
 };
 
-/// Memory that is held under one name.
+/// Memory allocated under one name.
 struct Holding {
     std::string name;
     std::uint64_t bytes = 0;
 };
 
-/// Not thread-safe, as the device it belongs to.
+/// Not thread-safe, as the device.
 class Memory {
     struct Block;
 
 public:
-    /// A part of a block. A plain value: who holds it gives it back.
+    /// A suballocation. A plain value: its owner returns it by give_back().
     struct Part {
         VkDeviceMemory memory = VK_NULL_HANDLE;
         std::uint64_t offset = 0, bytes = 0;
@@ -41,22 +41,22 @@ public:
         Block* block = nullptr;
     };
 
-    /// name: of the device, for messages.
+    /// name: device name, for messages.
     Memory(VkPhysicalDevice physical, VkDevice device, const std::string& name);
     ~Memory();
     Memory(const Memory&) = delete;
     Memory& operator=(const Memory&) = delete;
 
-    /// name: of what the memory is for, see names.h. Throws Error{device} if there is too little
-    /// memory or none of the kind needed.
+    /// name: of the resource, see names.h. Throws Error{device} if there is too little memory or
+    /// none of the required type.
     Part take(const VkMemoryRequirements& requirements, MemoryUse use, const std::string& name);
     void give_back(const Part& part);
 
-    /// What is held, by name; parts of one name count as one. The largest come first.
+    /// Allocations by name, largest first; parts of one name are summed.
     std::vector<Holding> holdings() const;
-    std::uint64_t held_bytes() const { return held_bytes_; }  ///< by all parts together
-    std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< most that was held at once
-    std::size_t blocks() const { return blocks_.size(); }     ///< taken from the driver
+    std::uint64_t held_bytes() const { return held_bytes_; }  ///< sum of all parts
+    std::uint64_t peak_bytes() const { return peak_bytes_; }  ///< maximum of held_bytes()
+    std::size_t blocks() const { return blocks_.size(); }     ///< allocated from the driver
 
 private:
     struct Block {
@@ -65,7 +65,7 @@ private:
         MemoryUse use = MemoryUse::array;
         std::uint64_t bytes = 0;
         std::byte* mapped = nullptr;
-        std::map<std::uint64_t, std::uint64_t> gaps;  ///< offset and length of what is free
+        std::map<std::uint64_t, std::uint64_t> gaps;  ///< offset and length of free ranges
         std::map<std::uint64_t, Holding> held;        ///< by offset
     };
 
@@ -77,7 +77,7 @@ private:
     VkDevice device_;
     std::string name_;
     VkPhysicalDeviceMemoryProperties properties_{};
-    std::list<Block> blocks_;  ///< in the order taken; their places in memory stay
+    std::list<Block> blocks_;  ///< in order of allocation; list nodes do not move
     std::uint64_t held_bytes_ = 0, peak_bytes_ = 0;
 };
 

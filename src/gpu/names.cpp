@@ -18,7 +18,7 @@ void set_name(const Device& device, VkObjectType type, Handle handle, const std:
     check(device.debug_utils().set_name(device.handle(), &info), "vkSetDebugUtilsObjectNameEXT");
 }
 
-/// The path below the folder "src", or the file's name alone.
+/// The path below the folder "src", or the file name alone.
 std::string_view short_path(std::string_view path)
 {
     constexpr std::string_view root = "src/";

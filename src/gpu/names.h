@@ -1,6 +1,6 @@
 #pragma once
-// Names for people who debug: RenderDoc, Nsight and validation messages show them. All of this does
-// nothing where the instance lacks VK_EXT_debug_utils.
+// Names for RenderDoc, Nsight and validation messages. No effect if the instance lacks
+// VK_EXT_debug_utils.
 
 #include <string>
 
@@ -8,7 +8,7 @@
 
 namespace lumel::gpu {
 
-/// What a debugger calls an object.
+/// Sets the name that debuggers show for an object.
 void set_name(const Device& device, VkBuffer buffer, const std::string& name);
 void set_name(const Device& device, VkImage image, const std::string& name);
 void set_name(const Device& device, VkImageView view, const std::string& name);
@@ -16,12 +16,12 @@ void set_name(const Device& device, VkPipeline pipeline, const std::string& name
 void set_name(const Device& device, VkCommandBuffer commands, const std::string& name);
 void set_name(const Device& device, VkDeviceMemory memory, const std::string& name);
 
-/// A named region of a command buffer, from here to the matching end_region().
+/// Begins a named region of a command buffer, up to the matching end_region().
 void begin_region(const Device& device, VkCommandBuffer commands, const char* name);
 void end_region(const Device& device, VkCommandBuffer commands);
 
-/// The name of an array or an image: a text of its own, or the line of source that makes it. As a
-/// default argument it takes the line of the call.
+/// The name of an array or an image: a given text, or the source line that creates it. As a default
+/// argument it takes the caller's line.
 class Name {
 public:
     Name(const char* text) : text_(text) {}
@@ -31,7 +31,7 @@ public:
         return {file, line};
     }
 
-    /// "methods/glossy/glossy.cpp:131", without the folders above the room.
+    /// E.g. "methods/glossy/glossy.cpp:131", relative to src.
     std::string text() const;
 
 private:

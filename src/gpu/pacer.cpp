@@ -6,11 +6,11 @@
 namespace lumel::gpu {
 namespace {
 
-/// How quickly a unit's cost follows new measurements: down fast, since the first ones hold the
-/// driver's shader compilation, and up slowly.
+/// Smoothing of a unit's cost. Fast downwards, because the first measurement includes shader
+/// compilation by the driver; slow upwards.
 constexpr double kLearningDown = 0.8;
 constexpr double kLearningUp = 0.3;
-/// Aim below the budget, since cost estimates are never exact.
+/// Fraction of the budget to aim for, because cost estimates are inexact.
 constexpr double kHeadroom = 0.6;
 
 }  // namespace
@@ -67,7 +67,7 @@ std::uint64_t Pacer::flush()
     slot.ticket = ++submitted_;
     recording_ = false;
     expected_ms_ = 0.0;
-    collect(current());  // the slot to be recorded next must be free
+    collect(current());  // the next slot to record must be free
     return submitted_;
 }
 

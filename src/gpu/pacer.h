@@ -1,6 +1,6 @@
 #pragma once
-// Long work in short submissions, so that no driver's time limit is met and the screen of a
-// shared GPU stays alive.
+// Splits long work into short submissions, to respect the time limits of drivers and keep the
+// display of a shared GPU responsive.
 
 #include <array>
 #include <cstdint>
@@ -13,30 +13,29 @@
 
 namespace lumel::gpu {
 
-/// Collects work into submissions that are expected to take at most `budget` on the device. It
-/// learns what a unit of each kind of work costs from timestamps; the first time a kind is met,
-/// a small part is run and measured alone. How work is cut never changes its result, as long as
-/// the units of one kind are independent of each other.
+/// Groups work into submissions with an expected GPU time of at most `budget`. It estimates the
+/// cost per unit of each kind of work from timestamps; a small part of a new kind is measured
+/// first. Splitting never changes a result, if the units of one kind are independent.
 class Pacer {
 public:
     using Record = std::function<void(Commands&, std::uint32_t first, std::uint32_t last)>;
 
     explicit Pacer(const Device& device, double budget_ms = 50.0);
 
-    /// Records units [0, count) of a kind of work, in one piece if it fits. `probe`: units to
-    /// try first when the cost is not known yet.
+    /// Records units [0, count) of a kind of work, in one piece if it fits. `probe`: number of
+    /// units to measure first if the cost is unknown.
     void work(const char* kind, std::uint32_t count, std::uint32_t probe, const Record& record);
-    /// The same of work that is never cut: one unit.
+    /// Records indivisible work: one unit.
     void work(const char* kind, const std::function<void(Commands&)>& record);
 
-    /// Submits what is recorded. Returns a ticket for wait().
+    /// Submits the recorded commands. Returns a ticket for wait().
     std::uint64_t flush();
-    /// Returns once the submission of that ticket has finished.
+    /// Waits until the submission of that ticket has finished.
     void wait(std::uint64_t ticket);
-    /// flush() and wait for everything.
+    /// Calls flush() and waits for all submissions.
     void finish();
 
-    /// Device time per kind [ms], of all finished submissions.
+    /// GPU time per kind [ms] of all finished submissions.
     const StageTimes& times() const { return times_; }
     double longest_ms() const { return longest_ms_; }  ///< longest submission so far
     std::uint64_t submissions() const { return submitted_; }
@@ -57,7 +56,7 @@ private:
     double budget_ms_;
     std::array<Slot, kSlots> slots_;
     std::uint64_t submitted_ = 0;
-    double expected_ms_ = 0.0;                 ///< of what is recorded now
+    double expected_ms_ = 0.0;                 ///< cost of the current recording [ms]
     std::map<std::string, double> unit_cost_;  ///< [ms]
     StageTimes times_;
     double longest_ms_ = 0.0;

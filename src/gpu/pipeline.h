@@ -1,6 +1,6 @@
 #pragma once
-// Shaders with their fixed state: compute kernels and raster passes. Each is typed by what the
-// build read of its shaders, see gpu/shader.h.
+// Shaders with their fixed state: compute kernels and raster passes, typed by the declarations that
+// the build reads from their shaders (gpu/shader.h).
 
 #include <span>
 #include <type_traits>
@@ -10,7 +10,7 @@
 
 namespace lumel::gpu {
 
-/// Vulkan guarantees this many bytes of push constants.
+/// Push constants that Vulkan guarantees [bytes].
 inline constexpr std::uint32_t kMaxParamBytes = 128;
 
 template <class Params>
@@ -23,7 +23,7 @@ VkDescriptorType descriptor_type(SlotKind kind);
 /// Descriptor set layout and pipeline layout shared by kernels and raster passes.
 class Layout {
 public:
-    /// name, slots: constants of the generated header.
+    /// name, slots: from the generated header.
     Layout(const Device& device, const char* name, std::span<const Slot> slots,
            std::uint32_t param_bytes, VkShaderStageFlags stages);
     ~Layout();
@@ -47,14 +47,13 @@ private:
     std::span<const Slot> slots_;
 };
 
-/// A layout with the shaders and the state that work with it. Its name, in debuggers, is the path
-/// of the shader.
+/// A layout with its shaders and state. Debuggers show the shader's path as its name.
 class Pipeline {
 public:
     struct RasterState;
 
-    Pipeline(Layout layout, Spirv spirv, std::uint32_t variant);              ///< of a kernel
-    Pipeline(Layout layout, const Stages& stages, const RasterState& state);  ///< of a raster pass
+    Pipeline(Layout layout, Spirv spirv, std::uint32_t variant);              ///< a kernel
+    Pipeline(Layout layout, const Stages& stages, const RasterState& state);  ///< a raster pass
     ~Pipeline();
     Pipeline(Pipeline&& other) noexcept;
     Pipeline& operator=(Pipeline&&) = delete;
@@ -67,15 +66,15 @@ private:
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 
-/// What a raster pass is drawn with beside its shaders.
+/// Fixed state of a raster pass beside its shaders.
 struct RasterOptions {
-    Pixel color_pixel = Pixel::srgba8;  ///< of its colour target, if the shaders have one
-    bool depth_test = true;             ///< false: every fragment counts, and no depth is written
-    std::uint32_t samples = 1;          ///< of its targets
+    Pixel color_pixel = Pixel::srgba8;  ///< format of the colour target, if there is one
+    bool depth_test = true;             ///< false: all fragments pass, and depth is not written
+    std::uint32_t samples = 1;          ///< samples of its targets
 };
 
 struct Pipeline::RasterState {
-    std::span<const std::uint32_t> components;  ///< floats of a vertex in each stream
+    std::span<const std::uint32_t> components;  ///< floats per vertex in each stream
     bool has_color;
     RasterOptions options;
 };
@@ -84,7 +83,7 @@ struct Pipeline::RasterState {
 template <class Shader>
 class Kernel {
 public:
-    /// `variant` becomes its specialization constant 0, if it has one.
+    /// `variant`: value of specialization constant 0, if there is one.
     explicit Kernel(const Device& device, std::uint32_t variant = 0)
         : pipeline_({device, Shader::kName, Shader::kSlots, kParamBytes<typename Shader::Params>,
                      VK_SHADER_STAGE_COMPUTE_BIT},
@@ -101,7 +100,7 @@ private:
 
 VkShaderStageFlags flags_of(const Stages& stages);
 
-/// A graphics pipeline for triangles: nothing culled, nearer has the larger depth (reversed z).
+/// A graphics pipeline for triangles: no culling, reversed z (larger depth is nearer).
 template <class Shaders>
 class Raster {
 public:

@@ -1,19 +1,19 @@
 #pragma once
-// What a shader is given, by the names and types that it declares. For each compute shader, and for
-// each raster pass, the build writes a header beside its SPIR-V (cmake/LumelShaders.cmake):
+// Shader interfaces, by the names and types that shaders declare. For each compute shader and each
+// raster pass, the build writes a header beside its SPIR-V (cmake/LumelShaders.cmake):
 //
-//     #include "methods/stochastic/stochastic.receive.comp.h"         solve/stochastic.receive.comp
+//     #include "methods/stochastic/stochastic.receive.comp.h"       stochastic.receive.comp
 //     #include "raster/eyes/hemicube.raster.h"            hemicube.vert and the stages with it
 //
-// with a type lumel::shaders::StochasticReceive that holds
+// with a type lumel::shaders::StochasticReceive that has
 //
-//     Bindings   one member for each array, texture and triangle tree that the shader reaches, in
-//                the order of their declarations; none may be left out
-//     Params     its push constants
-//     Mesh       of a raster pass: one member for each input of the vertex shader
+//     Bindings   one member per array, texture and triangle tree that the shader uses, in the order
+//                declared; all are required
+//     Params     push constants
+//     Mesh       raster passes: one member per input of the vertex shader
 //
-// and what Kernel and Raster need to know of it. The header also checks that C++ and the shader lay
-// the structs that they share out alike.
+// and data for Kernel and Raster. The header also checks that C++ and the shader give shared
+// structs the same layout.
 
 #include <array>
 #include <cstddef>
@@ -27,19 +27,19 @@ namespace lumel::gpu {
 
 using Spirv = std::span<const std::uint32_t>;
 
-/// constants: a small array that every invocation reads at the same index (a uniform block).
+/// constants: a small array with a uniform index (a uniform block).
 enum class SlotKind : std::uint8_t { array, constants, texture, uint_texture, tree };
 
-/// Where a stage reads a member of its Bindings.
+/// Binding of a Bindings member in a stage.
 struct Slot {
-    std::uint32_t binding;  ///< in the descriptor set
-    std::uint32_t member;   ///< of Bindings
+    std::uint32_t binding;  ///< number in the descriptor set
+    std::uint32_t member;   ///< index in Bindings
     SlotKind kind;
 };
 
 class TriangleTree;
 
-/// An array, a texture with a sampler, whatever it holds, or a triangle tree.
+/// An array, a texture with its sampler, or a triangle tree.
 struct Binding {
     const Buffer* buffer = nullptr;
     const Target* texture = nullptr;
@@ -47,7 +47,7 @@ struct Binding {
     const TriangleTree* tree = nullptr;
 };
 
-/// An array that a shader reads as elements of another type: codes in words, floats by fours.
+/// An array that a shader reads as another type: codes in words, floats in fours.
 class Packed {
 public:
     const Buffer& buffer() const { return *buffer_; }
@@ -66,7 +66,7 @@ Packed packed(const Array<T>& array)
     return Packed(array.buffer());
 }
 
-/// T[] that a shader reads or writes.
+/// T[] for a shader to read or write.
 template <class T>
 class ArrayBinding {
 public:
@@ -78,7 +78,7 @@ private:
     const Buffer* buffer_;
 };
 
-/// A texture that a shader reads.
+/// A texture for a shader to read.
 class TextureBinding {
 public:
     TextureBinding(const Target& target, const Sampler& how) : target_(&target), sampler_(&how) {}
@@ -89,7 +89,7 @@ private:
     const Sampler* sampler_;
 };
 
-/// Triangles that a shader asks rays of.
+/// A triangle tree for a shader's ray queries.
 class TreeBinding {
 public:
     TreeBinding(const TriangleTree& tree) : tree_(&tree) {}
@@ -102,10 +102,10 @@ private:
 /// Params of a shader without push constants.
 struct NoParams {};
 
-/// SPIR-V of a raster pass; those that it does not have are empty.
+/// SPIR-V of a raster pass; absent stages are empty.
 struct Stages {
     Spirv vertex;
-    Spirv control, evaluation;  ///< of tessellated triangles (Device::can_tessellate); or neither
+    Spirv control, evaluation;  ///< both for tessellation (Device::can_tessellate), or neither
     Spirv fragment;             ///< empty: depth only
 };
 

@@ -6,7 +6,7 @@
 namespace lumel::gpu {
 namespace {
 
-/// Of a slot: the colours of 170,000 lumels go in one part.
+/// Size of a slot; the colours of 170,000 lumels fit in one.
 constexpr std::uint64_t kSlotBytes = std::uint64_t(2) << 20;
 
 /// Splits `whole` into parts of at most `most`.
@@ -18,7 +18,7 @@ struct Parts {
     std::uint64_t size(std::uint64_t part) const { return std::min(most, whole - first(part)); }
 };
 
-/// Rows of an image that lie together in memory.
+/// Contiguous rows of an image.
 struct Rows {
     Rows(const Target& target, std::uint32_t count)
         : height(target.pixel() == Pixel::bc1 ? kBlockSide : 1),
@@ -29,10 +29,10 @@ struct Rows {
 
     std::uint32_t pixels(std::uint64_t rows) const { return std::uint32_t(rows) * height; }
 
-    static constexpr std::uint32_t kBlockSide = 4;  // of Pixel::bc1
+    static constexpr std::uint32_t kBlockSide = 4;  // Pixel::bc1
 
-    std::uint32_t height;  ///< of a row [pixels]
-    std::uint64_t bytes;   ///< of a row
+    std::uint32_t height;  ///< row height [pixels]
+    std::uint64_t bytes;   ///< size of a row
     Parts parts;           ///< [rows]
 };
 
@@ -62,8 +62,8 @@ Staging::Staging(const Device& device)
 
 Staging::~Staging() = default;
 
-/// Records and submits `begin` of each part, and calls `end` of it once the device is done, with
-/// the next parts under way.
+/// Records and submits `begin` for each part, and calls `end` for it when the GPU is done, with the
+/// next parts already in flight.
 template <class Begin, class End>
 void Staging::in_turn(std::uint64_t parts, const Begin& begin, const End& end)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// Copies between the host's memory and the device's.
+// Copies between CPU and GPU memory.
 
 #include <array>
 #include <cstdint>
@@ -9,26 +9,26 @@
 
 namespace lumel::gpu {
 
-/// A ring of mapped memory with a command buffer for each of its slots, made once and used for
-/// every upload and download of a device. Long copies go in parts: while the device copies one,
-/// the host fills or reads the next. Every call returns once its copy has ended.
+/// A ring of mapped memory with a command buffer per slot, shared by all uploads and downloads of a
+/// device. Long copies are split: while the GPU copies one part, the CPU fills or reads the next.
+/// Every call returns when its copy has finished.
 class Staging {
 public:
     explicit Staging(const Device& device);
     ~Staging();
 
-    /// Of all slots.
+    /// Size of all slots.
     static std::uint64_t device_bytes();
 
     void upload(const void* data, const Buffer& to, std::uint64_t bytes, std::uint64_t to_byte);
     void download(const Buffer& from, void* data, std::uint64_t bytes);
     /// Rows [first, first + count) of level 0, whole blocks, tightly packed.
     void upload(const void* pixels, const Target& to, std::uint32_t first, std::uint32_t count);
-    /// The smaller levels, of level 0.
+    /// Builds the smaller levels from level 0.
     void make_levels(const Target& target);
-    /// Level 0.
+    /// Reads level 0.
     void download(const Target& from, void* pixels);
-    /// A new image's first use.
+    /// Initial layout transition of a new image.
     void prepare(const Target& target);
 
 private:

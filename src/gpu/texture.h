@@ -1,5 +1,5 @@
 #pragma once
-// Images on the GPU: targets that are drawn into and textures that are read.
+// Images on the GPU: render targets and textures.
 
 #include "gpu/device.h"
 #include "gpu/memory.h"
@@ -13,20 +13,20 @@ enum class Pixel {
     srgba8,  ///< 8-bit, colour channels sRGB-coded
     rgba32,  ///< float, four channels
     rg32u,   ///< 32-bit unsigned, two channels
-    bc1,     ///< blocks of 4 × 4, three channels; only read by shaders (Device::can_read_blocks)
+    bc1,     ///< blocks of 4 × 4, three channels; read-only (Device::can_read_blocks)
 };
 
-/// Bytes of an image's level 0; of bc1, sides are multiples of 4.
+/// Size of level 0 [bytes]. bc1 requires sides that are multiples of 4.
 std::uint64_t image_bytes(Pixel pixel, std::uint32_t width, std::uint32_t height);
 
-/// Samples of a multisampled pixel: what every Vulkan device has for colours of floats and depth,
-/// to draw and to read.
+/// Samples per multisampled pixel. Every Vulkan device supports this number for float colours and
+/// depth, as targets and textures.
 inline constexpr std::uint32_t kManySamples = 4;
 
-/// A 2D image with its view, kept in the general layout from creation on.
+/// A 2D image with its view, in the general layout.
 class Target {
 public:
-    /// samples: 1 or kManySamples. A multisampled image is only drawn into and read by shaders.
+    /// samples: 1 or kManySamples. Multisampled images are only rendered to and read by shaders.
     Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint32_t height,
            std::uint32_t mip_levels = 1, std::uint32_t samples = 1,
            const Name& name = Name::of_line());
@@ -41,12 +41,12 @@ public:
     std::uint32_t height() const { return height_; }
     std::uint32_t mip_levels() const { return mip_levels_; }
 
-    /// Blocking: fills level 0 from tightly packed rows (of blocks), then the smaller levels by
-    /// averaging.
+    /// Blocking: fills level 0 from tightly packed rows (of blocks) and averages it into the
+    /// smaller levels.
     void upload(const void* pixels);
-    /// Blocking: rows [first, first + count) of an image of one level, tightly packed.
+    /// Blocking: fills rows [first, first + count) of a single-level image, tightly packed.
     void upload_rows(const void* pixels, std::uint32_t first, std::uint32_t count);
-    /// Blocking: level 0, tightly packed rows.
+    /// Blocking: reads level 0 as tightly packed rows.
     void download(void* pixels) const;
 
 private:
@@ -61,7 +61,7 @@ private:
 enum class Filter { nearest, linear };
 enum class Address { repeat, mirrored, clamp };
 
-/// How a texture is read.
+/// Filtering and addressing of a texture.
 class Sampler {
 public:
     Sampler(const Device& device, Filter filter, Address u, Address v);

@@ -8,9 +8,9 @@
 namespace lumel::gpu {
 namespace {
 
-/// An array is never empty.
+/// Arrays are never empty.
 constexpr std::uint64_t kMinBytes = sizeof(std::uint32_t);
-/// Every ray looks at it.
+/// Visible to all rays.
 constexpr std::uint32_t kAnyMask = 0xff;
 
 std::uint64_t address_of(const Device& device, const Buffer& buffer)
@@ -76,7 +76,7 @@ void TriangleTree::add_bottom(const Device& device, std::span<const glm::vec3> p
                                       geometries, ranges);
 }
 
-/// One instance of the bottom, where it is.
+/// Builds the top level with one instance of the bottom level.
 void TriangleTree::add_top(const Device& device)
 {
     const VkAccelerationStructureDeviceAddressInfoKHR bottom{

@@ -1,5 +1,5 @@
 #pragma once
-// Triangles that shaders ask rays of: Vulkan's acceleration structures.
+// Vulkan acceleration structures over triangles, for ray queries.
 
 #include <memory>
 #include <optional>
@@ -11,18 +11,18 @@
 
 namespace lumel::gpu {
 
-/// Built once, for triangles that stay where they are. Shaders read it by ray queries; the number
-/// of a geometry is that of its list of triangles.
+/// Built once, for static triangles. Shaders use it by ray queries; the geometry index is that of
+/// the triangle list.
 class TriangleTree {
 public:
-    /// Triangles of one kind, as indices of three positions each.
+    /// Indices of three positions per triangle.
     struct Triangles {
         std::span<const std::uint32_t> corners;  ///< [triangles][3]
-        bool opaque = true;  ///< false: a query finds them as candidates, and decides
+        bool opaque = true;  ///< false: queries report them as candidates and decide
     };
 
-    /// positions: [m] of all lists. Lists may be empty. Throws Error{device} if the device lacks
-    /// ray queries (Device::can_query_rays), or memory.
+    /// positions: [m] for all lists. Lists may be empty. Throws Error{device} if the device lacks
+    /// ray queries (Device::can_query_rays) or memory.
     TriangleTree(const Device& device, std::span<const glm::vec3> positions,
                  std::span<const Triangles> lists);
 
@@ -55,7 +55,7 @@ private:
     void add_top(const Device& device);
 
     std::unique_ptr<Level> bottom_;  ///< over the triangles
-    std::unique_ptr<Level> top_;     ///< over the one below
+    std::unique_ptr<Level> top_;     ///< over bottom_
 };
 
 }  // namespace lumel::gpu

@@ -1,5 +1,5 @@
 #pragma once
-// The Vulkan C API through volk: nothing is linked, the loader is found at run time.
+// The Vulkan C API through volk, which finds the loader at run time; nothing is linked.
 
 #include <volk.h>
 #include <vulkan/vulkan.h>
@@ -8,8 +8,8 @@
 
 namespace lumel::gpu {
 
-/// Throws Error{device} unless `result` is success; names the call and, for a lost device or
-/// missing memory, the remedy.
+/// Throws Error{device} unless `result` is success. The message names the call and, for a lost
+/// device or lack of memory, the remedy.
 void check(VkResult result, const char* call);
 
 }  // namespace lumel::gpu

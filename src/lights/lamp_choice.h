@@ -1,5 +1,5 @@
 #pragma once
-// One of many lamps, chosen by its light while they are gone through.
+// Reservoir sampling of one lamp by its unoccluded light.
 
 #include <glm/glm.hpp>
 
@@ -8,13 +8,13 @@
 
 namespace lumel {
 
-/// Holds each lamp that was offered with a probability in proportion to the luminance of its light.
+/// Keeps each offered lamp with a probability proportional to the luminance of its light.
 class LampChoice {
 public:
-    /// number: uniform in [0, 1).
+    /// number: uniform sample in [0, 1).
     explicit LampChoice(double number) : number_(number) {}
 
-    /// light: what the lamp brings if nothing is in between.
+    /// light: unoccluded light of the lamp.
     void offer(const LampSample& lamp, const glm::vec3& light)
     {
         const double weight = luminance(light);
@@ -34,7 +34,7 @@ public:
 
     bool empty() const { return !(total_ > 0.0); }
     const LampSample& lamp() const { return lamp_; }
-    /// Its light, for that of all.
+    /// Estimate of the light of all lamps: that of the chosen one / its probability.
     glm::vec3 light() const { return light_ * float(total_ / weight_); }
 
 private:

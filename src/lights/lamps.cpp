@@ -1,16 +1,15 @@
-// A lamp is seen under a cone of half angle α: a ball of radius R from distance d with
-// sin α = R / d, or a disc in the sky. Directions are drawn uniformly from the cone, whose solid
-// angle is
+// A lamp covers a cone of half angle α: a ball of radius R at distance d with sin α = R / d, or a
+// disc in the sky. Directions are sampled uniformly in the cone, whose solid angle is
 //
 //     Ω = 2π (1 - cos α) = 2π sin² α / (1 + cos α).
 //
-// The disc has the radiance lux / (π sin² α), so that a plane that faces it gets lux. The ball's
-// surface sends I(ω) / (π R²) along ω, so that all that it sends along ω is I(ω), whatever R is.
-// Times Ω, an estimate of what a plane that faces the drawn direction gets is
+// The disc has the radiance lux / (π sin² α), so that a plane facing it receives lux. The ball's
+// surface emits I(ω) / (π R²) along ω, so that its intensity is I(ω) for any R. Times Ω, the
+// estimate for a plane facing the sampled direction is
 //
 //     disc:  lux · 2 / (1 + cos α),          ball:  I(ω) / d² · 2 / (1 + cos α),
 //
-// which holds for α = 0, the point and the parallel beam, too. What is inside the ball gets none.
+// also for α = 0, a point or a parallel beam. Points inside the ball receive nothing.
 
 #include "lights/lamps.h"
 
@@ -24,7 +23,7 @@ namespace lumel {
 
 namespace {
 
-/// A direction drawn from a cone.
+/// A direction sampled in a cone.
 struct ConeSample {
     glm::vec3 direction;
     float cosine = 1.0f;        ///< to the axis
@@ -51,12 +50,13 @@ ConeSample draw_from_cone(const glm::vec3& axis, float squared_sine, float cosin
 
 }  // namespace
 
-glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
-                  float offset, std::uint32_t seed)
+glm::vec3 transmittance(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                        float offset, std::uint32_t seed)
 {
     return std::isinf(lamp.distance)
-               ? rays.passing_out(position, lamp.direction, seed)
-               : rays.passing(position, position + lamp.distance * lamp.direction, offset, seed);
+               ? rays.transmittance_out(position, lamp.direction, seed)
+               : rays.transmittance(position, position + lamp.distance * lamp.direction, offset,
+                                    seed);
 }
 
 Lamps::Lamps(const Scene& scene) : scene_(&scene)
@@ -99,7 +99,7 @@ LampSample Lamps::from_ball(const Lamp& lamp, const glm::vec3& position,
     const float far = std::sqrt(squared);
     const ConeSample ray =
         draw_from_cone(offset / far, squared_sine, std::sqrt(1.0f - squared_sine), disc);
-    // Where the ray enters the ball.
+    // Entry point into the ball.
     const float within = std::sqrt(std::max(0.0f, squared_radius - squared * ray.squared_sine));
     LampSample sample{.direction = ray.direction, .distance = far * ray.cosine - within};
     const float window = range_window(light, sample.distance);

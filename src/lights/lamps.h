@@ -1,8 +1,8 @@
 #pragma once
-// The punctual lights of a scene as rays on the host sample them, for the truth, `update` and
-// `why`. Bakes find their light on the device (raster/shadow_maps/lamps.h) or by links
-// (lights/sources.h), with code of their own on purpose: the truth judges it. See lamps.cpp for the
-// equations.
+// Punctual lights of a scene, sampled by rays on the CPU for path tracing, `update` and `why`.
+// Bakes compute their light on the GPU (raster/shadow_maps/lamps.h) or with links
+// (lights/sources.h). That code is separate on purpose: the reference tests it. Equations:
+// lamps.cpp.
 
 #include <cstddef>
 #include <vector>
@@ -14,39 +14,39 @@
 
 namespace lumel {
 
-/// What a lamp sends to a point along one direction, as if nothing were between.
+/// Unoccluded light of a lamp at a point, along one direction.
 struct LampSample {
     glm::vec3 direction{0.0f};    ///< unit, towards the lamp
-    float distance = 0.0f;        ///< [m] to its surface; infinite: directional
-    glm::vec3 illuminance{0.0f};  ///< estimate [lx] for a plane that faces the direction
+    float distance = 0.0f;        ///< [m] to its surface; infinite if directional
+    glm::vec3 illuminance{0.0f};  ///< estimate [lx] on a plane facing the direction
 };
 
-/// What of a lamp's light gets through to a point [0…1]. offset: as RayScene::passing takes it.
-glm::vec3 passing(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
-                  float offset, std::uint32_t seed);
+/// Transmittance [0…1] towards a lamp sample. offset: as in RayScene::transmittance.
+glm::vec3 transmittance(const RayScene& rays, const glm::vec3& position, const LampSample& lamp,
+                        float offset, std::uint32_t seed);
 
 class Lamps {
 public:
-    /// `scene` must outlive this, unmoved.
+    /// `scene` must outlive this and not move.
     explicit Lamps(const Scene& scene);
 
     std::size_t count() const { return lamps_.size(); }
 
-    /// Draws a direction, by a point of the unit disc, of those that a lamp shines from.
+    /// Samples a direction of a lamp. disc: a point of the unit disc.
     LampSample sample(std::size_t lamp, const glm::vec3& position, const glm::vec2& disc) const;
 
 private:
     struct Lamp {
         const PunctualLight* light = nullptr;
         glm::vec3 position{0.0f};  ///< world [m]
-        glm::vec3 toward{0.0f};    ///< unit, opposite to its light
+        glm::vec3 toward{0.0f};    ///< unit, opposite to its light's direction
     };
 
     LampSample from_disc(const Lamp& lamp, const glm::vec2& disc) const;
     LampSample from_ball(const Lamp& lamp, const glm::vec3& position, const glm::vec2& disc) const;
 
     const Scene* scene_;
-    std::vector<Lamp> lamps_;  ///< those that shine
+    std::vector<Lamp> lamps_;  ///< lamps with light
 };
 
 }  // namespace lumel

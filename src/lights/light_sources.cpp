@@ -1,6 +1,7 @@
 #include "lights/light_sources.h"
 
 #include <algorithm>
+#include <set>
 
 namespace lumel {
 namespace {
@@ -22,18 +23,14 @@ std::string name_of(const Scene& scene, std::uint32_t instance)
     return name.empty() ? "instance " + std::to_string(instance) : name;
 }
 
-/// Instances of which an open lumel shines.
+/// Instances with an emissive lumel that is open.
 std::vector<std::uint32_t> shining_instances(const Scene& scene, const Lumels& lumels)
 {
-    std::vector<char> shines(scene.instances.size(), 0);
+    std::set<std::uint32_t> shining;
     for (const Lumel& lumel : lumels.lumels)
         if (!(lumel.flags & kLumelBuried) && lumel.emission != glm::vec3(0.0f))
-            shines[lumel.instance] = 1;
-    std::vector<std::uint32_t> instances;
-    for (std::uint32_t i = 0; i < shines.size(); ++i)
-        if (shines[i])
-            instances.push_back(i);
-    return instances;
+            shining.insert(lumel.instance);
+    return {shining.begin(), shining.end()};
 }
 
 std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t instance)
@@ -51,7 +48,7 @@ std::vector<std::string> shining_materials(const Scene& scene, std::uint32_t ins
 
 constexpr int kNone = -1;
 
-/// A material that looks the same and does not shine; itself if it does not.
+/// Index of a copy of the material without emission; the material itself if it has none.
 int without_emission(Scene& scene, int material, std::vector<int>& dark)
 {
     if (scene.materials[std::size_t(material)].emitted == glm::vec3(0.0f))
@@ -65,7 +62,7 @@ int without_emission(Scene& scene, int material, std::vector<int>& dark)
     return made;
 }
 
-/// The same of a mesh.
+/// Index of a copy of the mesh without emission.
 int without_emission(Scene& scene, int mesh, std::vector<int>& dark_mesh,
                      std::vector<int>& dark_material)
 {

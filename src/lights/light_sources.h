@@ -1,5 +1,5 @@
 #pragma once
-// What of a scene's light can be dimmed and coloured by itself.
+// Light sources of a scene that can be dimmed and coloured separately.
 
 #include <cstdint>
 #include <string>
@@ -10,30 +10,30 @@
 
 namespace lumel {
 
-/// Shining instances beyond this number are taken together by their materials: each source costs a
-/// solve and a map of direct light.
+/// Above this number, emissive instances are grouped by material: each source needs a solve and a
+/// direct-light map.
 inline constexpr std::size_t kMaxEmitters = 64;
 
 inline constexpr const char* kSkyName = "sky";
 
-/// All of one name: the sky, lamps that are no surfaces, shining instances.
+/// All sources of one name: the sky, lamps, emissive instances.
 struct LightSource {
     std::string name;
     bool sky = false;
     std::vector<std::uint32_t> lights;     ///< indices into Scene::lights
     std::vector<std::uint32_t> instances;  ///< indices into Scene::instances
-    std::vector<std::string> materials;    ///< that make the instances shine: further names
+    std::vector<std::string> materials;    ///< emissive materials of the instances: further names
 };
 
-/// The sky first, then the lamps, then the instances of which a lumel shines, as the scene has
-/// them. Lamps that give no light are left out.
+/// The sky, the lamps, then instances with an emissive lumel, in scene order. Omits lamps without
+/// light.
 std::vector<LightSource> light_sources(const Scene& scene, const Lumels& lumels);
 
-/// A scene of the source's sky and lamps alone, without geometry; what direct_light() takes.
+/// A scene with only the source's sky and lamps, without geometry; input of direct_light().
 Scene lamps_of(const Scene& scene, const LightSource& source);
 
-/// The scene with no other light than what the source's instances send. Instances, primitives and
-/// triangles keep their numbers.
+/// The scene with only the emission of the source's instances. Instances, primitives and triangles
+/// keep their indices.
 Scene only_shining(Scene scene, const LightSource& source);
 
 }  // namespace lumel

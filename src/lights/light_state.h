@@ -1,5 +1,5 @@
 #pragma once
-// What states of lights ask for: factors by the names of sources, and places of lamps.
+// Lighting states: factors by source name, and positions of lamps.
 
 #include <map>
 #include <optional>
@@ -12,24 +12,23 @@
 
 namespace lumel {
 
-/// Where a lamp is, in the world of the scene's file.
+/// Position and direction of a lamp in the world of the scene's file.
 struct LampPlace {
     std::optional<glm::dvec3> position;  ///< [m] of point and spot lights; none: as baked
-    std::optional<glm::vec3> direction;  ///< in which it shines, of any length; none: as baked
-    /// Of the sky about +y, counter-clockwise as seen from above, from how it was baked [degrees].
-    /// Only over kept links.
+    std::optional<glm::vec3> direction;  ///< direction of its light, any length; none: as baked
+    /// Rotation of the sky about +y relative to the bake, counter-clockwise from above [degrees].
+    /// Stored links only.
     std::optional<double> turn;
 };
 
-/// Factors to the light of sources, by the sources' names or by those of materials that shine; and
-/// places of lamps.
+/// Factors by names of sources or of emissive materials, and lamp positions.
 struct LightState {
-    glm::vec3 others{1.0f};  ///< of sources that are not named
+    glm::vec3 others{1.0f};  ///< factor of unnamed sources
     std::map<std::string, glm::vec3> lights;
     std::map<std::string, LampPlace> places;
 };
 
-/// Sources by their names, and by those of materials that make them shine.
+/// Sources by name, and by the names of their emissive materials.
 class SourceNames {
 public:
     struct Source {
@@ -41,21 +40,22 @@ public:
     explicit SourceNames(std::vector<Source> sources) : sources_(std::move(sources)) {}
 
     std::vector<std::string> names() const;
-    /// Their numbers. Throws Error{input}, with the names that there are, for another name.
+    /// Indices of the sources with that name. Throws Error{input}, with the valid names, for an
+    /// unknown name.
     std::vector<std::size_t> of(const std::string& name) const;
-    /// [sources] Factors. Throws Error{input} for another name, for factors that are negative or no
-    /// numbers, and where two names mean the same source.
+    /// [sources] Factors. Throws Error{input} for an unknown name, for factors that are negative or
+    /// not finite, and if two names denote the same source.
     std::vector<glm::vec3> factors(const LightState& state) const;
 
 private:
     std::vector<Source> sources_;
 };
 
-/// Throws Error{input} for a factor that is negative or no number.
+/// Throws Error{input} if a factor is negative or not finite.
 void check_factor(const std::string& name, const glm::vec3& factor);
 
-/// A lamp elsewhere. origin: of its scene. Throws Error{input} for positions of directional lights,
-/// directions that are none, and places too far away.
+/// Returns the moved lamp. origin: of its scene. Throws Error{input} for positions of directional
+/// lights, directions without length, and positions that are too far out.
 PunctualLight placed(PunctualLight lamp, const LampPlace& place, const glm::dvec3& origin);
 
 }  // namespace lumel

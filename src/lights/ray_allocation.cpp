@@ -6,7 +6,7 @@
 namespace lumel {
 namespace {
 
-/// Rays to a source that has rays of its own, at least.
+/// Minimum rays of a source with its own rays.
 constexpr std::uint32_t kFewRays = 4;
 
 }  // namespace

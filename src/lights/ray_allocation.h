@@ -1,5 +1,5 @@
 #pragma once
-// How many rays one point sends to which source.
+// Allocation of a point's shadow rays to light sources.
 
 #include <cstdint>
 #include <functional>
@@ -9,27 +9,27 @@
 
 namespace lumel {
 
-/// Sources as one point has rays for them.
+/// Rays per source at one point.
 struct RayAllocation {
     struct Own {
         std::size_t source;
         std::uint32_t rays;
     };
-    /// A source that stands for all that share rays.
+    /// A source sampled from those that share rays.
     struct Chosen {
         std::size_t source;
-        float chance;  ///< with which it was chosen; 0: none
+        float chance;  ///< probability of the choice; 0: none
     };
-    /// mark: in [0, 1).
+    /// mark: uniform sample in [0, 1).
     Chosen choose(float mark) const;
 
-    std::vector<Own> own;         ///< that have rays of their own
-    std::vector<float> rest;      ///< [sources] running sums of the guesses of the others
-    std::uint32_t rest_rays = 0;  ///< that these share
+    std::vector<Own> own;         ///< sources with their own rays
+    std::vector<float> rest;      ///< [sources] running sums of the sampling weights of the others
+    std::uint32_t rest_rays = 0;  ///< rays shared by the others
 };
 
-/// Sources have rays in proportion to what they may send; those that would have very few share
-/// theirs, unless there are rays for all. rays: about so many in all. `counts`: which sources.
+/// Allocates about `rays` rays by sampling weight. Weak sources share rays, unless all can have
+/// their own. `counts`: filter of sources.
 RayAllocation allocate_rays(const LightSources& sources, const glm::vec3& position,
                             std::uint32_t rays,
                             const std::function<bool(std::size_t)>& counts = {});

@@ -1,5 +1,5 @@
 #pragma once
-// The lights of a scene, dimmed, coloured, moved and turned in the scene itself.
+// Dims, colours, moves and rotates the lights of a scene by changing the scene itself.
 
 #include <string>
 #include <vector>
@@ -11,20 +11,20 @@ namespace lumel {
 
 class SceneLights {
 public:
-    /// The scene must outlive this, and its materials, lights and sky are left to it.
+    /// The scene must outlive this, which owns its materials, lights and sky.
     SceneLights(Scene& scene, const Lumels& lumels);
 
     std::vector<std::string> names() const { return names_.names(); }
 
-    /// Throws Error{input} as set() would.
+    /// Throws Error{input} as set() does.
     void check(const LightState& state) const;
-    /// Lights, sky and emission are those that were given, by the factors and at the places of the
-    /// state, whatever was set before. Throws Error{input} for names that there are not, places
-    /// where a light cannot be, and factors for a part of what one material makes shine.
+    /// Sets lights, sky and emission to their initial values, modified by the factors and
+    /// positions of the state. Throws Error{input} for unknown names, invalid positions, and
+    /// factors for a part of the surfaces of an emissive material.
     void set(const LightState& state);
 
 private:
-    /// The parts of a scene that send light.
+    /// Emitting parts of a scene.
     struct Lights {
         std::vector<PunctualLight> lamps;
         Sky sky;

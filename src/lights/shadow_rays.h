@@ -1,5 +1,5 @@
 #pragma once
-// Shadow rays, queued singly, cast in batches.
+// Shadow rays, queued singly and traced in batches.
 
 #include <cmath>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// From a point to where a sample of a source is. ray_offset: short of it [m].
+/// Segment from a point to a source sample, shortened by ray_offset [m].
 inline RaySpan ray_towards(const SourceSample& sample, const RayOrigin& start, float ray_offset,
                            std::uint32_t seed)
 {
@@ -24,7 +24,7 @@ class ShadowRays {
 public:
     std::uint32_t size() const { return std::uint32_t(samples_.size()); }
 
-    /// Adds a look at what a source sends along a ray, which is not cast where that is nothing.
+    /// Queues the shadow ray of a sample. Samples of no light are not traced.
     void add(const SourceSample& sample, const RaySpan& ray)
     {
         const bool dark = sample.irradiance == glm::vec3(0.0f);
@@ -35,8 +35,8 @@ public:
     }
     void cast(const RayCaster& caster)
     {
-        passing_.resize(rays_.size());
-        caster.passing(rays_, passing_);
+        transmittance_.resize(rays_.size());
+        caster.transmittance(rays_, transmittance_);
     }
     void clear()
     {
@@ -46,10 +46,10 @@ public:
     }
 
     const SourceSample& sample(std::size_t look) const { return samples_[look]; }
-    /// Once all are cast: what of it gets through [0…1].
-    glm::vec3 passing(std::size_t look) const
+    /// Transmittance of shadow ray `look`, 0…1. Call cast() first.
+    glm::vec3 transmittance(std::size_t look) const
     {
-        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : passing_[ray_of_[look]];
+        return ray_of_[look] == kNoRay ? glm::vec3(0.0f) : transmittance_[ray_of_[look]];
     }
 
 private:
@@ -57,7 +57,7 @@ private:
     std::vector<SourceSample> samples_;  ///< [looks]
     std::vector<std::uint32_t> ray_of_;  ///< [looks]
     std::vector<RaySpan> rays_;
-    std::vector<glm::vec3> passing_;  ///< [rays]
+    std::vector<glm::vec3> transmittance_;  ///< [rays]
 };
 
 }  // namespace lumel

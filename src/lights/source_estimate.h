@@ -1,5 +1,5 @@
 #pragma once
-// What rays to a source tell of its light.
+// Ratio estimator for the light of one source.
 
 #include <cstdint>
 
@@ -10,21 +10,21 @@
 
 namespace lumel {
 
-/// The light of a source at a lumel is that of the source as if nothing were between, where that is
-/// known exactly, times the visible share, weighted by what comes along each ray:
+/// Exact unoccluded irradiance × mean transmittance, weighted by each ray's contribution f, if the
+/// exact value is known:
 ///
 ///     D = ⟨open⟩ · Σ V f / Σ f,        else  D = ⟨V f⟩.
 ///
-/// So lumels that see all of a source, or nothing of it, have no noise.
+/// Lumels that see all of a source, or nothing of it, then have no noise.
 struct SourceEstimate {
-    glm::vec3 open{0.0f};    ///< Σ of what is known exactly [lx]
+    glm::vec3 open{0.0f};    ///< Σ of exact unoccluded irradiance [lx]
     glm::vec3 passed{0.0f};  ///< Σ V f [lx]
     float offered = 0.0f;    ///< Σ f by luminance
     glm::vec3 seen{0.0f};    ///< Σ V f by luminance of f
     std::uint32_t rays = 0, free = 0, hidden = 0;
     bool exact = true;
 
-    void add(const SourceSample& sample, const glm::vec3& passing)
+    void add(const SourceSample& sample, const glm::vec3& transmittance)
     {
         const float offer = float(luminance(sample.irradiance));
         ++rays;
@@ -32,11 +32,11 @@ struct SourceEstimate {
             open += *sample.open;
         else
             exact = false;
-        passed += passing * sample.irradiance;
+        passed += transmittance * sample.irradiance;
         offered += offer;
-        seen += passing * offer;
+        seen += transmittance * offer;
         if (offer > 0.0f)
-            ++(passing == glm::vec3(0.0f) ? hidden : free);
+            ++(transmittance == glm::vec3(0.0f) ? hidden : free);
     }
     glm::vec3 light() const
     {

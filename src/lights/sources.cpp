@@ -20,34 +20,35 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// Surfaces of up to this many triangles and of one emission are seen for by their form factor.
+/// Uniform emitters of at most this many triangles use exact polygon form factors.
 constexpr std::size_t kMaxPolygons = 8;
-/// Larger ones are split until a part has so few triangles, or is so small a share of the scene.
+/// Larger ones are split until a part has at most so many triangles or this fraction of the
+/// diagonal.
 constexpr std::size_t kMaxOfMesh = 64;
 constexpr float kSmallMesh = 0.02f;
-/// Triangles from which one is chosen by what it sends here. [TCE05]
+/// Candidate triangles, of which one is chosen by its light here. [TCE05]
 constexpr std::uint32_t kCandidates = 4;
-/// A triangle that fills more of the sphere than this [sr] is sampled by solid angle, since area
-/// would put too few points where it is near. [Arv95]
+/// Triangles larger than this solid angle [sr] are sampled by solid angle: area would place too few
+/// points on the near part. [Arv95]
 constexpr double kWideTriangle = 0.25;
-/// Points per triangle that find the mean emission of a textured one, per axis.
+/// Samples per axis for the mean emission of a textured triangle.
 constexpr int kMeanSide = 6;
-/// A sky's parts that are brighter than this many times its mean are seen for, if they send more
-/// than this share of its light.
+/// Parts of the sky brighter than this multiple of its mean become a source, if they have more than
+/// this share of its light.
 constexpr double kBright = 8.0, kBrightShare = 0.03;
-/// Unit normals that are this close [rad] differ by rounding alone, in the file or since.
+/// Unit normals closer than this [rad] differ only by rounding.
 constexpr float kSameNormal = 1e-4f;
-/// Half an angle [rad] or a ratio of radius to distance below which a source's shape is small.
+/// Half angle [rad] or ratio of radius to distance below which a source is small.
 constexpr float kSmallAngle = 0.02f;
 
-/// Maps the unit square evenly to the barycentrics of corners 1 and 2.
+/// Maps the unit square uniformly to the barycentrics of corners 1 and 2.
 glm::vec2 on_triangle(const glm::vec2& at)
 {
     const float root = std::sqrt(at.x);
     return {root * (1.0f - at.y), root * at.y};
 }
 
-/// Spherical triangle of unit corners: solid angle, and directions spread evenly over it. [Arv95]
+/// Spherical triangle of unit corners: solid angle and uniform sampling. [Arv95]
 class SphericalTriangle {
 public:
     SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) : a_(a), b_(b)
@@ -139,7 +140,7 @@ void LightSources::add_surfaces(const Surfaces& surfaces)
 {
     for (std::size_t s = 0; s < surfaces.all().size(); ++s)
         add_surface(surfaces, s);
-    // Sums of power within each source.
+    // Running sums of power within each source.
     running_.resize(triangles_.size());
     for (Source& source : sources_) {
         double sum = 0.0;
@@ -159,7 +160,7 @@ void LightSources::add_surfaces(const Surfaces& surfaces)
     }
 }
 
-/// Lists the triangles of a surface that emit, as one source or as several close groups.
+/// Adds the emissive triangles of a surface, as one source or as several compact groups.
 void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
 {
     const PlacedSurface& surface = surfaces.all()[index];
@@ -195,7 +196,7 @@ void LightSources::add_surface(const Surfaces& surfaces, std::size_t index)
         triangles_.push_back(triangle);
     }
 
-    // Split what is large: halves by the median along the longest side.
+    // Splits large ones at the median along the longest side.
     struct Range {
         std::size_t first, last;
     };
@@ -260,7 +261,7 @@ void LightSources::add_lights()
     }
 }
 
-/// Cuts off what is far brighter than the mean, to be a source.
+/// Separates the part of the sky far above the mean as a source.
 void LightSources::cut_sky()
 {
     const Sky& sky = scene_->sky;
@@ -300,7 +301,7 @@ glm::vec3 LightSources::dim_sky(const glm::vec3& direction) const
     return bright > most_ ? radiance * (most_ / bright) : radiance;
 }
 
-/// Of each triangle of a source; returns their sum.
+/// Form factor of each triangle of a source; returns their sum.
 float LightSources::form_factors(const Source& source, const RayOrigin& start,
                                  float* of_triangles) const
 {
@@ -346,7 +347,7 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
     SourceSample sample;
     float density = 0.0f;  // per solid angle
     glm::vec2 place;
-    // Twice its area over the square of the distance is close enough to choose by.
+    // Twice its area over the squared distance is accurate enough for the choice.
     const glm::vec3 middle = triangle.corner[0] + (edge_u + edge_v) / 3.0f - start.position;
     const bool wide = double(triangle.area) > kWideTriangle * double(glm::dot(middle, middle));
     const auto towards = [&](int k) {
@@ -391,7 +392,7 @@ SourceSample LightSources::from_triangle(const Source& source, const Triangle& t
     return sample;
 }
 
-/// Chooses a triangle by its form factor.
+/// Samples a triangle by its form factor.
 SourceSample LightSources::from_polygons(const Source& source, const RayOrigin& start,
                                          glm::vec2 at) const
 {
@@ -414,7 +415,8 @@ SourceSample LightSources::from_polygons(const Source& source, const RayOrigin& 
     return sample;
 }
 
-/// Form factors know the interpolated normal only: is all that it may see above the surface too?
+/// True if all of the source that the interpolated normal faces is above the surface; form factors
+/// use that normal alone.
 bool LightSources::is_above_surface(const Source& source, const RayOrigin& start) const
 {
     const glm::vec3 apart = start.geometric - start.normal;
@@ -430,7 +432,7 @@ bool LightSources::is_above_surface(const Source& source, const RayOrigin& start
                        });
 }
 
-/// Chooses among points on triangles drawn by power one by what it sends here. [TCE05]
+/// Samples points on triangles by power, then one of them by its light here. [TCE05]
 SourceSample LightSources::from_mesh(const Source& source, const RayOrigin& start,
                                      const glm::vec2& at) const
 {
@@ -460,8 +462,8 @@ SourceSample LightSources::from_mesh(const Source& source, const RayOrigin& star
     return chosen;
 }
 
-/// A ball of radius R that sends I(ω) along ω has the radiance I / (π R²), and is seen under a
-/// cone of sin α = R / d.
+/// A ball of radius R and intensity I(ω) has the radiance I / (π R²) and covers a cone of sin α = R
+/// / d.
 SourceSample LightSources::from_lamp(const PunctualLight& light, const RayOrigin& start,
                                      const glm::vec2& at) const
 {
@@ -471,7 +473,7 @@ SourceSample LightSources::from_lamp(const PunctualLight& light, const RayOrigin
         return {};
     const glm::vec3 axis = offset / distance;
     SourceSample sample{.direction = axis, .distance = distance};
-    float spread = 1.0f;  // of the cone's solid angle to π sin² α
+    float spread = 1.0f;  // ratio of the cone's solid angle to π sin² α
     if (light.radius > 0.0f) {
         const float sine = light.radius / distance;
         const float cosine = std::sqrt(1.0f - sine * sine);
@@ -520,7 +522,7 @@ float LightSources::sampling_weight(std::size_t index, const glm::vec3& position
         return float(source.power);
     const float reach = source.radius + size;
     const float apart = std::max(glm::distance(position, source.centre) - reach, 0.0f);
-    // Within the source's reach its light is as from its own size.
+    // Within the bounding radius, uses the light at half of it.
     const float squared = std::max(apart * apart, 0.25f * reach * reach);
     if (source.kind != Kind::lamp)
         return float(source.power) / (kPi * squared);

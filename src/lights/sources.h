@@ -1,6 +1,5 @@
 #pragma once
-// What sends light by itself, for points that look for it: emissive surfaces, lamps, suns, and the
-// bright parts of a sky.
+// Light sources for shadow rays: emissive surfaces, lamps, suns, and the bright parts of a sky.
 
 #include <cstdint>
 #include <optional>
@@ -15,51 +14,51 @@
 
 namespace lumel {
 
-/// What a source sends to a point along one direction, as if nothing were between.
+/// Unoccluded light of a source at a point, along one direction.
 struct SourceSample {
     glm::vec3 direction{0.0f};   ///< unit, towards the source
     float distance = 0.0f;       ///< [m], infinite for skies and suns
     glm::vec3 irradiance{0.0f};  ///< estimate [lx] at the surface, cosine included
-    /// All that the source sends here [lx], where that is known exactly.
+    /// Total unoccluded irradiance of the source [lx], if known exactly.
     std::optional<glm::vec3> open = {};
 };
 
-/// A source of light that rays look for.
+/// The light sources of a scene, to be sampled by shadow rays.
 class LightSources {
 public:
-    /// The scene and its surfaces must outlive this, unmoved. extent: of the scene [m].
+    /// The scene and its surfaces must outlive this and not move. extent: diagonal of the scene
+    /// [m].
     LightSources(const Scene& scene, const Surfaces& surfaces, float extent);
 
-    /// Finds lamps and surfaces again, where they are now.
+    /// Updates the positions of lamps and surfaces.
     void place();
 
     std::size_t count() const { return sources_.size(); }
 
-    /// What a source is part of, and where it is.
+    /// Owner and bounds of a source.
     enum class Part { material, light, sky };
     struct SourceInfo {
         Part part;
-        std::uint32_t index;                 ///< of the material or the light
-        std::uint32_t instance;              ///< of a surface
-        glm::vec3 centre;                    ///< of a ball around it [m]
-        float radius;                        ///< [m]
-        Box box;                             ///< around it [m]
-        const PunctualLight* sun = nullptr;  ///< that it is; then it is infinitely far away
+        std::uint32_t index;                 ///< material's or light's
+        std::uint32_t instance;              ///< if a surface
+        glm::vec3 centre;                    ///< centre of the bounding sphere [m]
+        float radius;                        ///< bounding radius [m]
+        Box box;                             ///< bounding box [m]
+        const PunctualLight* sun = nullptr;  ///< if it is one: infinitely far away
     };
     SourceInfo origin(std::size_t source) const;
 
-    /// One sample; `at` in the unit square.
+    /// Draws one sample. at: uniform sample in the unit square.
     SourceSample sample(std::size_t source, const RayOrigin& start, const glm::vec2& at) const;
 
-    /// A guess of what a source sends to the neighbourhood of a point [lx], never 0 where it could
-    /// send any; rays are shared out by it.
+    /// Sampling weight: rough irradiance of a source near `position` [lx], > 0 wherever it can
+    /// contribute.
     float sampling_weight(std::size_t source, const glm::vec3& position, float size) const;
 
-    /// Is the light of the source's shape small in the sky, as a sun's or a point's?
+    /// True if the source covers a small solid angle, as a sun or a point does.
     bool is_small(std::size_t source) const { return sources_[source].small; }
 
-    /// What is left of a sky after its bright parts became a source [cd/m²], for rays that meet
-    /// nothing.
+    /// Sky without the bright parts that became a source [cd/m²], for rays without a hit.
     glm::vec3 dim_sky(const glm::vec3& direction) const;
 
 private:
@@ -70,20 +69,20 @@ private:
         float power;          ///< area × mean emission, luminance
         std::size_t surface;
         std::uint32_t index;  ///< in its primitive
-        bool swapped;         ///< corners 1 and 2 are, since the instance mirrors
+        bool swapped;         ///< corners 1 and 2 are swapped, because the instance mirrors
     };
     enum class Kind { polygons, mesh, lamp, sun, sky };
     struct Source {
         Kind kind;
         bool small = false;
-        std::uint32_t first = 0, last = 0;  ///< triangles, or the light
+        std::uint32_t first = 0, last = 0;  ///< range of triangles, or the light's index
         bool double_sided = false;
-        bool uniform = false;      ///< one emission all over
-        glm::vec3 emission{0.0f};  ///< E [lm/m²], of a uniform one
-        double power = 0.0;      ///< by luminance: of surfaces [lm], lamps at most [cd], skies [lx]
-        glm::vec3 centre{0.0f};  ///< [m]
-        float radius = 0.0f;     ///< of a ball around it [m]
-        Box box;                 ///< around it [m]
+        bool uniform = false;      ///< one emission everywhere
+        glm::vec3 emission{0.0f};  ///< E [lm/m²], if uniform
+        double power = 0.0;        ///< by luminance: surfaces [lm], lamps at most [cd], skies [lx]
+        glm::vec3 centre{0.0f};    ///< [m]
+        float radius = 0.0f;       ///< bounding radius [m]
+        Box box;                   ///< bounding box [m]
     };
 
     void add_surfaces(const Surfaces& surfaces);
@@ -107,11 +106,11 @@ private:
     float extent_;  ///< [m]
     std::vector<Source> sources_;
     std::vector<Triangle> triangles_;
-    std::vector<double> running_;  ///< [triangles] sums of power within their source, to 1
-    Sky bright_;                   ///< what the sky has above `most_`
+    std::vector<double> running_;  ///< [triangles] running power within their source, up to 1
+    Sky bright_;                   ///< sky above `most_`
     std::optional<SkySampler> bright_sampler_;
-    double bright_power_ = 0.0;  ///< of that, by luminance [lx]; 0: there is none
-    float most_ = 0.0f;          ///< [cd/m²] by luminance, that rays which meet nothing find
+    double bright_power_ = 0.0;  ///< its power by luminance [lx]; 0 if none
+    float most_ = 0.0f;          ///< maximum luminance of dim_sky() [cd/m²]
 };
 
 }  // namespace lumel

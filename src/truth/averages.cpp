@@ -8,11 +8,9 @@ namespace lumel {
 
 namespace {
 
-/// Samples of a value taken in one go, between two progress reports.
 constexpr int kSamplesPerPass = 16;
-/// Values between two progress reports.
+/// Values between progress reports.
 constexpr std::size_t kValuesPerPass = 8192;
-/// Fewest values worth a task.
 constexpr std::size_t kValuesPerTask = 16;
 
 }  // namespace
@@ -23,7 +21,7 @@ std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& e
     std::vector<glm::dvec4> sums(count, glm::dvec4(0.0));
     std::vector<int> taken(count, 0);
 
-    // Pass over all values a few samples at a time, so that a stopped run is noisier, but whole.
+    // Passes over all values a few samples at a time: a stopped run is noisier, but complete.
     bool stopped = false;
     for (int done = 0; done < samples && !stopped; done += kSamplesPerPass) {
         const int until = std::min(done + kSamplesPerPass, samples);

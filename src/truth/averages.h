@@ -1,5 +1,5 @@
 #pragma once
-// Means of random estimates, on all cores.
+// Means of random estimates, in parallel.
 
 #include <cstdint>
 #include <functional>
@@ -9,12 +9,12 @@
 
 namespace lumel {
 
-/// One estimate of a value from its sample of that number.
+/// Estimates a value from the sample of this number.
 using Estimate = std::function<glm::vec4(std::size_t value, std::uint32_t sample)>;
 
-/// Means [count] of `samples` estimates each, the same for any number of cores.
-/// `progress` is given the fraction done and returns false to stop, which leaves the samples taken
-/// so far; none if some values have none yet.
+/// Means [count] of `samples` estimates each, independent of the number of threads. `progress`
+/// receives the fraction done and returns false to stop; the result then has the samples taken so
+/// far, and is empty if some values have none.
 std::vector<glm::vec4> average(std::size_t count, int samples, const Estimate& estimate,
                                const std::function<bool(double)>& progress);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The random numbers of one bounce of a path.
+// Random numbers of one bounce of a path.
 
 #include <cstdint>
 
@@ -9,10 +9,10 @@
 
 namespace lumel {
 
-/// Dimension pair of `PathSamples` that is free for where a path starts.
+/// Dimension pair of `PathSamples` for the start of a path.
 inline constexpr std::uint32_t kStartPair = 0;
 
-/// What a bounce draws numbers for.
+/// Uses of random numbers in a bounce.
 enum class Draw : std::uint32_t { emitter, direction, roulette, sky, lamp, lamp_choice, count };
 
 class BounceSamples {
@@ -24,20 +24,20 @@ public:
     {
     }
 
-    /// A point in the unit square.
+    /// Point in the unit square.
     glm::vec2 point(Draw draw) const
     {
         return stratified_ ? samples_.stratified(pair(draw)) : samples_.random(pair(draw));
     }
 
-    /// A number in [0, 1) that is independent of all others.
+    /// Number in [0, 1), independent of all others.
     float number(Draw draw) const { return samples_.random(pair(draw)).x; }
 
     /// Seed of a ray.
     std::uint32_t bits(Draw draw) const { return samples_.bits(pair(draw)); }
 
 private:
-    /// Bounces that draw stratified points; later ones add too little for it to pay.
+    /// Bounces with stratified points; later ones contribute too little.
     static constexpr int kStratifiedBounces = 1;
 
     std::uint32_t pair(Draw draw) const { return first_pair_ + std::uint32_t(draw); }

@@ -12,14 +12,14 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// A unit direction with density cosθ / π about `normal`.
+/// Unit direction with density cosθ / π about `normal`.
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& at)
 {
     const glm::vec2 disc = square_to_disc(at);
     return turn_to(normal, disc.x, disc.y, std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc))));
 }
 
-/// A unit direction with density (n + 1) / 2π cosⁿ about `mirror`.
+/// Unit direction with density (n + 1) / 2π cosⁿ about `mirror`.
 glm::vec3 lobe_direction(const glm::vec3& mirror, float shininess, const glm::vec2& at)
 {
     const float cosine = std::pow(at.x, 1.0f / (shininess + 1.0f));
@@ -47,7 +47,7 @@ Brdf::Brdf(const Reflectance& look, const glm::vec3& normal, const glm::vec3& to
     for (int c = 0; c < 3; ++c)
         if (look.specular[c] > 0.0f)
             gloss_[c] = look.specular[c] / reflectance_[c];
-    // An interpolated normal may look away from where the light goes: no lobe is to be seen then.
+    // No lobe if the interpolated normal faces away from the outgoing direction.
     if (cos_toward_ > 0.0f && sum(look.specular) > 0.0f)
         chance_ = sum(look.specular) / sum(reflectance_);
 }
@@ -67,7 +67,7 @@ Brdf::Response Brdf::respond(const glm::vec3& incoming) const
 
 glm::vec3 Brdf::sample(glm::vec2 at) const
 {
-    // Choose, and stretch what is left of the number back to 0…1.
+    // Selects a component, and rescales the number to 0…1.
     if (at.x < chance_) {
         at.x /= chance_;
         return lobe_direction(mirror_, shininess_, at);

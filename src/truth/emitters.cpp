@@ -8,10 +8,10 @@ namespace lumel {
 
 namespace {
 
-/// Points per triangle that find the mean emission of a textured one, per axis.
+/// Sample points per axis for the mean emission of a textured triangle.
 constexpr int kMeanSide = 6;
 
-/// Maps the unit square to a triangle's u, v with little distortion, areas kept.
+/// Maps the unit square to a triangle's u, v with little distortion, preserving areas.
 /// [Hei19] E. Heitz, A Low-Distortion Map Between Triangle and Square, 2019.
 glm::vec2 square_to_triangle(glm::vec2 at)
 {
@@ -67,7 +67,7 @@ Emitters::Emitters(const Surfaces& surfaces)
     }
 }
 
-/// Lists the emissive triangles of a surface and their powers, up to a factor.
+/// Lists the emissive triangles of a surface with their relative powers.
 void Emitters::add(std::size_t surface_index, std::vector<double>& powers)
 {
     const PlacedSurface& surface = surfaces_->all()[surface_index];
@@ -98,7 +98,7 @@ void Emitters::add(std::size_t surface_index, std::vector<double>& powers)
 
 EmitterPoint Emitters::sample(const glm::vec2& at) const
 {
-    // Choose a triangle by its power, and stretch what is left of the number back to 0…1.
+    // Selects a triangle by power, and rescales the number to 0…1.
     const auto found = std::upper_bound(running_.begin(), running_.end(), double(at.x));
     const std::size_t chosen =
         std::min(std::size_t(found - running_.begin()), triangles_.size() - 1);

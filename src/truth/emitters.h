@@ -1,5 +1,5 @@
 #pragma once
-// The emissive triangles of a scene as light sources to sample, chosen by their power.
+// Emissive triangles of a scene as light sources, sampled by power.
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@ namespace lumel {
 /// A point of an emitter, drawn with `density` per area.
 struct EmitterPoint {
     glm::vec3 position{0.0f};   ///< world [m]
-    glm::vec3 normal{0.0f};     ///< of the front, unit, world
+    glm::vec3 normal{0.0f};     ///< front normal, unit, world
     glm::vec3 luminance{0.0f};  ///< emitted × opacity [cd/m²]
     float density = 0.0f;       ///< [1/m²]
     bool double_sided = false;  ///< emits from its back as well
@@ -26,10 +26,10 @@ public:
 
     bool empty() const { return triangles_.empty(); }
 
-    /// Maps a point of the unit square to one on an emitter. There must be one.
+    /// Maps a point of the unit square to one on an emitter. Requires !empty().
     EmitterPoint sample(const glm::vec2& at) const;
 
-    /// Density [1/m²] with which `sample` draws the points of a triangle; 0 where it never does.
+    /// Density [1/m²] of `sample` on a triangle; 0 if it is never sampled.
     float density(std::size_t surface, std::uint32_t triangle) const
     {
         const std::vector<float>& densities = densities_[surface];
@@ -51,7 +51,7 @@ private:
 
     const Surfaces* surfaces_;
     std::vector<Triangle> triangles_;
-    std::vector<double> running_;                ///< running sum of the choice, 1 at the last
+    std::vector<double> running_;                ///< cumulative probabilities, the last is 1
     std::vector<std::vector<float>> densities_;  ///< [surfaces][triangles], empty: does not emit
 };
 

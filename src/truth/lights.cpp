@@ -1,6 +1,6 @@
-// Next-event estimation: rays towards points drawn on the light sources. What a reflected direction
-// may hit as well, emitters and the sky, is estimated twice and weighted by the power heuristic;
-// lamps are never hit.
+// Next-event estimation: shadow rays to points sampled on light sources. Emitters and the sky,
+// which reflected directions can hit as well, are estimated twice and weighted by the power
+// heuristic; lamps are never hit.
 //
 // [VG95] E. Veach, L. Guibas, Optimally Combining Sampling Techniques, 1995.
 
@@ -16,17 +16,17 @@ namespace lumel {
 
 namespace {
 
-/// Rays towards lamps per bounce. In rooms and streets of 4 to 200 lamps 1 to 4 cost about as much
-/// for the same error, and one for every lamp up to twice as much.
+/// Shadow rays to lamps per bounce. In rooms and streets of 4 to 200 lamps 1 to 4 cost about the
+/// same for equal error, and one for every lamp up to twice as much.
 constexpr std::size_t kLampRays = 2;
-/// A sky is drawn from if its mean squared radiance is this many times its squared mean. In streets
-/// that pays from 2 to 3 on; what is evener is met by reflected directions.
+/// The sky is sampled if its mean squared radiance exceeds this multiple of its squared mean. In
+/// streets that pays from 2 to 3 on; reflected directions suffice for more uniform skies.
 constexpr double kUnevenSky = 2.5;
 
 /// Veach's power heuristic (β = 2) for a sample drawn with density `mine`. [VG95]
 float power_heuristic(float mine, float other)
 {
-    const float ratio = other / mine;  // not of squares, which may be too large for a float
+    const float ratio = other / mine;  // not of squares, which can overflow
     return 1.0f / (1.0f + ratio * ratio);
 }
 
@@ -35,7 +35,7 @@ float sum(const glm::vec3& color)
     return color.x + color.y + color.z;
 }
 
-/// Whether rays towards the bright parts of a sky pay.
+/// True if sampling the bright parts of the sky pays.
 bool is_uneven(const Sky& sky)
 {
     double angle = 0.0, mean = 0.0, squares = 0.0;
@@ -80,14 +80,14 @@ glm::vec3 Lights::from_emitter(const PathVertex& vertex, const BounceSamples& sa
 
     const glm::vec3 lifted =
         emitter.position + (cos_front > 0.0f ? ray_offset_ : -ray_offset_) * emitter.normal;
-    const glm::vec3 passing =
-        rays_.passing(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
-    if (passing == glm::vec3(0.0f))
-        return passing;
+    const glm::vec3 transmittance =
+        rays_.transmittance(vertex.position, lifted, 0.0f, samples.bits(Draw::emitter));
+    if (transmittance == glm::vec3(0.0f))
+        return transmittance;
     const float density = emitter.density * squared / cos_there;  // per solid angle
     const Brdf::Response response = vertex.brdf.respond(direction);
     const float weight = power_heuristic(density, response.density);
-    return passing * emitter.luminance * (response.shape * (cos_here / density * weight));
+    return transmittance * emitter.luminance * (response.shape * (cos_here / density * weight));
 }
 
 glm::vec3 Lights::from_sky(const PathVertex& vertex, const BounceSamples& samples) const
@@ -96,23 +96,22 @@ glm::vec3 Lights::from_sky(const PathVertex& vertex, const BounceSamples& sample
     const float cosine = cosine_above(vertex, sky.direction);
     if (!(cosine > 0.0f) || !(sky.density > 0.0f))
         return glm::vec3(0.0f);
-    const glm::vec3 passing =
-        rays_.passing_out(vertex.position, sky.direction, samples.bits(Draw::sky));
-    if (passing == glm::vec3(0.0f))
-        return passing;
+    const glm::vec3 transmittance =
+        rays_.transmittance_out(vertex.position, sky.direction, samples.bits(Draw::sky));
+    if (transmittance == glm::vec3(0.0f))
+        return transmittance;
     const Brdf::Response response = vertex.brdf.respond(sky.direction);
     const float weight = power_heuristic(sky.density, response.density);
-    return passing * sky.radiance * (response.shape * (cosine / sky.density * weight));
+    return transmittance * sky.radiance * (response.shape * (cosine / sky.density * weight));
 }
 
-/// Computes the unoccluded light of every lamp, and tests the visibility of a few of them, chosen
-/// by that.
+/// Computes the unoccluded light of every lamp, and traces shadow rays to a few, selected by it.
 glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samples) const
 {
     struct Offer {
         LampSample lamp;
         glm::vec3 light;
-        float running;  ///< sum of the light so far
+        float running;  ///< cumulative light
     };
     std::vector<Offer> offers;
     offers.reserve(lamps_.count());
@@ -129,7 +128,7 @@ glm::vec3 Lights::from_lamps(const PathVertex& vertex, const BounceSamples& samp
         offers.push_back({lamp, light, total});
     }
     const auto arrives = [&](const LampSample& lamp) {
-        return passing(rays_, vertex.position, lamp, 0.0f, samples.bits(Draw::lamp));
+        return transmittance(rays_, vertex.position, lamp, 0.0f, samples.bits(Draw::lamp));
     };
 
     glm::vec3 arriving(0.0f);

@@ -1,5 +1,5 @@
 #pragma once
-// All light sources of a scene as a path tracer meets them: by a ray towards them, or by chance.
+// All light sources of a scene for a path tracer: sampled, or hit by chance.
 
 #include <optional>
 
@@ -15,14 +15,15 @@
 
 namespace lumel {
 
-/// Emissive surfaces, the sky and lamps. Safe to use from many threads at once.
+/// Emissive surfaces, the sky and lamps. Thread-safe.
 class Lights {
 public:
-    /// All must outlive this, unmoved. `ray_offset` [m]: how far points are kept off their surface.
+    /// All arguments must outlive this, unmoved. ray_offset: distance of points from their surface
+    /// [m].
     Lights(const Scene& scene, const RayScene& rays, const Surfaces& surfaces, float ray_offset);
 
-    /// One estimate of ∫ s L cosθ dω [lm/m²] over what rays towards light sources bring to a point:
-    /// lamps in full, emitters and the sky by their share. s is π f_r / ρ, 1 for a matte surface.
+    /// One estimate of ∫ s L cosθ dω [lm/m²] by shadow rays: lamps in full, emitters and the sky
+    /// with their weight. s is π f_r / ρ, 1 for a diffuse surface.
     glm::vec3 sought(const PathVertex& vertex, const BounceSamples& samples) const
     {
         glm::vec3 sought(0.0f);
@@ -35,13 +36,13 @@ public:
         return sought;
     }
 
-    /// The other share: radiance [cd/m²] of what a direction drawn with `density` per solid angle
-    /// happened to hit, or of the sky where it hit nothing.
+    /// The weighted remainder: radiance [cd/m²] of the surface that a direction of this `density`
+    /// per solid angle hits, or of the sky.
     glm::vec3 met(const RayHit& hit, const Shading& shading, const glm::vec3& direction,
                   float density) const;
     glm::vec3 met_sky(const glm::vec3& direction, float density) const;
 
-    /// Radiance [cd/m²] of the sky; empty without one.
+    /// Radiance of the sky [cd/m²]; empty without one.
     std::optional<glm::vec3> background(const glm::vec3& direction) const;
 
 private:
@@ -54,7 +55,7 @@ private:
     const Sky& sky_;
     Emitters emitters_;
     Lamps lamps_;
-    std::optional<SkySampler> sky_sampler_;  ///< empty: the sky is met by chance alone
+    std::optional<SkySampler> sky_sampler_;  ///< empty: the sky is hit by chance only
     float ray_offset_;
 };
 

@@ -35,7 +35,7 @@ PathVertex LumelStarts::start(const Lumel& lumel, const glm::vec2& at) const
     }
     const glm::mat3& normal_transform = normal_transforms_[lumel.instance];
     geometric = glm::normalize(normal_transform * geometric);
-    // Lean towards the middle too, so that no start lies behind a wall that touches the lumel.
+    // Also shifts towards the centre, so that no origin is behind a wall that touches the lumel.
     const glm::mat4& transform = transforms_[lumel.instance];
     const glm::vec3 world(transform * glm::vec4(position, 1.0f));
     const glm::vec3 inward = glm::vec3(transform * glm::vec4(lumel.position, 1.0f)) - world;

@@ -1,5 +1,5 @@
 #pragma once
-// Where paths leave lumels.
+// Origins of paths on lumels.
 
 #include <vector>
 
@@ -12,14 +12,14 @@
 
 namespace lumel {
 
-/// Points on lumels, in the world.
+/// Points on lumels, world space.
 class LumelStarts {
 public:
-    /// `lumels` must outlive this. `ray_offset` [m]: how far starts are kept off their surface.
+    /// `lumels` must outlive this. ray_offset: distance of origins from their surface [m].
     LumelStarts(const Scene& scene, const Lumels& lumels, SampleRule rule, float ray_offset);
 
-    /// Steps onto a lumel. `at` in the unit square chooses where. White matte: what it reflects is
-    /// the irradiance.
+    /// Path origin at point `at` of the unit square on a lumel, with a white diffuse BRDF: it
+    /// reflects the irradiance.
     PathVertex start(const Lumel& lumel, const glm::vec2& at) const;
 
 private:

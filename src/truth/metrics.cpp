@@ -12,7 +12,7 @@ namespace lumel {
 
 namespace {
 
-/// ε of the relative mean squared error, as a share of the mean reference.
+/// ε of the relative mean squared error, relative to the mean reference.
 constexpr double kRelativeFloor = 0.01;
 
 double brightest(const Image& image, std::size_t texel)
@@ -38,9 +38,9 @@ void check_sizes(const Image& map, const Image& reference)
                     " texels; bake both with the same atlas");
 }
 
-/// What is compared: the colours of the texels that both maps cover.
+/// Colour channels of the texels that both maps cover.
 struct Pairs {
-    std::vector<double> difference;  ///< d; infinite where either value is no number
+    std::vector<double> difference;  ///< d; infinite where either value is not finite
     std::vector<double> reference;
     double mean_reference = 0.0;
     std::size_t texels = 0;
@@ -74,13 +74,13 @@ Pairs pair_up(const Image& map, const Image& reference,
     return pairs;
 }
 
-/// value / mean, where nothing off by nothing is no error.
+/// value / mean, where 0 / 0 is 0.
 double relative(double value, double mean)
 {
     return value == 0.0 ? 0.0 : value / mean;
 }
 
-/// Black, blue, red, yellow, white: lightness always rises.
+/// Black, blue, red, yellow, white, with increasing lightness.
 std::array<float, 3> heat(double level)
 {
     constexpr std::array<std::array<float, 3>, 5> kStops{{{0.0f, 0.0f, 0.0f},

@@ -1,5 +1,5 @@
 #pragma once
-// How far a map is from another.
+// Error metrics between two maps.
 
 #include <limits>
 
@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// All over texels whose alpha is above 0 in both maps, R, G and B alike.
+/// Over all texels with alpha > 0 in both maps, in R, G and B.
 struct MapError {
     double relative_rmse = 0.0;    ///< √mean(d²) / mean(reference)
     double normalized_rmse = 0.0;  ///< √mean(d²) / (largest - smallest of the reference)
@@ -18,12 +18,12 @@ struct MapError {
     std::size_t texels = 0;  ///< compared
 };
 
-/// Texels whose reference is above `most` in a channel are left out: lamps in a picture.
-/// Throws Error{input} if sizes differ or nothing is left that is covered in both.
+/// Excludes texels whose reference is above `most` in a channel: lamps in an image. Throws
+/// Error{input} if sizes differ or no texel is covered in both.
 MapError compare_maps(const Image& map, const Image& reference,
                       double most = std::numeric_limits<double>::infinity());
 
-/// |d| / mean(reference) as a heat map, RGBA, display-referred; `full_scale` is the hottest.
+/// d| / mean(reference) as a heat map, RGBA, display-referred; `full_scale` has the last colour.
 Image heat_map(const Image& map, const Image& reference, double full_scale = 0.1);
 
 }  // namespace lumel

@@ -2,18 +2,19 @@
 //
 // [Kaj86] J. Kajiya, The Rendering Equation, 1986.
 //
-// What a point x of reflectance ρ = ρ_d + ρ_s reflects along ω, times π, is
+// The light that a point x of reflectance ρ = ρ_d + ρ_s reflects along ω, times π, is
 //
 //     R(x, ω) = ρ ∫ s(ω, ω') (L(y) + R(y, -ω') / π) cosθ' dω',      s = π f_r / ρ,
 //
-// y being what x sees along ω', and L the luminance emitted there or the radiance of the sky. For
-// white matte, s = ρ = 1 and R is the irradiance. A direction ω' of density p estimates it as
-// ρ s cosθ'/(π p) · (π L(y) + R(y)); rays to points z drawn on light sources estimate the L part a
-// second time, by weights that add up to 1 (lights.cpp), and add the lamps, which ω' never meets:
+// where x sees y along ω', and L is the luminance emitted there or the radiance of the sky. For
+// white diffuse, s = ρ = 1 and R is the irradiance. A direction ω' of density p estimates it as ρ s
+// cosθ'/(π p) · (π L(y) + R(y)). Shadow rays to points z sampled on light sources estimate the L
+// part a second time, with weights that sum to 1 (lights.cpp), and add the lamps, which ω' never
+// hits:
 //
 //     R(x) ≈ ρ (sought(x, z) + s cosθ'/(π p) · (π w L(y) + R(y))).
 //
-// What arrives at x directly are the L of its own first step and its lamps; the rest is indirect.
+// Direct light of x is the L of its own first step and its lamps; the rest is indirect.
 
 #include "truth/path_tracer.h"
 
@@ -27,12 +28,12 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Throughput below which a path takes part in Russian roulette. Measured on the Cornell box:
-/// 1 costs twice as much time for the same error, 0.1 a fifth more.
+/// Throughput below which a path takes part in Russian roulette. On the Cornell box, 1 costs twice
+/// as much time for the same error, 0.1 a fifth more.
 constexpr float kRouletteBelow = 0.25f;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// Stops a path that carries little by Russian roulette, or makes it carry more. False: stopped.
+/// Russian roulette for paths of low throughput. Returns false if the path ends.
 bool goes_on(glm::vec3& throughput, float at)
 {
     const float strongest = std::max({throughput.x, throughput.y, throughput.z});
@@ -57,7 +58,7 @@ PathTracer::PathTracer(const Scene& scene, const RayScene& rays, int max_bounces
 {
 }
 
-/// Steps onto what a ray hit.
+/// The path vertex at a hit.
 PathVertex PathTracer::land(const glm::vec3& origin, const glm::vec3& direction, float distance,
                             const Shading& shading) const
 {
@@ -66,7 +67,7 @@ PathVertex PathTracer::land(const glm::vec3& origin, const glm::vec3& direction,
             shading.geometric, Brdf(shading.reflectance, shading.normal, -direction)};
 }
 
-/// Follows one path. [Kaj86]
+/// Traces one path. [Kaj86]
 glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) const
 {
     glm::vec3 gathered(0.0f);
@@ -74,11 +75,9 @@ glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) cons
     for (int bounce = 0; bounce <= last_bounce_; ++bounce) {
         const BounceSamples samples(path, bounce);
         const bool counts = bounce >= first_bounce_;
-        // See light sources.
         if (counts)
             gathered += throughput * lights_.sought(vertex, samples);
 
-        // See whatever is there.
         const glm::vec3 direction = vertex.brdf.sample(samples.point(Draw::direction));
         const float cosine = cosine_above(vertex, direction);
         if (!(cosine > 0.0f))
@@ -99,7 +98,7 @@ glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) cons
         if (counts && shading.luminance != glm::vec3(0.0f))
             gathered += kPi * throughput * lights_.met(hit, shading, direction, response.density);
 
-        // Go on from there.
+        // Continues from there.
         vertex = land(vertex.position, direction, hit.distance, shading);
         throughput *= vertex.brdf.reflectance();
         if (!goes_on(throughput, samples.number(Draw::roulette)))

@@ -1,6 +1,5 @@
 #pragma once
-// Paths that look for light from a point on, by next-event estimation and multiple importance
-// sampling.
+// Path tracing by next-event estimation and multiple importance sampling.
 
 #include <optional>
 
@@ -15,22 +14,22 @@
 
 namespace lumel {
 
-/// Safe to use from many threads at once.
+/// Thread-safe.
 class PathTracer {
 public:
-    /// `scene` and `rays` must outlive this, unmoved. Gloss counts if the scene was read with it.
-    /// `parts`: which light arrives at the points of `reflected`.
+    /// `scene` and `rays` must outlive this, unmoved. Uses gloss if the scene was read with it.
+    /// parts: light that arrives at the points of `reflected`.
     PathTracer(const Scene& scene, const RayScene& rays, int max_bounces, Parts parts = Parts::all);
 
-    /// One estimate of π × the radiance [lm/m²] that a point reflects towards where its BRDF looks.
+    /// One estimate of π × radiance [lm/m²] that a point reflects toward the direction of its BRDF.
     glm::vec3 reflected(PathVertex vertex, const PathSamples& samples) const;
 
-    /// One estimate of the radiance [cd/m²] along a unit direction; that of the sky where nothing
-    /// is, empty without one. Lamps are not seen.
+    /// One estimate of the radiance along a unit direction [cd/m²], the sky's if nothing is hit;
+    /// empty without a sky. Lamps are invisible.
     std::optional<glm::vec3> radiance(const glm::vec3& origin, const glm::vec3& direction,
                                       const PathSamples& samples) const;
 
-    /// How far starts are lifted off their surface [m].
+    /// Distance of path origins from their surface [m].
     float ray_offset() const { return ray_offset_; }
 
 private:
@@ -41,7 +40,7 @@ private:
     Surfaces surfaces_;
     float ray_offset_;
     Lights lights_;
-    int first_bounce_;  ///< whose light counts
+    int first_bounce_;  ///< first bounce whose light counts
     int last_bounce_;
 };
 

@@ -7,14 +7,14 @@
 
 namespace lumel {
 
-/// A vertex of a path, lifted off the surface on the side that it may leave.
+/// A vertex of a path, offset from the surface on the side of its next ray.
 struct PathVertex {
     glm::vec3 position;   ///< [m] world
     glm::vec3 geometric;  ///< unit normal of the triangle
-    Brdf brdf;            ///< with the shading normal, which cosines are taken with
+    Brdf brdf;            ///< with the shading normal, for cosines
 };
 
-/// Cosine at the surface of a direction that the path may take; 0 for all others.
+/// Cosine between the shading normal and a direction; 0 for directions that the path cannot take.
 inline float cosine_above(const PathVertex& vertex, const glm::vec3& direction)
 {
     const float cosine = glm::dot(vertex.brdf.normal(), direction);

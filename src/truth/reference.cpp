@@ -1,4 +1,4 @@
-// Irradiance is what white matte reflects; see path_tracer.cpp.
+// Irradiance is the light that white diffuse reflects; see path_tracer.cpp.
 
 #include "truth/reference.h"
 
@@ -10,7 +10,7 @@ namespace lumel {
 
 namespace {
 
-/// Key of the random numbers of a map: those of pictures are independent.
+/// Key of the random numbers of maps, independent of those of images.
 constexpr std::uint32_t kMapKey = 0;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Ground truth on the CPU: a path tracer with next-event estimation from every lumel.
-// Shares no transfer code with the solvers.
+// Reference solution on the CPU: a path tracer with next-event estimation from every lumel. Shares
+// no transport code with the solvers.
 
 #include <cstdint>
 #include <functional>
@@ -22,13 +22,13 @@ struct ReferenceOptions {
     Parts parts = Parts::all;
 };
 
-/// H [N] [lx] of every lumel. Unbiased: emission and reflectance are those of the surfaces'
-/// materials at each point, not the lumel's mean. Of a scene read with MaterialModel::glossy light
-/// is passed on by diffuse and by glossy reflection (brdf.h). Runs that differ in seed are
-/// independent, so two of them give the noise. Light comes from emissive surfaces, punctual lights
-/// and the sky; buried lumels get 0. With one seed, direct and indirect light add up to all but for
-/// rounding. `progress` receives the fraction done and returns false to stop, which leaves the
-/// samples taken so far; nothing if some lumels have none yet.
+/// H [N] [lx] of every lumel. Unbiased: uses the materials' emission and reflectance at each point,
+/// not the lumel's mean. In a scene read with MaterialModel::glossy, light is reflected diffusely
+/// and glossily (brdf.h). Runs with different seeds are independent, so two of them give the noise.
+/// Light comes from emissive surfaces, punctual lights and the sky; buried lumels get 0. With one
+/// seed, direct and indirect light sum to all light up to rounding. `progress` receives the
+/// fraction done and returns false to stop; the result then has the samples taken so far, and is
+/// empty if some lumels have none.
 std::vector<glm::vec3> reference_irradiance(const Scene& scene, const RayScene& rays,
                                             const Lumels& lumels, const ReferenceOptions& options,
                                             const std::function<bool(double)>& progress = {});

@@ -7,7 +7,7 @@ namespace lumel {
 
 namespace {
 
-/// Key of the random numbers of a picture: those of maps are independent.
+/// Key of the random numbers of images, independent of those of maps.
 constexpr std::uint32_t kImageKey = 1;
 
 }  // namespace

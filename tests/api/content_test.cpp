@@ -63,7 +63,7 @@ const Wrong kWrongs[] = {
      [](SceneContent& c) { c.instances[0].transform[0] = 0.0f; }},
     {"FarInstance", "instances[0]", "too far out",
      [](SceneContent& c) { c.instances[0].transform[12] = 2e9f; }},
-    {"Transform", "instances[0]", "numbers",
+    {"Transform", "instances[0]", "not finite",
      [](SceneContent& c) { c.instances[0].transform[13] = kNan; }},
     {"LightIntensity", "lights[0]", "intensity",
      [](SceneContent& c) { c.lights = {{.intensity = -1.0f}}; }},
@@ -72,7 +72,7 @@ const Wrong kWrongs[] = {
          c.lights = {{.direction = {0, 0, 0}}};
      }},
     {"LightCone", "lights[0]", "cone", [](SceneContent& c) { c.lights = {{.outer_cone = 2.0f}}; }},
-    {"Sky", "sky", "sides",
+    {"Sky", "sky", "size",
      [](SceneContent& c) {
          c.sky = {.width = 2, .height = 2, .luminance = {{1, 1, 1}}};
      }},

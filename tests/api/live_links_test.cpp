@@ -179,7 +179,7 @@ TEST(LiveLinkScenes, RefuseWhatTheyCannotFollow)
     stretched[0] *= 2.0f;
     const Mat4 nowhere = shifted(scene.instances()[box].transform, {kNoNumber, 0, 0});
     expect_error(ErrorKind::input, {"stretched"}, [&] { live.move(box, stretched); });
-    expect_error(ErrorKind::input, {"no number"}, [&] { live.move(box, nowhere); });
+    expect_error(ErrorKind::input, {"not finite"}, [&] { live.move(box, nowhere); });
     expect_error(ErrorKind::input, {"instance 99"}, [&] { live.move(99, kIdentity); });
     expect_error(ErrorKind::input, {"no such"}, [&] {
         live.set_lamp("no such", {1.0f, 1.0f, 1.0f});

@@ -50,7 +50,7 @@ TEST(LiveScenes, RefuseWhatTheyCannotFollow)
     Mat4 nowhere = scene.instances()[box].transform;
     nowhere[12] = std::numeric_limits<float>::quiet_NaN();
     expect_error(ErrorKind::input, {"stretched"}, [&] { live.move(box, stretched); });
-    expect_error(ErrorKind::input, {"no number"}, [&] { live.move(box, nowhere); });
+    expect_error(ErrorKind::input, {"not finite"}, [&] { live.move(box, nowhere); });
     expect_error(ErrorKind::input, {"instance 99"}, [&] { live.move(99, kIdentity); });
     expect_error(ErrorKind::input, {"emission"}, [&] { live.set_emission(box, {-1, 0, 0}); });
     expect_error(ErrorKind::input, {"light 0"}, [&] { live.set_light(0, {1, 1, 1}); });

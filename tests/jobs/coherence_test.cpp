@@ -213,8 +213,8 @@ struct Turned {
     explicit Turned(double degrees, float brightness = 1.0f, const Turned* same = nullptr,
                     Scheme scheme = Scheme::phased)
         : world(scene(degrees, brightness),
-                [&](const Scene& posed, const RayScene&, const ProgressCallback& watch) {
-                    return same ? same->world.atlas : make_atlas(posed, {.size = 32}, watch);
+                [&](const Scene& posed, const RayScene&, const ProgressCallback& progress) {
+                    return same ? same->world.atlas : make_atlas(posed, {.size = 32}, progress);
                 }),
           options{.scheme = scheme},
           resident(world.scene, world.rays, world.lumels, {.method = options}),

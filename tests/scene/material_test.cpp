@@ -278,7 +278,7 @@ TEST(Materials, TransmissionLetsTheBaseColourThrough)
                               {"extensions", {{"KHR_materials_transmission", transmission}}}})
             .read();
     };
-    const auto passing = [&](const char* mode, float alpha, float factor) {
+    const auto transmittance = [&](const char* mode, float alpha, float factor) {
         const Scene scene = scene_of(mode, alpha, {{"transmissionFactor", factor}});
         const MaterialSample sample = sample_material(scene, 0, kNowhere, glm::vec4(1));
         return (1.0f - sample.opacity) * sample.tint;
@@ -287,12 +287,12 @@ TEST(Materials, TransmissionLetsTheBaseColourThrough)
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(value[c], truth[c], 1e-6f);
     };
-    expect(passing("OPAQUE", 0.3f, 0.0f), {0.0f, 0.0f, 0.0f});
-    expect(passing("OPAQUE", 0.3f, 1.0f), {1.0f, 0.5f, 0.0f});
-    expect(passing("OPAQUE", 0.3f, 0.8f), {0.8f, 0.4f, 0.0f});
-    expect(passing("MASK", 0.3f, 0.8f), {1.0f, 1.0f, 1.0f});
-    expect(passing("BLEND", 0.25f, 0.0f), {0.75f, 0.75f, 0.75f});
-    expect(passing("BLEND", 0.25f, 0.8f), {0.95f, 0.85f, 0.75f});
+    expect(transmittance("OPAQUE", 0.3f, 0.0f), {0.0f, 0.0f, 0.0f});
+    expect(transmittance("OPAQUE", 0.3f, 1.0f), {1.0f, 0.5f, 0.0f});
+    expect(transmittance("OPAQUE", 0.3f, 0.8f), {0.8f, 0.4f, 0.0f});
+    expect(transmittance("MASK", 0.3f, 0.8f), {1.0f, 1.0f, 1.0f});
+    expect(transmittance("BLEND", 0.25f, 0.0f), {0.75f, 0.75f, 0.75f});
+    expect(transmittance("BLEND", 0.25f, 0.8f), {0.95f, 0.85f, 0.75f});
 
     const Scene scene = scene_of("OPAQUE", 1.0f, {{"transmissionFactor", 1}});
     EXPECT_TRUE(may_be_transparent(scene.materials[0], scene.meshes[0].primitives[0]));

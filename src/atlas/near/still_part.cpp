@@ -11,7 +11,7 @@
 namespace lumel {
 namespace {
 
-/// Lengths may change by this much over a move that counts as rigid: transforms come as floats.
+/// Relative change of lengths allowed for a rigid move: transforms are floats.
 constexpr float kStretch = 1e-3f;
 
 float volume_of(const MovedBox& box)
@@ -74,7 +74,7 @@ std::vector<MovedBox> around(const MovedBox& before, const MovedBox& after)
 bool is_open(const Scene& scene, std::uint32_t instance)
 {
     using Point = std::array<float, 3>;
-    std::map<std::pair<Point, Point>, int> joins;  // directed edges, and back: they cancel out
+    std::map<std::pair<Point, Point>, int> joins;  // directed edges; opposite ones cancel
     for (const Primitive& primitive : scene.meshes[scene.instances[instance].mesh].primitives) {
         if (scene.materials[primitive.material].double_sided)
             continue;

@@ -9,7 +9,7 @@
 namespace lumel {
 namespace {
 
-/// How far the work is, roughly, when its parts end.
+/// Approximate progress at the end of each stage.
 constexpr double kRaysReady = 0.1, kLaidOut = 0.3, kLifted = 0.5;
 
 bool is_black(const glm::vec3& light)
@@ -17,7 +17,7 @@ bool is_black(const glm::vec3& light)
     return light == glm::vec3(0.0f);
 }
 
-/// Whether anything sends light at all; whether it meets a surface is another question.
+/// True if there is any light source, whether or not it lights a surface.
 bool gives_light(const Scene& scene)
 {
     const auto shines = [](const PunctualLight& light) {
@@ -56,29 +56,29 @@ void check_camera(const Scene& scene, int camera)
                                  : "the scene's cameras are 0 to " + std::to_string(cameras - 1));
 }
 
-Prepared::Prepared(Scene given, const AtlasOptions& options, const ProgressCallback& watch)
+Prepared::Prepared(Scene given, const AtlasOptions& options, const ProgressCallback& progress)
     : Prepared(
           std::move(given),
           [&](const Scene& placed, const RayScene& among, const ProgressCallback& part) {
               return make_atlas(placed, options, part, shows_both(options.sides, among));
           },
-          {}, watch)
+          {}, progress)
 {
 }
 
 Prepared::Prepared(Scene given, const LayOut& lay_out, const Bury& bury,
-                   const ProgressCallback& watch)
+                   const ProgressCallback& progress)
     : scene(std::move(given)),
       rays(scene),
-      atlas(lay_out(scene, rays, part_of(watch, kRaysReady, kLaidOut))),
-      lumels(make_lumels(scene, atlas, part_of(watch, kLaidOut, kLifted)))
+      atlas(lay_out(scene, rays, part_of(progress, kRaysReady, kLaidOut))),
+      lumels(make_lumels(scene, atlas, part_of(progress, kLaidOut, kLifted)))
 {
     if (lumels.lumels.empty())
         throw Error(ErrorKind::input, scene.path,
                     "has no surface that light could fall on: nothing is drawn, or all of it is "
                     "cut out");
     open = bury ? bury(scene, rays, lumels)
-                : mark_buried(scene, rays, lumels, {}, part_of(watch, kLifted, 1.0));
+                : mark_buried(scene, rays, lumels, {}, part_of(progress, kLifted, 1.0));
 }
 
 Prepared::Prepared(const std::string& scene_path, const AtlasOptions& options)

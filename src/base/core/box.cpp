@@ -6,10 +6,10 @@
 namespace lumel {
 namespace {
 
-/// Directions have no smaller parts, so that their inverses are finite.
+/// Minimum magnitude of a direction component, so that inverses are finite.
 constexpr float kMinPart = 1e-20f;
 
-/// Leaves of first <= t <= last what fulfils a + t (b - a) <= most.
+/// Clips first <= t <= last to a + t (b - a) <= most.
 void keep_below(float a, float b, float most, float& first, float& last)
 {
     if (a <= most && b <= most)

@@ -1,27 +1,27 @@
 #pragma once
-// Boxes along the axes.
+// Axis-aligned boxes.
 
 #include <glm/glm.hpp>
 
 namespace lumel {
 
-/// A box along the axes [m].
+/// An axis-aligned box [m].
 struct Box {
     glm::vec3 low{0.0f}, high{0.0f};
 
     glm::vec3 centre() const { return 0.5f * (low + high); }
-    float radius() const { return 0.5f * glm::distance(low, high); }  ///< of the ball around it
+    float radius() const { return 0.5f * glm::distance(low, high); }  ///< bounding radius
 
-    /// May a ray along `direction` (unit) meet the box, grown by `margin` [m] to all sides, before
-    /// `far` [m]?
+    /// True if a ray along `direction` (unit) may hit the box, grown by `margin` [m] on all sides,
+    /// before `far` [m].
     bool may_meet(const glm::vec3& origin, const glm::vec3& direction, float far,
                   float margin) const;
 
-    /// May a line from a point of one box to one of another meet this one? Exactly so for boxes: as
-    /// the line goes on, all places it may have are a box that changes from the one to the other.
+    /// True if a segment from a point of `from` to a point of `to` can intersect this box. Exact:
+    /// the possible positions at each segment parameter are a box, interpolated between the two.
     bool may_lie_between(const Box& from, const Box& to) const;
 
-    /// The same, grown by a margin [m] to all sides.
+    /// The box grown by a margin [m] on all sides.
     Box grown(float margin) const { return {low - margin, high + margin}; }
 
     /// Squared distance of a point from the box [m²], 0 inside.

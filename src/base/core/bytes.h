@@ -1,5 +1,5 @@
 #pragma once
-// Bytes that arrays take.
+// Memory of arrays.
 
 #include <cstdint>
 #include <vector>

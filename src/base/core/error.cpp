@@ -5,7 +5,7 @@
 namespace lumel {
 namespace {
 
-// A file's own text or a library's message may hold bytes that end a line or drive a terminal.
+// File contents and library messages may have bytes that end a line or control a terminal.
 bool is_control(char c)
 {
     constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7F;

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// [bytes] Twice what a .glb can hold.
+/// [bytes] Twice the largest .glb.
 constexpr std::streamoff kLargestFile = std::streamoff(1) << 33;
 
 }  // namespace
@@ -53,7 +53,7 @@ void write_bytes(const std::string& path, std::span<const std::byte> bytes)
                                                          &std::fclose);
     const bool written =
         file && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-    // A full disk may show only when the last buffer is flushed.
+    // A full disk may be reported only when the last buffer is flushed.
     const bool flushed = written && std::fclose(file.release()) == 0;
     if (!flushed)
         throw Error(ErrorKind::output, path,

@@ -1,6 +1,5 @@
 #pragma once
-// A hash that distinguishes contents: FNV-1a over 64-bit words. It guards against mistakes, not
-// against intent.
+// Content hash: FNV-1a over 64-bit words. Guards against mistakes, not against attacks.
 
 #include <algorithm>
 #include <cstddef>
@@ -63,7 +62,7 @@ public:
     }
 
 private:
-    // The fold carries high bits down, which whole words need.
+    // The shift mixes high bits into low ones, which FNV-1a over words needs.
     void add_word(std::uint64_t word)
     {
         constexpr std::uint64_t kPrime = 0x100000001b3u;

@@ -15,7 +15,7 @@ inline glm::mat3 frame_about(const glm::vec3& axis)
     return {t, glm::cross(axis, t), axis};
 }
 
-/// The side of a cube that a direction leads out of: 0 to 5 for +x, -x, +y, -y, +z, -z.
+/// The cube face that a direction points to: 0 to 5 for +x, -x, +y, -y, +z, -z.
 inline int cube_side(const glm::vec3& direction)
 {
     const glm::vec3 size = glm::abs(direction);

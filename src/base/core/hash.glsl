@@ -1,7 +1,7 @@
 #ifndef LUMEL_CORE_HASH_GLSL
 #define LUMEL_CORE_HASH_GLSL
 
-// Integer hashing and conversion to floats.
+// Integer hashes and their conversion to floats.
 
 // A bijection of 32 bits with good avalanche (the "lowbias32" constants of C. Wellons).
 uint hash(uint x)

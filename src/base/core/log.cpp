@@ -12,12 +12,12 @@ namespace {
 spdlog::logger& logger()
 {
     static const std::shared_ptr<spdlog::logger> instance = [] {
-        // Colours where stderr is a terminal, unless the user wants none (no-color.org).
+        // Colours if stderr is a terminal and the user permits them (no-color.org).
         const auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
         if (const char* no_color = std::getenv("NO_COLOR"); no_color && *no_color)
             sink->set_color_mode(spdlog::color_mode::never);
         auto made = std::make_shared<spdlog::logger>("lumel", sink);
-        // At a terminal a progress line may stand where the message goes: wipe it first.
+        // On a terminal, erases a progress line first.
         made->set_pattern(isatty(STDERR_FILENO) == 1 ? "\r\033[K%^%l%$: %v" : "%^%l%$: %v");
         return made;
     }();

@@ -1,5 +1,5 @@
 #pragma once
-// Messages to the person at the terminal, on stderr.
+// Messages to the user, on stderr.
 
 #include <string>
 #include <string_view>
@@ -7,14 +7,14 @@
 
 namespace lumel {
 
-/// A fact worth knowing. Hidden by set_quiet(true).
+/// Information. Hidden by set_quiet(true).
 void log_info(std::string_view message);
-/// Something the user may want to change. Shown also when quiet.
+/// A warning that the user may act on. Shown even when quiet.
 void log_warning(std::string_view message);
-/// Hides log_info from now on.
+/// Hides or shows log_info.
 void set_quiet(bool quiet);
 
-/// While it lives, messages of this thread are kept here instead of shown.
+/// Collects this thread's messages during its lifetime instead of printing them.
 class LogCapture {
 public:
     LogCapture();
@@ -27,7 +27,7 @@ public:
 
 private:
     std::vector<std::string> messages_;
-    LogCapture* outer_;  ///< that this one stands in for
+    LogCapture* outer_;  ///< enclosing capture, restored at the end
 };
 
 }  // namespace lumel

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers written in text, whatever the user's language.
+// Parses numbers, independent of the locale.
 
 #include <charconv>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// The finite number that the whole text represents; nothing if it is not one.
+/// The finite number that `text` represents as a whole; nullopt otherwise.
 inline std::optional<double> number_of(std::string_view text)
 {
     if (text.starts_with('+'))

@@ -1,22 +1,23 @@
 #pragma once
-// How long work tells how far it is, and hears that it should end.
+// Progress callback for long operations; throwing from it cancels the work.
 
 #include <functional>
 
 namespace lumel {
 
-/// Receives how far some work is, 0…1, on the thread that began it, again and again. What it throws
-/// ends the work. May be empty.
+/// Receives the finished fraction, 0…1, repeatedly and on the thread that started the work. An
+/// exception from it ends the work. May be empty.
 using ProgressCallback = std::function<void(double fraction)>;
 
-/// Tells a watch, if there is one.
-inline void tell(const ProgressCallback& watch, double fraction)
+/// Calls `progress` unless it is empty.
+inline void notify(const ProgressCallback& progress, double fraction)
 {
-    if (watch)
-        watch(fraction);
+    if (progress)
+        progress(fraction);
 }
 
-/// A watch over a part of the work: from `begin` to `end` of the whole. `whole` must outlive it.
+/// Maps the progress of one part of the work to `begin`…`end` of the whole. `whole` must outlive
+/// the result.
 inline ProgressCallback part_of(const ProgressCallback& whole, double begin, double end)
 {
     if (!whole)

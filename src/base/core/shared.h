@@ -1,9 +1,9 @@
 #ifndef LUMEL_BASE_CORE_SHARED_H
 #define LUMEL_BASE_CORE_SHARED_H
 
-// The one header that both compilers read. A *.shared.h file includes it first, then declares
-// plain structs and constants; C++ and GLSL see the same names, order and offsets (scalar block
-// layout: every member sits at its natural C offset, a vec3 is 12 bytes, there is no padding).
+// Included first by every *.shared.h file, for C++ and GLSL. Those files declare plain structs and
+// constants with the same names, order and offsets in both (scalar block layout: every member at
+// its natural C offset, a vec3 is 12 bytes, no padding).
 
 // clang-format off
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 #pragma once
-// Maps of the unit square to directions. Even points give even directions.
+// Maps from the unit square to directions that preserve uniform distributions.
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// A unit direction, evenly spread over the sphere as `at` is over [0, 1)². at.x goes from +z down
-/// to -z, at.y once around.
+/// Unit direction; uniform over the sphere for uniform `at`. at.x goes from +z to -z, at.y is the
+/// azimuth.
 inline glm::vec3 on_sphere(const glm::vec2& at)
 {
     const float z = 1.0f - 2.0f * at.x, r = std::sqrt(std::max(1.0f - z * z, 0.0f));
@@ -18,7 +18,7 @@ inline glm::vec3 on_sphere(const glm::vec2& at)
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-/// The same over the cone of half angle `angle` [rad] about +z, exact for narrow ones too.
+/// Uniform over the cone of half angle `angle` [rad] about +z; accurate for narrow cones too.
 inline glm::vec3 in_cone(const glm::vec2& at, float angle)
 {
     const float half_sine = std::sin(0.5f * angle);
@@ -28,7 +28,7 @@ inline glm::vec3 in_cone(const glm::vec2& at, float angle)
     return {r * std::cos(turn), r * std::sin(turn), 1.0f - down};
 }
 
-/// The same over the hemisphere about +z, as dense as the cosine to it.
+/// Cosine-distributed over the hemisphere about +z.
 inline glm::vec3 by_cosine(const glm::vec2& at)
 {
     const float r = std::sqrt(at.x), turn = 2.0f * std::numbers::pi_v<float> * at.y;

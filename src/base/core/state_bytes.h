@@ -1,6 +1,6 @@
 #pragma once
-// The state of work as bytes, for the same program to go on from later. What holds state names it
-// once, for both directions:
+// Serialised state of a computation, to be continued by the same program. A class lists its state
+// once for both directions:
 //
 //     template <class Archive>
 //     void state(Archive& archive) { archive(count_, values_); }
@@ -20,7 +20,7 @@
 
 namespace lumel {
 
-/// What has no state of its own is written as it lies in memory.
+/// Types without a state() are written as raw memory.
 template <class T, class Archive>
 concept HasState = requires(T value, Archive archive)
 {
@@ -30,7 +30,7 @@ template <class T, class Archive>
 concept IsPlain =
     !HasState<T, Archive> && std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>;
 
-/// Writes values; a stream that fails stays failed.
+/// Writes values. After a failure the stream remains failed.
 class StateWriter {
 public:
     explicit StateWriter(std::ostream& to) : to_(to) {}
@@ -40,7 +40,7 @@ public:
     {
         (write(values), ...);
     }
-    /// The last: lets the reader find damage. Call once.
+    /// Appends the checksum. Call once, last.
     void finish()
     {
         const std::uint64_t all = sum_.value();
@@ -98,11 +98,10 @@ private:
     Fingerprint sum_;
 };
 
-/// Reads what a StateWriter has written. Throws Error{input} where it cannot have been.
+/// Reads the output of a StateWriter. Throws Error{input} if it is damaged.
 class StateReader {
 public:
-    /// `size`: bytes that the stream has. where: its name, and damage: what is wrong with it, for
-    /// messages.
+    /// `size`: length of the stream [bytes]. where: its name, and damage: the reason, for messages.
     StateReader(std::istream& from, std::uint64_t size, std::string where,
                 std::string damage = "is damaged")
         : from_(from),
@@ -117,7 +116,7 @@ public:
     {
         (read(values), ...);
     }
-    /// To be called before anything that was read is relied on.
+    /// Verifies the checksum. Call before using the values.
     void finish()
     {
         const std::uint64_t all = sum_.value();
@@ -127,10 +126,10 @@ public:
             fail();
     }
 
-    /// Has all been read?
+    /// True if all bytes are read.
     bool at_end() const { return left_ == 0; }
 
-    /// Throws as for damage.
+    /// Throws the error of damaged bytes.
     [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, damage_); }
 
 private:
@@ -141,7 +140,8 @@ private:
         left_ -= size;
         sum_.add_bytes(data, size);
     }
-    /// Of something with `least` bytes for each at least: damage must not ask for much memory.
+    /// Reads an element count. `least`: minimum bytes per element, so that damaged counts do not
+    /// allocate much memory.
     std::uint64_t count(std::uint64_t least)
     {
         std::uint64_t size = 0;

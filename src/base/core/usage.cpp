@@ -48,7 +48,7 @@ std::uint64_t available_memory_bytes()
 
 std::uint64_t peak_memory_bytes()
 {
-    constexpr std::uint64_t kKibibyte = 1024;  // the unit of ru_maxrss on Linux
+    constexpr std::uint64_t kKibibyte = 1024;  // unit of ru_maxrss on Linux
     return static_cast<std::uint64_t>(own_usage().ru_maxrss) * kKibibyte;
 }
 

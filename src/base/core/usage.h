@@ -1,21 +1,21 @@
 #pragma once
-// What the process has cost so far.
+// Resources used by the process.
 
 #include <cstdint>
 
 namespace lumel {
 
-/// Processor time of all threads, user and system together [s]. A software Vulkan device computes
-/// in this process, so its work is included.
+/// CPU time of all threads, user and system together [s]. Includes software Vulkan devices, which
+/// compute in this process.
 double cpu_seconds();
 
 /// Steady wall-clock time [s], from an arbitrary origin.
 double wall_seconds();
 
-/// Memory that programs can still have, without swapping [bytes]; 0 where nobody says.
+/// Memory available to programs without swapping [bytes]; 0 if unknown.
 std::uint64_t available_memory_bytes();
 
-/// Largest resident memory so far [bytes].
+/// Peak resident memory [bytes].
 std::uint64_t peak_memory_bytes();
 
 }  // namespace lumel

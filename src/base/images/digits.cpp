@@ -7,8 +7,8 @@
 namespace lumel {
 namespace {
 
-constexpr int kWidth = 5, kHeight = 7;  ///< of a glyph [pixels]
-constexpr int kAdvance = kWidth + 1;    ///< from one to the next
+constexpr int kWidth = 5, kHeight = 7;  ///< glyph size [pixels]
+constexpr int kAdvance = kWidth + 1;    ///< distance between glyphs
 
 /// Rows from the top, five bits each, the left pixel first.
 using Glyph = std::array<std::uint8_t, kHeight>;

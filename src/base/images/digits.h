@@ -1,5 +1,5 @@
 #pragma once
-// Numbers written into pictures.
+// Numbers drawn into images.
 
 #include <string_view>
 
@@ -9,11 +9,10 @@
 
 namespace lumel {
 
-/// Size of a text of digits, '.', 'l', 'x', '%' and spaces, each pixel of which is scale × scale
-/// pixels.
+/// Size [pixels] of a text of digits, '.', 'l', 'x', '%' and spaces, magnified by `scale`.
 glm::ivec2 text_size(std::string_view text, int scale);
 
-/// Writes it with its top left corner at `at`; what lies outside of the image is left out.
+/// Draws `text` with its top left corner at `at`, clipped to the image.
 void draw_text(Image& image, const glm::ivec2& at, std::string_view text, int scale,
                const glm::vec3& color);
 

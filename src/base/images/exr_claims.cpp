@@ -18,14 +18,14 @@ constexpr std::int64_t kMaxSide = std::int64_t(1) << 24;
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kSeveralParts = 0x1000;
 
-// How many bytes a form of compression packs into one at most. Deflate's limit is 1032, runs and
-// Huffman codes stay below, and DWA puts a cosine transform before it. Of 0 … 9: none, RLE, ZIPS,
-// ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB.
+// Maximum compression ratio per method. Deflate's limit is 1032; run-length and Huffman codes stay
+// below; DWA applies a cosine transform first. Methods 0 … 9: none, RLE, ZIPS, ZIP, PIZ, PXR24,
+// B44, B44A, DWAA, DWAB.
 constexpr std::int64_t kDeflateRatio = 1 << 11, kDwaRatio = 1 << 17;
 constexpr std::uint8_t kFirstDwa = 8;
-constexpr std::int64_t kMaxLinesOfChunk = 256;                // that DWAB packs together
-constexpr std::int64_t kAlwaysTaken = std::int64_t(1) << 20;  // [bytes] whatever the file has
-constexpr std::int64_t kOffsetBytes = 8;                      // of a chunk, in a table
+constexpr std::int64_t kMaxLinesOfChunk = 256;                // lines per chunk of DWAB
+constexpr std::int64_t kAlwaysTaken = std::int64_t(1) << 20;  // [bytes] allowed for any file
+constexpr std::int64_t kOffsetBytes = 8;                      // table entry of a chunk
 
 /// Values of a file, in their order.
 class Values {
@@ -78,12 +78,12 @@ private:
     const std::string* path_;
 };
 
-/// Of one part.
+/// Claims of one part.
 struct Claims {
     std::int64_t width = 1, height = 1;            ///< [texels]
     std::int64_t tile_width = 0, tile_height = 0;  ///< 0: no tiles
-    std::int64_t texel_bytes = 1;                  ///< of all channels, unpacked
-    std::int64_t chunks = 0;                       ///< as stated, 0: not
+    std::int64_t texel_bytes = 1;                  ///< all channels, uncompressed
+    std::int64_t chunks = 0;                       ///< as stated; 0: not stated
     std::int64_t ratio = kDeflateRatio;
 };
 
@@ -92,7 +92,7 @@ struct FixedType {
     std::int64_t bytes;
 };
 
-/// Types whose values the reader takes to be as long as they should be, whatever their size says.
+/// Types whose values the reader assumes to have their nominal size, whatever the file states.
 constexpr FixedType kFixedTypes[] = {
     {"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
     {"compression", 1}, {"double", 8},   {"envmap", 1},
@@ -118,7 +118,7 @@ std::int64_t bytes_per_texel(Values channels)
     return std::max(bytes, std::int64_t(1));
 }
 
-/// Texels from the first to the last of a window's side.
+/// Number of texels of a window's side.
 std::int64_t side(std::int32_t first, std::int32_t last)
 {
     return std::int64_t(last) - first + 1;
@@ -165,7 +165,7 @@ void read_attribute(std::string_view name, std::string_view type, std::int64_t s
     }
 }
 
-/// Reads one header; false if it is empty.
+/// Reads one header. Returns false if it is empty.
 bool read_header(Values& file, Claims& claims)
 {
     bool any = false;
@@ -178,7 +178,7 @@ bool read_header(Values& file, Claims& claims)
     return any;
 }
 
-/// Chunks that the file must have an offset for, at least.
+/// Minimum number of chunk offsets in the file.
 std::int64_t fewest_chunks(const Claims& claims)
 {
     const auto parts = [](std::int64_t size, std::int64_t of) { return (size + of - 1) / of; };
@@ -193,7 +193,7 @@ bool is_possible(const Claims& claims, std::int64_t bytes)
 {
     if (fewest_chunks(claims) > bytes / kOffsetBytes)
         return false;
-    // The reader takes memory for all texels, and for a chunk: a tile, or a row of them.
+    // The reader allocates all texels and one chunk: a tile, or a row of tiles.
     const std::int64_t most = std::max(claims.ratio * bytes, kAlwaysTaken) / claims.texel_bytes;
     const std::int64_t lines = claims.tile_height > 0 ? claims.tile_height : kMaxLinesOfChunk;
     return claims.width * claims.height <= most && lines <= most / claims.width &&

@@ -1,5 +1,5 @@
 #pragma once
-// What the header of an EXR file says of its size, before anybody takes memory for it.
+// Checks of the sizes in the header of an EXR file, before memory is allocated for them.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// Throws Error{input} if a header is cut short, or claims more than the bytes of the file can hold
-/// or than is ever read: attributes, texels, tiles, chunks. `path` names the file.
+/// Throws Error{input} if a header is truncated, or claims more attributes, texels, tiles or chunks
+/// than the file can hold or Lumel supports. `path` names the file.
 void check_exr_claims(const Bytes& bytes, const std::string& path);
 
 }  // namespace lumel

@@ -1,4 +1,4 @@
-// EXR through OpenEXR: one part, scan lines, ZIP, linear values.
+// EXR files by OpenEXR: one part, scan lines, ZIP, linear values.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ namespace lumel {
 namespace {
 
 constexpr std::array<const char*, 4> kChannels = {"R", "G", "B", "A"};
-// Collects the file in memory, so that it can be written, and fail, in one place.
+// Collects the file in memory; write_bytes() then writes it and reports failures.
 class MemoryStream : public Imf::OStream {
 public:
     MemoryStream() : Imf::OStream("memory") {}
@@ -50,7 +50,7 @@ private:
     std::size_t place_ = 0;
 };
 
-// A file in memory, as OpenEXR reads it.
+// A file in memory, for OpenEXR to read.
 class MemoryFile : public Imf::IStream {
 public:
     MemoryFile(const std::string& path, const Bytes& bytes)
@@ -74,7 +74,7 @@ private:
     std::size_t place_ = 0;
 };
 
-// A slice that reads or writes channel c of interleaved texels whose data window starts at (x, y).
+// A slice for channel c of interleaved texels; the data window starts at (x, y).
 template <class T>
 Imf::Slice slice_of(Imf::PixelType type, T* values, int channels, int width, int c, int x, int y,
                     double fill = 0.0)
@@ -92,19 +92,19 @@ std::string channel_name(const std::string& layer, int c)
 
 std::vector<half> to_half(const std::vector<float>& values)
 {
-    // What is brighter than half's largest number stays at it: infinity would spoil filtering.
+    // Clamps to half's range: infinity would spoil filtering.
     std::vector<half> halves(values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
         halves[i] = half(std::clamp(values[i], -float(HALF_MAX), float(HALF_MAX)));
     return halves;
 }
 
-// Values of a file's images, converted, and the slices that point to them.
+// Converted values of a file's images, and the slices that refer to them.
 class Planes {
 public:
     Planes(Imf::Header& header, Precision precision) : header_(header), precision_(precision) {}
 
-    // `image` must stay where it is.
+    // `image` must outlive this and not move.
     void add(const std::string& layer, const Image& image, int channels)
     {
         if (precision_ == Precision::float16) {
@@ -118,7 +118,7 @@ public:
     void write(MemoryStream& stream) const
     {
         const int threads = int(std::thread::hardware_concurrency());
-        Imf::setGlobalThreadCount(threads);  // the bytes do not depend on it
+        Imf::setGlobalThreadCount(threads);  // does not affect the bytes
         Imf::OutputFile file(stream, header_, threads);
         file.setFrameBuffer(frame_);
         file.writePixels(header_.dataWindow().max.y + 1);

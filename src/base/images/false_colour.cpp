@@ -11,7 +11,7 @@
 namespace lumel {
 namespace {
 
-/// sRGB, as in page/viewer/colours.js.
+/// sRGB colours, as in page/viewer/colours.js.
 constexpr std::array<std::array<float, 3>, 7> kAnchors = {{{38, 16, 82},
                                                            {46, 62, 140},
                                                            {32, 108, 142},
@@ -20,19 +20,20 @@ constexpr std::array<std::array<float, 3>, 7> kAnchors = {{{38, 16, 82},
                                                            {166, 219, 53},
                                                            {253, 231, 37}}};
 constexpr float kMaxCode = 255.0f;
-constexpr std::array<double, 3> kSteps = {1.0, 2.0, 5.0};  ///< in a decade
-constexpr double kRounding = 1e-3;                         ///< that a tick may lie beside the scale
-constexpr double kLowShare = 0.02, kHighShare = 0.995;     ///< of the lit values that are on it
-constexpr double kMaxRange = 1e4, kMinRange = 10.0;        ///< high / low
+constexpr std::array<double, 3> kSteps = {1.0, 2.0, 5.0};  ///< ticks per decade
+constexpr double kRounding = 1e-3;  ///< relative tolerance for ticks at the ends
+constexpr double kLowShare = 0.02,
+                 kHighShare = 0.995;                 ///< percentiles at the ends
+constexpr double kMaxRange = 1e4, kMinRange = 10.0;  ///< high / low
 
 constexpr glm::vec3 kPaper{1.0f}, kInk{0.1f}, kNothing{0.55f};
 
 // The legend [pixels].
 constexpr int kMargin = 12, kBarWidth = 20, kTickLength = 5, kTextScale = 2;
 constexpr int kLegendWidth = 120;  ///< margins, bar, tick and six digits
-constexpr int kMinHeight = 240;    ///< in which the numbers of four decades have room
+constexpr int kMinHeight = 240;    ///< fits the numbers of four decades
 
-/// The next of 1, 2 and 5 times a power of ten.
+/// The next larger 1, 2 or 5 times a power of ten.
 double rounded_up(double lux)
 {
     const double decade = std::pow(10.0, std::floor(std::log10(lux)));
@@ -48,7 +49,7 @@ void paint(Image& image, int x, int y, const glm::vec3& color)
         image.at(x, y)[c] = color[c];
 }
 
-/// The bar, from high down to low, with a tick and a number for each of the scale's.
+/// Draws the bar, high values on top, with a tick and a number for each of the scale's ticks.
 void draw_legend(Image& image, int left, const LuxScale& scale, std::string_view name)
 {
     const glm::ivec2 unit = text_size(name, kTextScale);
@@ -64,7 +65,7 @@ void draw_legend(Image& image, int left, const LuxScale& scale, std::string_view
         const int y = bottom - int(std::lround(scale.place_of(lux) * (bottom - top)));
         for (int x = ticks; x < ticks + kTickLength; ++x)
             paint(image, x, y, kInk);
-        if (last - y < unit.y + kTextScale)  // no room beside the number below
+        if (last - y < unit.y + kTextScale)  // no space beside the number below
             continue;
         last = y;
         draw_text(image, {ticks + kTickLength + 2 * kTextScale, y - unit.y / 2}, tick_text(lux),
@@ -76,7 +77,7 @@ void draw_legend(Image& image, int left, const LuxScale& scale, std::string_view
 
 double LuxScale::place_of(double lux) const
 {
-    constexpr double kDark = 1e-9;  // [lx] that has a logarithm
+    constexpr double kDark = 1e-9;  // [lx] lower limit for the logarithm
     return std::log(std::max(lux, kDark) / low) / std::log(high / low);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Illuminance as colours, with a legend: the scale of pages (page/viewer/colours.js).
+// Illuminance in false colours with a legend; the scale is that of pages (page/viewer/colours.js).
 
 #include <span>
 #include <string>
@@ -12,30 +12,31 @@
 
 namespace lumel {
 
-/// Equal steps for equal ratios.
+/// Logarithmic scale.
 struct LuxScale {
     double low = 0.1, high = 1.0;  ///< [lx]
 
     double place_of(double lux) const;  ///< 0 at low, 1 at high
     double lux_at(double place) const;
-    /// Numbers of the form 1, 2 and 5 times a power of ten that lie on it, rising [lx].
+    /// Ticks: 1, 2 and 5 times powers of ten within the scale, ascending [lx].
     std::vector<double> ticks() const;
 };
 
-/// From 2 to 99.5 % of what is above 0, in numbers of the same form, a decade or more.
+/// Scale from the 2nd to the 99.5th percentile of positive values, rounded to ticks; at least a
+/// decade.
 LuxScale scale_for(std::span<const float> lux);
 
-/// sRGB code 0…1 of a place of the scale: blue, green, yellow, of rising lightness.
+/// sRGB code 0…1 of a position on the scale: blue, green, yellow, with increasing lightness.
 glm::vec3 scale_color(double place);
 
-/// A tick as the legend writes it: "0.05", "200", "10000".
+/// Text of a tick in the legend: "0.05", "200", "10000".
 std::string tick_text(double lux);
 
-/// One channel of lux, less than 0 where there is nothing (grey), as a picture of 3 channels,
-/// display-referred.
+/// Display-referred image with 3 channels. lux: one channel, negative where there is no
+/// surface, which becomes grey.
 Image colours_of(const Image& lux, const LuxScale& scale);
 
-/// The same with the scale and its numbers beside it, in lux or in another unit: "%".
+/// As colours_of, with a legend of the scale in `unit`.
 Image false_colour(const Image& lux, const LuxScale& scale, std::string_view unit = "lx");
 
 }  // namespace lumel

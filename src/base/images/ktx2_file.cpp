@@ -1,7 +1,7 @@
 // KTX 2.0: one level of floating-point texels, compressed by Zstandard.
 //
-// The format is that of the Khronos KTX File Format Specification, version 2.0; its data format
-// descriptor is that of the Khronos Data Format Specification 1.3.
+// Follows the Khronos KTX File Format Specification 2.0; its data format descriptor follows the
+// Khronos Data Format Specification 1.3.
 
 #include <algorithm>
 #include <array>
@@ -24,15 +24,15 @@ constexpr std::array<std::uint8_t, 12> kIdentifier = {0xAB, 'K',  'T',  'X',  ' 
 constexpr std::uint32_t kHeaderSize = 104;  // identifier, header, index and one level [bytes]
 constexpr std::uint32_t kZstandard = 2;     // supercompressionScheme
 
-// Beyond this, files hardly become smaller.
+// Higher levels hardly reduce the size.
 constexpr int kCompressionLevel = 9;
 
-// Of the data format descriptor.
+// Data format descriptor.
 constexpr std::uint32_t kBasicBlockSize = 24, kSampleSize = 16;  // [bytes]
 constexpr std::uint8_t kModelRgb = 1, kPrimariesRec709 = 1, kTransferLinear = 1;
 constexpr std::uint8_t kFloat = 0x80, kSigned = 0x40, kExponent = 0x20, kAlpha = 15;
 
-// Of shared exponents, as EXT_texture_shared_exponent has them.
+// Shared exponents, as in EXT_texture_shared_exponent.
 constexpr int kMantissaBits = 9, kExponentBits = 5, kExponentBias = 15;
 constexpr float kLargestShared = 65408.0f;  // (2^9 - 1) / 2^9 * 2^(31 - 15)
 
@@ -51,17 +51,17 @@ private:
     std::vector<unsigned char> bytes_;
 };
 
-// A channel, or the exponent of one, within a texel.
+// A channel, or its exponent, within a texel.
 struct Sample {
     std::uint32_t offset = 0, length = 0;  // [bits]
-    std::uint8_t channel = 0;              // with its qualifiers
-    std::uint32_t lower = 0, upper = 0;    // what stands for 0 (or -1) and for 1
+    std::uint8_t channel = 0;              // with qualifiers
+    std::uint32_t lower = 0, upper = 0;    // codes of 0 (or -1) and of 1
 };
 
-// What the header says of texels.
+// Texel format fields of the header.
 struct TexelLayout {
     std::uint32_t vulkan_format = 0;
-    std::uint32_t word_size = 0;   // of the numbers that byte order matters to [bytes]
+    std::uint32_t word_size = 0;   // unit of byte order [bytes]
     std::uint32_t texel_size = 0;  // [bytes]
     std::vector<Sample> samples;
 };
@@ -78,7 +78,7 @@ TexelLayout half_layout()
 
 TexelLayout shared_exponent_layout()
 {
-    // The specification's numbers for this format.
+    // The specification's values for this format.
     constexpr std::uint32_t kOne = 8448, kLargestExponent = 31;
     TexelLayout layout{.vulkan_format = 123, .word_size = 4, .texel_size = 4, .samples = {}};
     for (const std::uint32_t c : {0, 1, 2}) {
@@ -94,16 +94,16 @@ void add_descriptor(LittleEndian& out, const TexelLayout& layout)
     const std::uint32_t size = kBasicBlockSize + kSampleSize * std::uint32_t(layout.samples.size());
     out.word(4 + size);
     out.word(0);                 // Khronos, basic block
-    out.word(2 | (size << 16));  // of version 1.3
+    out.word(2 | (size << 16));  // version 1.3
     for (const std::uint8_t byte : {kModelRgb, kPrimariesRec709, kTransferLinear, std::uint8_t(0)})
         out.add(byte, 1);
     out.word(0);                    // blocks of one texel
-    out.add(layout.texel_size, 8);  // in one plane
+    out.add(layout.texel_size, 8);  // one plane
     for (const Sample& sample : layout.samples) {
         out.add(sample.offset, 2);
         out.add(sample.length - 1, 1);
         out.add(sample.channel, 1);
-        out.word(0);  // where in the block
+        out.word(0);  // position in the block
         out.word(sample.lower);
         out.word(sample.upper);
     }
@@ -165,7 +165,7 @@ std::vector<unsigned char> encode_ktx2(const Image& image, FloatTexel texel)
     out.all().assign(kIdentifier.begin(), kIdentifier.end());
     for (const std::uint32_t word : {layout.vulkan_format, layout.word_size,
                                      std::uint32_t(image.width), std::uint32_t(image.height), 0u,
-                                     0u, 1u, 1u, kZstandard})  // 2D, no array, a face, a level
+                                     0u, 1u, 1u, kZstandard})  // 2D, no array, one face, one level
         out.word(word);
     for (const std::uint32_t word : {kHeaderSize, descriptor_size, 0u, 0u})
         out.word(word);

@@ -1,13 +1,13 @@
-// From linear light to a display.
+// Tone mapping from linear light to display codes.
 //
 //     x = exposure · value                             per channel
-//     y = x                                            for x ≤ a       (faithful below the
-//     shoulder) y = a + (1 − a) (1 − exp(−(x − a) / (1 − a)))    for x > a       (never reaches 1)
+//     y = x                                            for x ≤ a    (unchanged below the shoulder)
+//     y = a + (1 − a) (1 − exp(−(x − a) / (1 − a)))    for x > a    (never reaches 1)
 //     code = sRGB curve of y                           IEC 61966-2-1
 //
-// The curve and its slope are continuous at a. Exposure puts the bright end of what is lit just
-// below white: the 98th percentile of luminance, but no more than 8 times the median, so that a
-// lamp that fills much of the image does not darken the rest.
+// The curve and its slope are continuous at a. The exposure maps the bright end to just below
+// white: the 98th percentile of luminance, at most 8 times the median, so that a lamp that covers
+// much of the image does not darken the rest.
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace {
 constexpr float kShoulder = 0.6f;          // a
 constexpr float kBrightEnd = 0.9f;         // x of the bright end; y = 0.81, code value 232
 constexpr double kBrightShare = 0.98;      // percentile taken as the bright end
-constexpr float kBrightOverMedian = 8.0f;  // beyond this, it is a lamp and not a lit surface
-constexpr std::size_t kGrain = 4096;       // texels worth a task
+constexpr float kBrightOverMedian = 8.0f;  // beyond this it is a lamp, not a lit surface
+constexpr std::size_t kGrain = 4096;       // texels per task
 
 float luminance(const float* rgb)
 {
@@ -56,7 +56,7 @@ float display_from_linear(float exposed)
 
 float bright_end(const Image& linear)
 {
-    // Black texels carry no information about the brightness of the light.
+    // Black texels have no information about the brightness of the light.
     std::vector<float> lit;
     const std::size_t stride = std::size_t(linear.channels);
     for (std::size_t i = 0; i + stride <= linear.values.size(); i += stride) {

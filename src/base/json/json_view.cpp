@@ -127,7 +127,7 @@ std::size_t JsonView::index(std::size_t size, const char* array) const
 
 std::optional<std::int64_t> whole_number(const Json& value)
 {
-    constexpr double kLargestExact = 9007199254740992.0;  // 2^53; no size in a file comes near
+    constexpr double kLargestExact = 9007199254740992.0;  // 2^53, larger than any size in a file
     const double number = value.is_number() ? value.get<double>() : std::nan("");
     if (!(std::abs(number) <= kLargestExact) || number != std::floor(number))
         return std::nullopt;
@@ -224,7 +224,7 @@ std::string quoted(const std::string& text)
 
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size)
 {
-    // What walks through a document calls itself for each level.
+    // Functions that traverse a document recurse for each level.
     constexpr int kDeepest = 200;
     const auto check_depth = [&](int depth, Json::parse_event_t, const Json&) {
         if (depth > kDeepest)

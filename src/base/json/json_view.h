@@ -1,6 +1,5 @@
 #pragma once
-// A JSON value that keeps its place in the file, so that every wrong type or range becomes a
-// sentence with its place.
+// A JSON value with its location in the file, so that errors of type or range are reported with it.
 
 #include <cstdint>
 #include <functional>
@@ -11,12 +10,11 @@
 
 namespace lumel {
 
-/// Keeps the order of the file's members.
+/// Preserves the order of members.
 using Json = nlohmann::ordered_json;
 
-/// One value of a document. Cheap to copy; the document must outlive it.
-/// Every reading function throws Error{input} with file and JSON pointer if the value is not
-/// of the requested kind.
+/// One value of a document. Cheap to copy; the document must outlive it. Every reading function
+/// throws Error{input} with file and JSON pointer if the value is not of the requested kind.
 class JsonView {
 public:
     JsonView(const std::string& file, const Json& value, std::string pointer = {})
@@ -31,29 +29,29 @@ public:
     std::string place() const;
     const Json& json() const { return *value_; }
 
-    /// Member of an object; nothing if absent.
+    /// Member of an object; nullopt if absent.
     std::optional<JsonView> find(const char* key) const;
-    /// Member of an object that must be there.
+    /// Required member of an object.
     JsonView get(const char* key) const;
-    /// Array behind `key`: calls visit(element, index) for each. Nothing if absent.
+    /// Calls visit(element, index) for each element of the array `key`, if present.
     void each(const char* key,
               const std::function<void(const JsonView&, std::size_t)>& visit) const;
     /// Every element of this array.
     void each(const std::function<void(const JsonView&, std::size_t)>& visit) const;
     /// Length of the array behind `key`, 0 if absent.
     std::size_t count(const char* key) const;
-    /// Element of this array that must be there.
+    /// Required element of this array.
     JsonView at(std::size_t index) const;
-    /// extensions[name] of an object; nothing if absent.
+    /// extensions[name] of an object; nullopt if absent.
     std::optional<JsonView> extension(const char* name) const;
 
     const JsonView& as_object() const;
     const JsonView& as_array() const;
-    /// A whole number in low…high; 3.0 counts as whole.
+    /// An integer in low…high; 3.0 counts as one.
     std::int64_t integer(std::int64_t low, std::int64_t high) const;
     /// An index below `size` into the file's array called `array`.
     std::size_t index(std::size_t size, const char* array) const;
-    /// A number that is finite as float.
+    /// A number that is finite as a float.
     float number() const;
     /// A finite number in low…high.
     double number(double low, double high) const;
@@ -64,7 +62,8 @@ public:
     bool boolean_or(const char* key, bool fallback) const;
     std::string string_or(const char* key, const std::string& fallback) const;
 
-    /// `length` finite numbers behind `key` into `values`. False and untouched if absent.
+    /// Reads `length` finite numbers from `key` into `values`. Returns false without change if
+    /// absent.
     bool numbers(const char* key, float* values, std::size_t length) const;
 
 private:
@@ -75,17 +74,17 @@ private:
     std::string pointer_;
 };
 
-/// Nothing if `value` is no whole number, or one that a double does not hold exactly.
-/// nlohmann's own conversions are undefined for -1.0 and 1e300.
+/// nullopt if `value` is no integer, or one that a double does not represent exactly. nlohmann's
+/// own conversions are undefined for -1.0 and 1e300.
 std::optional<std::int64_t> whole_number(const Json& value);
 
-/// An index of a document that is written again. Throws Json::type_error if it cannot be one.
+/// An index of a document that will be rewritten. Throws Json::type_error if it is invalid.
 std::size_t index_of(const Json& value);
 
-/// A string of the file as messages show it: in quotes, on one line, shortened.
+/// A string of the file for messages: in quotes, on one line, shortened.
 std::string quoted(const std::string& text);
 
-/// Parses JSON text; throws Error{input} naming line and column of a mistake.
+/// Parses JSON text. Throws Error{input} with line and column of a mistake.
 Json parse_json(const std::string& file, const std::uint8_t* text, std::size_t size);
 
 }  // namespace lumel

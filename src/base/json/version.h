@@ -1,5 +1,5 @@
 #pragma once
-// The library that reads and writes JSON, and so glTF.
+// Version of the library that reads and writes JSON, and so glTF.
 
 #include <string>
 

@@ -17,7 +17,7 @@ BakeSummary bake_reference(const std::string& scene_path, const std::string& fol
     Scene scene = read_scene(scene_path, materials, options.lights);
     OutputFolder output(folder);
     stages.begin("charts");
-    const Prepared prepared(std::move(scene), options.atlas, stages.watch());
+    const Prepared prepared(std::move(scene), options.atlas, stages.callback());
     tell_user(prepared);
     note_sizes(prepared, stages);
 

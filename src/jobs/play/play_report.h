@@ -1,5 +1,5 @@
 #pragma once
-// Report of a film.
+// Report of an animation.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// What was played.
+/// A played animation.
 struct Played {
     const Scene& scene;
     const Atlas& atlas;
@@ -17,7 +17,7 @@ struct Played {
     std::uint64_t shots;
 };
 
-/// The facts of a film. height: of the pictures [pixels].
+/// Report of an animation. height: of the images [pixels].
 Report play_report(const PlayOptions& options, const Played& played, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages);
 

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a bake with --keep-links left in a folder.
+/// Files of a bake with --keep-links.
 struct Baked {
     BakeRecord record;
     StoredLinks links;
@@ -74,19 +74,19 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
 {
     Baked baked = read(folder);
     const std::vector<NamedState> states = read_states(states_path);
-    const ProgressCallback watch = stages.watch();
+    const ProgressCallback progress = stages.callback();
     Prepared world(
         std::move(baked.scene),
         [&](const Scene& scene, const RayScene&, const ProgressCallback&) {
             return atlas_of(baked.links, scene, baked.record.pages);
         },
-        {}, watch);
+        {}, progress);
     SceneLights lights(world.scene, world.lumels);
     check_states(states, states_path, [&](const LightState& state) { lights.check(state); });
     LinkRelighter light(
         world.scene, world.atlas, world.lumels,
         kept_light_options(baked.links.rays, std::get<LinksOptions>(baked.record.solver.method)),
-        &baked.links, watch);
+        &baked.links, progress);
     OutputFolder output((fs::path(folder) / "states").string());
 
     stages.begin("states");
@@ -99,7 +99,7 @@ RelightSummary relight_over_links(const std::string& folder, const std::string& 
         lights.set(states[s].light);
         std::vector<glm::vec3> irradiance;
         if (!unless_stopped(
-                [&] { irradiance = light.irradiance(part_of(watch, before, before + part)); }))
+                [&] { irradiance = light.irradiance(part_of(progress, before, before + part)); }))
             break;
         const double found = wall_seconds();
         const Image map = finish_map(world.scene, world.atlas, world.lumels, irradiance);

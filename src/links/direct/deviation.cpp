@@ -6,7 +6,7 @@
 namespace lumel {
 namespace {
 
-/// Neighbours on either side.
+/// Neighbours on each side.
 constexpr std::size_t kNeighbours = 4;
 
 }  // namespace

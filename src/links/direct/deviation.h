@@ -1,14 +1,14 @@
 #pragma once
-// How far the estimates of a lumel are off, as its neighbours tell.
+// Standard deviation of lumel estimates, as RMS over neighbours.
 
 #include <cstdint>
 #include <vector>
 
 namespace lumel {
 
-/// The root of the mean of `square` over the neighbours of each lumel in `order` [N] and itself,
-/// which counts `own` times as much: rays that follow what a lumel itself shows make the error look
-/// smaller than it is. square and result [N] by lumel.
+/// Root of the mean of `square` over each lumel, with weight `own`, and its neighbours in `order`
+/// [N]. Rays allocated by a lumel's own error alone would make that error look too small. square,
+/// result: [N] by lumel.
 std::vector<double> deviation_nearby(const std::vector<double>& square,
                                      const std::vector<std::uint32_t>& order, double own);
 

@@ -1,6 +1,8 @@
 // Random numbers of the two halves are independent.
 //
-// A few rays tell which lumels see parts of sources; these begin anew with many, so that what the
+// A few rays show which lumels see parts of sources. These start over with many, so that the result
+// does not depend on the first ones (no bias). Later passes add rays where neighbours are
+// uncertain.
 // few have shown decides nothing about the result. More go where neighbours are uncertain.
 
 #include "links/direct/direct.h"
@@ -17,37 +19,36 @@
 namespace lumel {
 namespace {
 
-/// Lumels of one block of work, and blocks of one step.
 constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
-/// Rays of one half for each source: of all lumels, and of those that see a part of a source. Small
-/// sources have sharp shadows.
+/// Rays of one half per source: of all lumels, and of those that see part of a source;
+/// kTimesToSmall × as many to small sources, whose shadows are sharp.
 constexpr std::uint32_t kFewRays = 8, kManyRays = 16, kTimesToSmall = 2;
-/// Sources with less than this share of the light guessed for a lumel share their rays.
+/// Sources whose sampling weight is below this fraction of a lumel's total share their rays.
 constexpr float kOwnRays = 1.0f / 16.0f;
-/// Halvings of their rays at most, against the source that may send most.
+/// Maximum number of times that the rays of a source are halved, relative to the strongest source.
 constexpr std::uint32_t kMaxHalved = 3;
-/// The light of a lumel's cells is kept if it differs by more than this share of the brightest, and
-/// that is more than this share of the mean of all lumels.
+/// Light is stored per cell if cells differ by more than kDiffers × the brightest cell, and by more
+/// than kCounts × the mean of all lumels.
 constexpr float kDiffers = 0.25f, kCounts = 0.01f;
 
-/// Neighbours in the order of lumels, on either side, that should see the same sources.
+/// Neighbours on each side in the order of lumels that are compared for the sources they see.
 constexpr std::size_t kNeighbours = 4;
-/// Rays of one half to a source, at most, and times as many as before in one pass.
+/// Maximum rays of one half to a source, and maximum growth per pass.
 constexpr std::uint32_t kMaxRays = kManyRays << 9, kMaxTimes = 16;
-/// Less than so many times the rays before are not worth a pass.
+/// Passes with less growth are skipped.
 constexpr double kMinTimes = 1.41;
-/// Steps of the search for how many rays a variance takes, and how far it goes beyond where the
-/// most uncertain lumel has the most rays.
+/// Bisection steps for the number of rays that a variance needs, and the search range beyond the
+/// point where the most uncertain lumel has the maximum number of rays.
 constexpr int kSearchSteps = 24;
 constexpr double kWidestSearch = 1e3;
-/// Halves that differ by more than this share of their mean, and of that of all lumels, are
-/// uncertain.
+/// Halves are uncertain if they differ by more than kUncertain × their mean, and by more than
+/// kUncertainOfAll × the mean of all lumels.
 constexpr double kUncertain = 0.02, kUncertainOfAll = 0.01;
 
-/// Sources that a point beside the lumels asks for light, at most.
+/// Maximum number of sources sampled by a point that is not a lumel.
 constexpr std::uint32_t kMaxSought = 2;
 
-/// Sets many rays apart from few among the random streams of a lumel.
+/// Offset between the random streams of few and many rays.
 constexpr std::uint32_t kManyStream = 0x10000;
 
 /// Dimension pairs of a ray's random numbers.
@@ -60,26 +61,25 @@ struct DirectEstimator::Found {
     OfCells cells{};
     std::uint32_t seen = 0;
     bool uncertain = false;
-    bool exact = true;  ///< of all sources what they send as if nothing were between is known
+    bool exact = true;  ///< unoccluded light of all sources is known exactly
     std::uint64_t rays = 0;
 };
 
-/// Rays from a lumel to one source, or to several that share them: those of the second half follow
-/// those of the first.
+/// Rays from a lumel to one source, or to several that share them: those of half 0, then half 1.
 struct DirectEstimator::Group {
     std::uint32_t source;
     bool alone;
-    std::uint32_t first, rays;  ///< looks, of each half
+    std::uint32_t first, rays;  ///< shadow rays, per half
 };
 
-/// Lumels whose rays are cast together.
+/// Lumels whose shadow rays are traced together.
 struct DirectEstimator::RayBatch {
-    std::size_t first = 0;                     ///< lumel, in the list of the pass
-    std::vector<std::uint32_t> lumels;         ///< that follow each other in it
+    std::size_t first = 0;                     ///< first lumel, in the list of the pass
+    std::vector<std::uint32_t> lumels;         ///< consecutive lumels of that list
     std::vector<std::uint32_t> groups_before;  ///< [lumels + 1]
     std::vector<Group> groups;
     ShadowRays looks;
-    std::vector<std::uint32_t> cells;  ///< [looks] of the lumel, that the ray leaves
+    std::vector<std::uint32_t> cells;  ///< [looks] cell of the lumel that the ray starts in
 
     explicit RayBatch(std::size_t from) { begin(from); }
     void begin(std::size_t from)
@@ -93,7 +93,7 @@ struct DirectEstimator::RayBatch {
     }
 };
 
-/// One source of several, and what its light counts for the others.
+/// One source of several, and the factor by which its light represents the others.
 struct DirectEstimator::Choice {
     std::uint32_t source;
     float factor;
@@ -117,8 +117,8 @@ DirectEstimator::DirectEstimator(const LinkScene& place, const LightSources& sou
 {
 }
 
-/// Sources that send much have rays of their own, in proportion to what they may send; `rest`:
-/// running sums over all sources of what the others might send.
+/// Strong sources have their own rays, in proportion to their sampling weights. `rest`: cumulative
+/// weights over all sources, 0 for the strong ones.
 std::vector<DirectEstimator::RaysTo>
 DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<float>& rest) const
 {
@@ -146,7 +146,7 @@ DirectEstimator::share_out_rays(const glm::vec3& at, float size, std::vector<flo
     return result;
 }
 
-/// By running sums over the sources.
+/// Selects a source by cumulative weights.
 DirectEstimator::Choice DirectEstimator::choose(const std::vector<float>& running, float at)
 {
     const float mark = at * running.back();
@@ -156,8 +156,8 @@ DirectEstimator::Choice DirectEstimator::choose(const std::vector<float>& runnin
     return {source, own > 0.0f ? running.back() / own : 0.0f};
 }
 
-/// Queues a shadow ray to a point of a source. factor: scales its light where it stands for others
-/// too.
+/// Queues a shadow ray to a point on a source. factor: scales its light if it represents other
+/// sources.
 void DirectEstimator::look(const RayOrigin& start, std::size_t source, float factor,
                            const glm::vec2& at, std::uint32_t seed, ShadowRays& looks) const
 {
@@ -191,7 +191,7 @@ void DirectEstimator::sample_lights(const RayOrigin& start, float size, std::uin
             add(s, 1.0f, s);
         return;
     }
-    // Some, by what they may send.
+    // A few, selected by sampling weight.
     std::vector<float> running(count);
     float sum = 0.0f;
     for (std::uint32_t s = 0; s < count; ++s)
@@ -207,11 +207,11 @@ glm::vec3 DirectEstimator::light_of(const ShadowRays& looks, std::uint32_t first
 {
     glm::vec3 light(0.0f);
     for (std::uint32_t look = first; look < first + looks_around(); ++look)
-        light += looks.passing(look) * looks.sample(look).irradiance;
+        light += looks.transmittance(look) * looks.sample(look).irradiance;
     return light;
 }
 
-/// Rays of a lumel to a source, or to the rest of the sources together.
+/// Adds a lumel's rays to one source, or to the remaining sources together.
 void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t more,
                                RayBatch& wave) const
 {
@@ -236,7 +236,7 @@ void DirectEstimator::add_rays(std::uint32_t i, const RaysTo& to, std::uint32_t 
     }
 }
 
-/// The rays that lumel i has in this pass.
+/// Adds the rays of lumel i in this pass.
 void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];
@@ -249,7 +249,7 @@ void DirectEstimator::add(std::uint32_t i, RayBatch& wave) const
     wave.groups_before.push_back(std::uint32_t(wave.groups.size()));
 }
 
-/// Adds what the rays of a group have found.
+/// Adds the results of a group's rays.
 void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& found)
 {
     std::array<SourceEstimate, kCells> of_cells;
@@ -259,7 +259,7 @@ void DirectEstimator::take(const Group& group, const RayBatch& wave, Found& foun
         const std::uint32_t first = group.first + h * group.rays;
         for (std::uint32_t look = first; look < first + group.rays; ++look)
             for (SourceEstimate* into : {&sums, &of_both, &of_cells[wave.cells[look]]})
-                into->add(wave.looks.sample(look), wave.looks.passing(look));
+                into->add(wave.looks.sample(look), wave.looks.transmittance(look));
         found.half[h] += sums.light();
     }
     found.rays += of_both.free + of_both.hidden;
@@ -278,14 +278,14 @@ void DirectEstimator::take(const RayBatch& wave)
         Found found;
         for (std::uint32_t g = wave.groups_before[k]; g < wave.groups_before[k + 1]; ++g)
             take(wave.groups[g], wave, found);
-        // A ray for a cell tells something only if it tells all.
+        // Cells are used only if all sources have exact unoccluded light.
         if (more_[i] == 0 && !found.exact)
             found.cells.fill(0.5f * (found.half[0] + found.half[1]));
         keep(i, found, blocks_[(wave.first + k) / kBlock]);
     }
 }
 
-/// Of the lumels in blocks [first, last) of a list.
+/// Processes the lumels of blocks [first, last) of a list.
 void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t first,
                            std::size_t last)
 {
@@ -301,7 +301,7 @@ void DirectEstimator::find(const std::vector<std::uint32_t>& lumels, std::size_t
     }
 }
 
-/// Takes over what was found of lumel i; many rays are the mean of what all of them found.
+/// Stores the results of lumel i: the mean over its passes of many rays, weighted by rays.
 void DirectEstimator::keep(std::uint32_t i, const Found& found, Block& block)
 {
     const std::uint32_t taken = taken_[i], more = more_[i];
@@ -356,7 +356,7 @@ bool DirectEstimator::step()
     if (done_ < blocks_.size())
         return true;
 
-    // The pass ends.
+    // End of the pass.
     if (first_pass_)
         mark_uncertain_hidden();
     keep_cells();
@@ -373,7 +373,7 @@ void DirectEstimator::begin_pass()
     done_ = 0;
 }
 
-/// Rays that lumel i should have more, if so many were best.
+/// Number of rays that lumel i should add if `rays` were optimal.
 std::uint32_t DirectEstimator::wanted(std::uint32_t i, double rays) const
 {
     const std::uint32_t taken = taken_[i];
@@ -387,8 +387,8 @@ std::uint32_t DirectEstimator::wanted(std::uint32_t i, double rays) const
 
 bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector<double>& weight)
 {
-    // The variance of a ray is about that of the lumel times its rays. All variances together are
-    // least if rays are in proportion to deviations.
+    // The variance of one ray is about the lumel's variance × its rays. The sum of variances is
+    // minimal if rays are proportional to deviations.
     const auto rays_of = [&](std::uint32_t i) { return double(std::max(taken_[i], kFewRays)); };
     std::vector<double> variance(order_.size()), square(order_.size());
     double now = 0.0;
@@ -433,7 +433,7 @@ bool DirectEstimator::refine(double share, std::uint64_t most, const std::vector
 
 double DirectEstimator::fraction() const
 {
-    // Few rays, then many: each pass is about a half.
+    // Few rays, then many: each pass is about half of the work.
     const double part = blocks_.empty() ? 1.0 : double(done_) / double(blocks_.size());
     return first_pass_ ? 0.5 * part : 0.5 + 0.5 * part;
 }
@@ -446,15 +446,15 @@ double DirectEstimator::mean_of_all() const
     return mean / double(std::max<std::size_t>(half_[0].size(), 1));
 }
 
-/// Do the halves differ by more than counts?
+/// True if the halves differ significantly.
 bool DirectEstimator::differs(std::size_t i, double mean) const
 {
     const double apart = std::abs(luminance(half_[0][i]) - luminance(half_[1][i]));
     return apart > kUncertain * luminance(this->mean(i)) && apart > kUncertainOfAll * mean;
 }
 
-/// Lumels that see a part of a source, those whose halves differ, and those that see other sources
-/// than a neighbour on their chart: few rays miss thin shadows.
+/// Marks lumels that see part of a source, whose halves differ, or that see other sources than a
+/// neighbour on their chart: few rays miss thin shadows.
 void DirectEstimator::mark_uncertain_hidden()
 {
     const std::vector<std::uint32_t> by_side = lumels_by_side(place_.lumels);
@@ -483,7 +483,7 @@ void DirectEstimator::mark_uncertain_hidden()
                 }
         }
     });
-    // Charts may be small: neighbours in space, as far as the order has them.
+    // Charts can be small: also compares neighbours in space, which the order approximates.
     for (std::size_t o = 0; o < order_.size(); ++o)
         for (std::size_t n = o + 1; n < std::min(o + 1 + kNeighbours, order_.size()); ++n) {
             const std::uint32_t i = order_[o], j = order_[n];
@@ -497,7 +497,7 @@ void DirectEstimator::mark_uncertain_hidden()
         }
 }
 
-/// Takes over what the blocks of a pass found of cells.
+/// Stores the cells that the blocks of a pass found.
 void DirectEstimator::keep_cells()
 {
     const double mean = mean_of_all();

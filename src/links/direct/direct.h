@@ -1,5 +1,10 @@
 #pragma once
-// Light straight from its sources, by rays from lumels to points on them.
+// Direct light: shadow rays from lumels to emissive surfaces, lamps, suns and the bright sky.
+//
+// 1. Every lumel sends a few rays to each strong source. Weak sources share rays.
+// 2. Lumels that see part of a source, whose halves differ, or whose neighbours see other sources
+//    start over with many rays. Discarding the first estimate keeps the result unbiased.
+// 3. refine() adds rays where the variance is largest.
 
 #include <array>
 #include <cstdint>
@@ -13,66 +18,67 @@
 
 namespace lumel {
 
-/// What rays and lumels of a scene are given by.
+/// Rays and lumels of a scene.
 struct LinkScene {
     const Scene& scene;
     const Surfaces& surfaces;
     const RayScene& rays;
-    const RayCaster& caster;      ///< of the same rays
-    const BundleCaster* bundles;  ///< of those that share directions; null: they go the same way
+    const RayCaster& caster;      ///< over the same rays
+    const BundleCaster* bundles;  ///< for rays with shared directions; null: they use `caster`
     const Atlas& atlas;
     const Lumels& lumels;
 };
 
-/// Direct light of the lumels and, where it varies within one, of its cells.
+/// Estimates direct irradiance [lx] in two independent halves, whose difference gives the variance.
+/// Lumels in which it varies also store it per cell. Call step() until it returns false, then read
+/// half(), mean() and at(). If refine() returns true, call step() again.
 class DirectEstimator {
 public:
-    /// What is given must outlive it. Rays go out in the order [N] of lumels.
+    /// All arguments must outlive this. order [N]: processing order of lumels.
     DirectEstimator(const LinkScene& place, const LightSources& sources, const RayOrigins& starts,
                     const std::vector<std::uint32_t>& order, std::uint32_t seed);
 
-    /// Of lumels, `varying` of whose light differs from cell to cell.
+    /// Memory [bytes]. varying: number of lumels stored per cell.
     static std::uint64_t bytes(std::size_t lumels, std::size_t varying);
 
-    /// Some of the work: true if more is left. First a few rays for each lumel; then many for those
-    /// whose light is uncertain.
+    /// Runs part of a pass. Returns true if work is left.
     bool step();
-    /// 0…1
+    /// Progress, 0…1.
     double fraction() const;
-    /// Prepares to add rays where light is uncertain, until its variance has fallen to `share` of
-    /// what it is, by `most` rays to one source at most: steps are left again. weight [N]: of the
-    /// square of each lumel's error. False, and nothing is left, if no rays would help.
+    /// Schedules another pass where the variance is largest. It aims at `share` × the present
+    /// variance, with at most `most` rays per source in total. weight [N]: of each lumel's squared
+    /// error. Returns false if more rays would not help.
     bool refine(double share, std::uint64_t most, const std::vector<double>& weight);
 
     /// Two independent estimates [2][N] [lx].
     const std::vector<glm::vec3>& half(int h) const { return half_[h]; }
-    /// Mean of both.
+    /// Mean of both halves [lx].
     glm::vec3 mean(std::size_t lumel) const { return 0.5f * (half_[0][lumel] + half_[1][lumel]); }
-    /// Of one cell, as far as it differs.
+    /// Direct light of a cell: the lumel's mean unless it varies [lx].
     glm::vec3 at(std::size_t lumel, std::uint32_t cell) const
     {
         const std::uint32_t index = varying_[lumel];
         return index == kSame ? mean(lumel) : cells_[index][cell];
     }
-    /// Whether it differs from cell to cell.
+    /// True if direct light is stored per cell.
     bool varies(std::size_t lumel) const { return varying_[lumel] != kSame; }
-    /// A point that may be anywhere looks for light, with as many looks as any other such point.
-    /// size: of the lumel there.
+    /// Queues looks_around() shadow rays from any point of the scene. size: of the lumel there [m].
     void sample_lights(const RayOrigin& start, float size, std::uint32_t seed,
                        ShadowRays& looks) const;
-    std::uint32_t looks_around() const;  ///< of one point
-    /// The light of a point [lx], by its looks from `first` on once they are cast.
+    std::uint32_t looks_around() const;  ///< shadow rays per point
+    /// Direct light [lx] of a point whose shadow rays begin at `first`. Requires that they are
+    /// cast.
     glm::vec3 light_of(const ShadowRays& looks, std::uint32_t first) const;
-    std::uint64_t rays() const { return rays_; }  ///< so far
+    std::uint64_t rays() const { return rays_; }  ///< total
 
-    /// All that changes, for a StateWriter or a StateReader.
+    /// Complete changing state, for a StateWriter or a StateReader.
     template <class Archive>
     void state(Archive& archive)
     {
         archive(half_[0], half_[1], taken_, more_, seen_, uncertain_, many_, varying_, cells_,
                 blocks_, done_, first_pass_, rays_);
     }
-    /// Is what was read of these lumels?
+    /// True if the state that was read has the right sizes.
     bool fits() const;
 
 private:
@@ -81,11 +87,11 @@ private:
 
     struct Choice;
     struct Found;
-    /// A source that rays go to, or several that share them.
+    /// A source with its own rays, or several that share rays.
     struct RaysTo {
         std::uint32_t source = 0;
-        std::uint32_t halved = 0;                  ///< how often its rays are
-        const std::vector<float>* rest = nullptr;  ///< running sums of several that share them
+        std::uint32_t halved = 0;                  ///< number of times that its rays are halved
+        const std::vector<float>* rest = nullptr;  ///< cumulative weights of sharing sources
     };
     struct Group;
     struct RayBatch;
@@ -126,11 +132,11 @@ private:
     const std::vector<std::uint32_t>& order_;
     std::uint32_t seed_;
     std::vector<glm::vec3> half_[2];
-    std::vector<std::uint32_t> taken_;    ///< [N] rays of one half to a source, beside the few
-    std::vector<std::uint32_t> more_;     ///< [N] of them that this pass adds
-    std::vector<std::uint32_t> seen_;     ///< [N] bit s: a source of that number mod 32 is seen
+    std::vector<std::uint32_t> taken_;    ///< [N] rays of one half per source in later passes
+    std::vector<std::uint32_t> more_;     ///< [N] rays that this pass adds
+    std::vector<std::uint32_t> seen_;     ///< [N] bit s: a source ≡ s (mod 32) is visible
     std::vector<char> uncertain_;         ///< [N]
-    std::vector<std::uint32_t> many_;     ///< lumels that this pass is for
+    std::vector<std::uint32_t> many_;     ///< lumels of this pass
     std::vector<std::uint32_t> varying_;  ///< [N] index into cells_, or kSame
     std::vector<OfCells> cells_;
     std::vector<Block> blocks_;

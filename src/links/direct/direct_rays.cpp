@@ -11,15 +11,14 @@
 namespace lumel {
 namespace {
 
-/// The variance is brought down to this share of what it is at most in one go, since the first
-/// guess of it is rough.
+/// Minimum factor on the variance per pass, since its first estimate is rough.
 constexpr double kMinShare = 1.0 / 16.0;
-/// A pass takes at most so many times the rays of all before it.
+/// A pass adds at most this multiple of the rays so far.
 constexpr std::uint64_t kMaxMore = 4;
-/// Rays of a lumel in the mean, at most: what a lampshade or a niche receives of the lamp inside
-/// can take many without an end.
+/// Maximum rays per lumel, on average: light from a lamp in a lampshade or a niche can take rays
+/// without end.
 constexpr std::uint64_t kMaxRays = 2048;
-/// Random stream of its rays.
+/// Random stream of these rays.
 constexpr std::uint32_t kDirectStream = 2;
 
 std::vector<std::uint32_t> as_they_come(std::size_t count)

@@ -1,5 +1,5 @@
 #pragma once
-// Direct light of surfaces that shine, by rays to points on them, as exact as is asked for.
+// Direct light from emissive surfaces, by shadow rays, to a target error.
 
 #include <memory>
 #include <vector>
@@ -11,22 +11,22 @@ namespace lumel {
 
 struct HostScene;
 
-/// Light straight from the scene's emissive surfaces; sky and lamps are left out. Lumels that hold
-/// a shadow's edge have it per cell. Rays go through Embree.
+/// Direct light from the scene's emissive surfaces, without sky and lamps. Lumels at shadow edges
+/// store it per cell. Uses Embree.
 class DirectRays {
 public:
-    /// What is given must outlive it. known: [N] [lx] of other light that the stated error is
-    /// relative to, or empty.
+    /// All arguments must outlive this. known: [N] [lx] irradiance that is added to the light when
+    /// the error is made relative, or empty.
     DirectRays(const HostScene& host, const Lumels& lumels, std::uint32_t seed, double target_error,
                std::span<const glm::vec3> known = {});
 
-    /// A part of a second of work. Goes on beyond target_error, as long as rays help.
+    /// Works for a fraction of a second. Continues beyond target_error while rays help.
     void step();
-    /// Rays of a lumel in the mean count as shots.
+    /// `shots` are rays per lumel, on average.
     SolverState state() const { return state_; }
     std::vector<glm::vec3> irradiance() const;  ///< H [N] [lx]
 
-    // For those who trace more rays.
+    // For callers that trace more rays.
     const LinkScene& place() const { return place_; }
     const WorldLumels& world() const { return world_; }
     const Cells& cells() const { return cells_; }

@@ -1,5 +1,5 @@
 #pragma once
-// What is solved more than once, so that its error can be stated.
+// Independent solutions, for error estimates.
 
 #include <array>
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// Solutions of links that share nothing random but direct light: two to state the error, and a
-/// third to filter them by.
+/// Solutions by links that share no random numbers except those of direct light: two for the error
+/// estimate, and a third for filter weights.
 inline constexpr std::uint32_t kSolutions = 3;
 
 /// Estimates of one quantity at the lumels [N].

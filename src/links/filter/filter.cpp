@@ -9,12 +9,12 @@
 namespace lumel {
 namespace {
 
-/// Something nearer than this many times their distance may stand between two neighbours; a ray
-/// between them tells, this far above them in sides of a lumel.
+/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
+/// a ray between them, kLift sides of a lumel above them, decides.
 constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
 constexpr std::size_t kGrain = 256;
 
-/// visit(lumel, texel of the tile) for each within a tile.
+/// Calls visit(lumel, texel of the tile) for each lumel within the tile.
 template <class Visit>
 void for_each_lumel(const FilterTile& tile, const Visit& visit)
 {
@@ -29,7 +29,8 @@ glm::vec3 weighted(const std::array<Inner, 3>& sum, const Inner& weight, std::si
     return glm::vec3(sum[0][t], sum[1][t], sum[2][t]) / weight[t];
 }
 
-/// The followers a and b of a solution at lumel i, filtered to one and other.
+/// Adds lumel i: `one` and `other` are the filtered estimates a and b of the cross-filtered
+/// solutions.
 void take(const glm::vec3& a, const glm::vec3& b, const glm::vec3& one, const glm::vec3& other,
           std::uint32_t i, Mean& mean)
 {
@@ -65,7 +66,7 @@ std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
            lumels * (sizeof(std::uint8_t) + (kSolutions + 1) * sizeof(float) + kBells * kOfMean);
 }
 
-/// kNoLumel where there is none that light reaches.
+/// kNoLumel if there is none that can receive light.
 std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
 {
     const int width = place_.lumels.width;
@@ -76,7 +77,7 @@ std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
     return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
 }
 
-/// To which of its neighbours on the same chart and side light may mix.
+/// Bits of the neighbours on the same chart and side across which the filter may step.
 std::uint8_t ChartFilter::find_steps(std::size_t i) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];
@@ -94,7 +95,7 @@ std::uint8_t ChartFilter::find_steps(std::size_t i) const
     return std::uint8_t(steps);
 }
 
-/// Nothing stands between two neighbours. nearest [m]: what may.
+/// True if no geometry separates two neighbours. nearest: distance to the nearest geometry [m].
 bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
 {
     const WorldLumel &a = world_[i], &b = world_[j];
@@ -105,7 +106,7 @@ bool ChartFilter::may_step(std::size_t i, std::size_t j, float nearest) const
                             0.0f, std::uint32_t(i));
 }
 
-/// All but variances. False if there is nothing to filter.
+/// Fills the tile, except variances. Returns false if it has no lumels.
 bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const
 {
     bool any = false;
@@ -130,7 +131,7 @@ bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solu
     return any;
 }
 
-/// visit(tile) for each that holds lumels, on all cores.
+/// Calls visit(tile) for each tile with lumels, in parallel.
 template <class Visit>
 void ChartFilter::for_each_tile(const Solutions& found, const Visit& visit) const
 {

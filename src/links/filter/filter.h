@@ -1,5 +1,5 @@
 #pragma once
-// A filter over the lumels of a chart that keeps edges of light.
+// Edge-preserving filter over the lumels of a chart.
 //
 // [BCM05] A. Buades, B. Coll, J.-M. Morel. A Non-Local Algorithm for Image Denoising. CVPR 2005.
 // [RKZ12] F. Rousselle, C. Knaus, M. Zwicker. Adaptive Rendering with Non-Local Means Filtering.
@@ -18,21 +18,22 @@ namespace lumel {
 
 struct FilterTile;
 
-/// Averages lumels with others around them on their chart that look alike in a guide [RKZ12]: not
-/// where their normals or sizes differ, geometry cuts them, or something stands between.
+/// Averages lumels with those around them on their chart that are similar in a guide [RKZ12]. Does
+/// not mix lumels of different normal or size, or across geometry.
 class ChartFilter {
 public:
-    /// What is given must outlive it. nearest [N] [m]: how near a lumel's rays met
-    /// anything.
+    /// All arguments must outlive this. nearest [N]: distance from each lumel to its nearest ray
+    /// hit [m].
     ChartFilter(const LinkScene& place, const WorldLumels& world, const SubLumels& parts,
                 const std::vector<float>& nearest);
 
-    /// Bytes of it, and of what filter() returns.
+    /// Memory of this and of the result of filter() [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t texels);
 
-    /// For each width of the filter, narrowest first. Solution k filters its followers, k + 1 and
-    /// k + 2, by the same weights, which come from solution k alone, but for its variance, that is
-    /// taken from the difference of the two. Lumels without light stay dark.
+    /// Returns one Mean per filter width, narrowest first. Weights from solution k filter the
+    /// cross-filtered solutions k + 1 and k + 2, so that they are independent of the filtered data;
+    /// only the variance in the weights is estimated from the difference of those two. Lumels
+    /// without light stay dark.
     std::vector<Mean> filter(const Solutions& found) const;
 
 private:
@@ -48,7 +49,7 @@ private:
     const SubLumels& parts_;
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
     const std::vector<float>& nearest_;
-    std::vector<std::uint8_t> steps_;  ///< [N] bit s: light may mix over kSteps[s]
+    std::vector<std::uint8_t> steps_;  ///< [N] bit s: the filter may step over kSteps[s]
 };
 
 }  // namespace lumel

@@ -8,24 +8,24 @@
 namespace lumel {
 namespace {
 
-/// Lumels to either side, and the deviation of the bells over them, narrowest first.
+/// Radius in lumels, and standard deviation, of the filter kernels, narrowest first.
 constexpr std::array<int, kBells> kReach = {kNearReach, 5};
 constexpr std::array<float, kBells> kSpread = {1.5f, 3.0f};
-/// Lumels to either side of two that are compared with each other.
+/// Radius of the patches that are compared, in lumels.
 constexpr int kPatch = 1;
 static_assert(kReach.back() + kPatch <= kHalo);
-/// Lumels to either side over which the variance is averaged: so many that the weights hardly know
-/// the lumel's own.
+/// Radius over which the variance is averaged, in lumels: weights are nearly independent of the
+/// lumel's own variance.
 constexpr int kNoiseReach = 3;
 static_assert(kNoiseReach <= kHalo);
 constexpr float kMinVariance = 1e-30f;
-/// Normals of lumels that mix differ by less than 25 degrees.
+/// Normals of mixed lumels differ by less than 25 degrees.
 const float kCosAlike = std::cos(glm::radians(25.0f));
-/// One may lie this far out of the plane of the other, and be so many times as large.
+/// Maximum distance from the other lumel's plane, in sizes, and maximum ratio of sizes.
 constexpr float kOutOfPlane = 0.5f, kSizes = 2.0f;
-/// A wide bell reaches as far as this many times the distance to what is nearest.
+/// Maximum radius of the wide kernel, relative to the distance to the nearest geometry.
 constexpr float kWidth = 1.0f;
-/// Texels a side around which two patches may lie.
+/// Side of the square of texels that a pair of patches covers, in texels.
 constexpr int kPairs = kTile + 2 * kPatch;
 
 using Row = std::array<float, kTile>;
@@ -35,12 +35,12 @@ constexpr std::ptrdiff_t in_tile(Offset to)
     return std::ptrdiff_t(to.y) * kWide + to.x;
 }
 
-/// How a lumel within reach is come to: by a last step, from one of the ring before.
+/// Path to a lumel within the radius: a last step from a lumel of the previous ring.
 struct Way {
     Offset to;
-    std::size_t from;        ///< way
-    unsigned step;           ///< into kSteps
-    std::ptrdiff_t step_at;  ///< from the beginning, the lumel that has the last step's bit
+    std::size_t from;        ///< index of the previous path
+    unsigned step;           ///< index into kSteps
+    std::ptrdiff_t step_at;  ///< offset to the lumel that has the last step's bit
     std::array<float, kBells> bell;
 };
 
@@ -74,7 +74,7 @@ Way way_to(Offset to, const std::vector<Way>& nearer)
     return way;
 }
 
-/// All within reach, nearest first; the first is the lumel itself.
+/// Paths to all lumels within the radius, nearest first; the first is the lumel itself.
 std::vector<Way> all_ways()
 {
     std::vector<Way> ways = {{{0, 0}, 0, 0, 0, {}}};
@@ -92,10 +92,10 @@ const std::vector<Way>& ways()
     return kWays;
 }
 
-/// Of each lumel within a tile: whether steps lead to the one at an offset.
+/// For each lumel within a tile: 1 if a path of steps leads to the lumel at an offset.
 using Reached = std::array<std::uint8_t, std::size_t(kTile) * kTile>;
 
-/// False if none is reached.
+/// Extends paths by a step. Returns false if it reaches no lumel.
 bool take_step(const FilterTile& tile, const Way& way, const Reached& before, Reached& reached)
 {
     unsigned any = 0;
@@ -110,8 +110,8 @@ bool take_step(const FilterTile& tile, const Way& way, const Reached& before, Re
     return any != 0;
 }
 
-// Plain loops over rows, without branches or references to choose between, so that compilers turn
-// them into vector instructions.
+// Simple loops over rows, without branches or selected references, so that compilers vectorise
+// them.
 
 glm::vec3 vector(const std::array<FilterTile::Wide<float>, 3>& planes, std::size_t t)
 {
@@ -128,12 +128,12 @@ float most(float a, float b)
     return a < b ? b : a;
 }
 
-/// Which lumels mix with those at an offset, and which of them have nothing near: 1 or 0.
+/// Lumels that mix with those at an offset, and those of them without near geometry: 1 or 0.
 struct Alike {
     Inner all, widely;
 };
 
-/// False if none does.
+/// Returns false if no lumel mixes.
 bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike& alike)
 {
     float any = 0.0f;
@@ -158,7 +158,7 @@ bool find_alike(const FilterTile& tile, Offset to, const Reached& reached, Alike
     return any > 0.0f;
 }
 
-/// By how far a guide differs in each pair of texels at an offset, and the noise it has there.
+/// Squared differences of a guide, and its noise, for each pair of texels at an offset.
 struct Differences {
     std::array<float, std::size_t(kPairs) * kPairs> square, noise;
 };
@@ -180,14 +180,14 @@ void find_differences(const FilterTile& tile, std::uint32_t k, Offset to, Differ
     }
 }
 
-/// Falls like exp(-x) from x = 0 to 4, where it ends.
+/// Approximates exp(-x) from x = 0 to 4, and is 0 beyond.
 float falling(float x)
 {
     const float left = 1.0f - 0.25f * least(most(x, 0.0f), 4.0f), square = left * left;
     return square * square;
 }
 
-/// Weights of a row of lumels by how far the guide differs around the two, beyond its noise.
+/// Weights of a row of lumels, from differences of the guide around the two beyond its noise.
 void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Differences& found,
                   int y, Row& weight)
 {
@@ -215,7 +215,7 @@ void find_weights(const FilterTile& tile, std::uint32_t k, Offset to, const Diff
         weight[x] = falling(beyond[x]);
 }
 
-/// Adds a row of lumels' followers of solution k, as far away as `there`.
+/// Adds a row of the cross-filtered solutions of solution k at offset `there`.
 void add_row(const FilterTile& tile, std::uint32_t k, std::size_t there, const Row& weight,
              std::size_t row, FilteredTile& filtered)
 {
@@ -230,7 +230,7 @@ void add_row(const FilterTile& tile, std::uint32_t k, std::size_t there, const R
         }
 }
 
-/// Adds the followers of solution k at an offset to those of the tile's lumels.
+/// Adds the cross-filtered solutions of solution k at an offset to those of the tile's lumels.
 void add(const FilterTile& tile, std::uint32_t k, const Way& way, const Alike& alike,
          FilteredTiles& filtered)
 {
@@ -266,7 +266,7 @@ void begin(const FilterTile& tile, std::uint32_t k, FilteredTile& filtered)
         }
 }
 
-/// visit(way, which lumels mix) for the first ways by which any are reached.
+/// Calls visit(path, mixing lumels) for the first `count` paths that reach any lumel.
 template <class Visit>
 void for_each_way(const FilterTile& tile, std::size_t count, const Visit& visit)
 {

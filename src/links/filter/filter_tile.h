@@ -1,5 +1,5 @@
 #pragma once
-// What the filter of charts does within a tile of the atlas. See filter.h.
+// The chart filter within a tile of the atlas. See filter.h.
 //
 // [WRC88] G. J. Ward, F. M. Rubinstein, R. D. Clear. A Ray Tracing Solution for Diffuse
 //         Interreflection. SIGGRAPH 1988.
@@ -13,16 +13,16 @@
 
 namespace lumel {
 
-/// A step from a lumel to a neighbour. [steps] Four of the eight; the others are these, backwards.
+/// Steps from a lumel to four of its eight neighbours; the other four are reversed.
 struct Offset {
     int x, y;
 };
 inline constexpr std::array<Offset, 4> kSteps = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
 
-/// Square tiles, with so much around them that takes part [texels].
+/// Side of a tile and width of the border around it that is read [texels].
 inline constexpr int kTile = 32, kHalo = 6, kWide = kTile + 2 * kHalo;
 
-/// Index of a texel of a tile, -kHalo ≤ x, y < kTile + kHalo.
+/// Array index of a texel of a tile, -kHalo ≤ x, y < kTile + kHalo.
 constexpr std::size_t wide_at(int x, int y)
 {
     return std::size_t(y + kHalo) * kWide + std::size_t(x + kHalo);
@@ -33,28 +33,29 @@ struct FilterTile {
     using Wide = std::array<T, std::size_t(kWide) * kWide>;
     using Light = std::array<Wide<float>, 3>;
 
-    Wide<std::uint32_t> lumel;  ///< kNoLumel where there is none
-    Wide<std::int32_t> chart;   ///< -1 where there is none
-    Wide<std::uint8_t> steps;   ///< bit s: light may mix over kSteps[s]
+    Wide<std::uint32_t> lumel;  ///< kNoLumel if none
+    Wide<std::int32_t> chart;   ///< -1 if none
+    Wide<std::uint8_t> steps;   ///< bit s: the filter may step over kSteps[s]
     Wide<float> size;           ///< [m]
-    Wide<float> nearest;        ///< [m] to what rays met
+    Wide<float> nearest;        ///< distance to the nearest ray hit [m]
     std::array<Wide<float>, 3> centre, normal;
-    std::array<Light, kSolutions> light;  ///< 0 where there is none
+    std::array<Light, kSolutions> light;  ///< 0 without a lumel
     std::array<Wide<float>, kSolutions>
-        variance;  ///< of each of its followers, all channels together
+        variance;  ///< per cross-filtered solution, summed over channels
 };
 
-/// A value of each texel within a tile, in rows.
+/// A value for each texel within a tile, in rows.
 using Inner = std::array<float, std::size_t(kTile) * kTile>;
 
-/// Variance of the followers of solution k, from what lies around.
+/// Variance of the cross-filtered solutions of solution k, from neighbours.
 void find_variance(const FilterTile& tile, std::uint32_t k, Inner& variance);
 
-/// Light that varies asks for a narrow bell. The widest is wide only where nothing is near:
-/// indirect light varies over distances like those to what it comes from [WRC88].
+/// Kernels of different width: the narrow one suits light that varies. The wide one is limited by
+/// the nearest geometry, since indirect light varies over distances like those to its sources
+/// [WRC88].
 inline constexpr std::size_t kBells = 2;
 
-/// Sums of the followers of a solution and of their weights, for each bell.
+/// Weighted sums of the cross-filtered solutions, and sums of weights, per kernel.
 struct FilteredTile {
     Inner weight;
     std::array<Inner, 3> one, other;
@@ -62,17 +63,17 @@ struct FilteredTile {
 using FilteredTiles = std::array<std::array<FilteredTile, kSolutions>, kBells>;
 void filter_tile(const FilterTile& tile, FilteredTiles& filtered);
 
-/// Lumels within reach of the narrow bell, beside the one in its middle.
+/// Radius of the narrow kernel, and number of lumels in it except the central one.
 inline constexpr int kNearReach = 2;
 inline constexpr std::size_t kNearWays = (2 * kNearReach + 1) * (2 * kNearReach + 1) - 1;
 
-/// By which weights a tile's lumels mix with those at each offset, beside 1 with themselves.
+/// Weights of a tile's lumels with those at each offset, relative to 1 for themselves.
 struct NearWeights {
     std::array<Offset, kNearWays> to;
     std::array<Inner, kNearWays> weight;
 };
 
-/// Those of the narrow bell by which filter_tile() takes the followers of solution k.
+/// Weights of the narrow kernel, with which filter_tile() filters by solution k.
 void weigh_tile(const FilterTile& tile, std::uint32_t k, NearWeights& weights);
 
 }  // namespace lumel

@@ -1,5 +1,5 @@
 #pragma once
-// The mean of solutions, and its error.
+// Mean of several solutions, and its error.
 
 #include <cstddef>
 #include <vector>
@@ -12,11 +12,11 @@ class ChartFilter;
 
 struct Mean {
     Estimates light;           ///< [N] [lx]
-    std::vector<float> noise;  ///< [N] its variance, all channels together
-    std::vector<float> wrong;  ///< [N] estimate, of any sign, of the square of a filter's own error
+    std::vector<float> noise;  ///< [N] its variance, summed over channels
+    std::vector<float> wrong;  ///< [N] signed estimate of the squared filter bias
 };
 
-/// Squared differences of each two of three, all channels together.
+/// Sum of squared differences between the three, over channels.
 double spread(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 /// Sum of squared errors over some lumels.
@@ -26,22 +26,22 @@ public:
     {
         add(double(mean.noise[lumel]), double(mean.wrong[lumel]));
     }
-    /// A lumel's, as Mean has them.
+    /// Adds a lumel's values as in Mean.
     void add(double noise, double wrong)
     {
         noise_ += noise;
         wrong_ += wrong;
         squares_ += wrong * wrong;
     }
-    /// What is filtered wrongly cannot be less than nothing. It is known to one standard error,
-    /// which counts: of two filters the one whose error seems less would seem better than it is.
+    /// Clamps the squared filter bias at 0 and adds its standard error, so that choosing the better
+    /// filter stays conservative.
     double sum() const;
 
 private:
     double noise_ = 0.0, wrong_ = 0.0, squares_ = 0.0;
 };
 
-/// Without a filter if `filter` is null, else filtered where that has less error.
+/// The mean; with a filter, filtered wherever that reduces the error.
 Mean mean_of(const Solutions& found, const ChartFilter* filter);
 
 }  // namespace lumel

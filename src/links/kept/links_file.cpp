@@ -1,4 +1,4 @@
-// A head, then the contents, all little-endian:
+// A header, then the contents, all little-endian:
 //
 //     8 bytes   "lumellnk"
 //     8 bytes   version
@@ -6,8 +6,8 @@
 //     8 bytes   fingerprint of the contents
 //     contents  in the order of contents(), as of StateWriter
 //
-// Links take as many bits as the largest of them needs, the lowest first. Contents that the
-// fingerprint vouches for are checked again before anything is indexed by them.
+// Links have as many bits as the largest needs, lowest first. Contents with a valid fingerprint are
+// still checked before they are used as indices.
 
 #include "links/kept/links_file.h"
 
@@ -32,7 +32,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::array<char, 8> kMagic = {'l', 'u', 'm', 'e', 'l', 'l', 'n', 'k'};
 constexpr std::uint64_t kVersion = 2;      // 1: rays by the number of a lumel
-constexpr std::uint32_t kMaxSide = 65536;  ///< of an atlas [texels]
+constexpr std::uint32_t kMaxSide = 65536;  ///< side of an atlas [texels]
 constexpr std::uint32_t kWord = 64;        ///< [bits]
 
 struct Head {
@@ -95,7 +95,7 @@ bool is_in(const glm::vec2& place, std::uint32_t side)
     return place.x >= 0.0f && place.y >= 0.0f && place.x <= float(side) && place.y <= float(side);
 }
 
-/// Its places, and those of its charts' backs, lie in the atlas; its charts have numbers.
+/// True if texture coordinates, also of backs, are in the atlas and chart numbers are valid.
 bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept)
 {
     const auto has_place = [&](const glm::vec2& place) { return is_in(place, kept.side); };
@@ -104,7 +104,7 @@ bool is_sound(const StoredLinks::StoredTexcoords& sheet, const StoredLinks& kept
            std::all_of(sheet.chart.begin(), sheet.chart.end(), has_number);
 }
 
-/// Numbers are within their bounds, and links are as many as they should be.
+/// True if numbers are in range and the number of links is right.
 bool is_sound(const StoredLinks& kept, const Words& links)
 {
     std::uint64_t triangles = 0;
@@ -136,7 +136,7 @@ Head read_head(std::istream& file, const std::string& path)
 {
     Head head;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic)
-        throw Error(ErrorKind::input, path, "are no links that lumel bake --keep-links wrote");
+        throw Error(ErrorKind::input, path, "is not a links file of lumel bake --keep-links");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

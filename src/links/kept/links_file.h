@@ -1,5 +1,5 @@
 #pragma once
-// scene.lumellinks: StoredLinks on the disk. See links_file.cpp.
+// scene.lumellinks: StoredLinks on disk. See links_file.cpp.
 
 #include <string>
 
@@ -12,7 +12,7 @@ inline constexpr const char* kLinksFile = "scene.lumellinks";
 /// Throws Error{output}.
 void write_links(const std::string& path, StoredLinks kept);
 
-/// Reads it whole. Throws Error{input} if it is missing, damaged, or of another version.
+/// Reads the whole file. Throws Error{input} if it is missing, damaged, or of another version.
 StoredLinks read_links(const std::string& path);
 
 }  // namespace lumel

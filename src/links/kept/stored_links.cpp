@@ -10,14 +10,14 @@ namespace {
 [[noreturn]] void fail_other_scene(const Scene& scene)
 {
     throw Error(ErrorKind::input, scene.path,
-                "has other surfaces than those whose links were kept; bake the scene again");
+                "has other surfaces than its stored links; bake the scene again");
 }
 
-/// [ends of kept] What each end of a link is now.
+/// [ends of kept] New number of each end of a link.
 std::vector<std::uint32_t> ends_now(const StoredLinks& kept, const Renumbering& now,
                                     std::uint32_t gone)
 {
-    constexpr std::uint32_t kFixed = 2;  // the sky, and nowhere
+    constexpr std::uint32_t kFixed = 2;  // the sky, and absorbed
     std::vector<std::uint32_t> ends = now.lumels;
     for (std::uint32_t e = 0; e < kFixed; ++e)
         ends.push_back(std::uint32_t(now.lumels_now) + e);
@@ -37,7 +37,7 @@ std::uint32_t side_of_rays(std::uint32_t rays)
 {
     if (!is_grid(rays))
         throw Error(ErrorKind::input, std::to_string(rays) + " rays",
-                    "are no grid: a lumel has 4, 16, 64 or 256");
+                    "are not a grid: use 4, 16, 64 or 256");
     return 1u << (std::countr_zero(rays) / 2);
 }
 

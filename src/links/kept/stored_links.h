@@ -1,5 +1,5 @@
 #pragma once
-// Links that outlive the program, and what tells whether they still hold.
+// Links stored on disk, with hashes that show which of them are still valid.
 
 #include <cstdint>
 #include <string>
@@ -11,22 +11,22 @@
 
 namespace lumel {
 
-/// All that a later run needs to light the same lumels over the same links: of a scene with N
-/// lumels and I instances. Nothing in it depends on lamps, sky or paint.
+/// Everything needed to relight the lumels over stored links, for a scene of N lumels and I
+/// instances. Independent of lamps, sky and albedo overrides.
 struct StoredLinks {
-    std::string scene_hash;                ///< Scene::hash of what was baked
-    std::uint32_t rays = 0;                ///< of a lumel
-    std::uint32_t seed = 0;                ///< of their directions
-    float ray_offset = 0.0f;               ///< how far off surfaces they started [m]
+    std::string scene_hash;                ///< Scene::hash of the baked scene
+    std::uint32_t rays = 0;                ///< rays per lumel
+    std::uint32_t seed = 0;                ///< seeds ray directions
+    float ray_offset = 0.0f;               ///< distance of ray origins from surfaces [m]
     std::vector<std::uint64_t> lumels;     ///< [N] lumel_hashes()
     std::vector<std::uint64_t> instances;  ///< [I] instance_hashes()
     std::vector<std::uint32_t> links;      ///< [N][rays] as of LumelLinks
 
-    /// Places in the atlas as they were: in scene.glb they are rounded.
+    /// Unrounded texture coordinates; scene.glb has rounded ones.
     struct StoredTexcoords {
-        std::vector<glm::vec2> texcoord;   ///< [V] as of Surface
-        std::vector<std::uint32_t> chart;  ///< [T] as of Surface
-        std::uint32_t authored = 0;        ///< 1: as of Surface
+        std::vector<glm::vec2> texcoord;   ///< [V] as in Surface
+        std::vector<std::uint32_t> chart;  ///< [T] as in Surface
+        std::uint32_t authored = 0;        ///< 1: as in Surface
 
         template <class Archive>
         void state(Archive& archive)
@@ -34,29 +34,29 @@ struct StoredLinks {
             archive(texcoord, chart, authored);
         }
     };
-    std::vector<StoredTexcoords> sheets;  ///< of the atlas's surfaces
-    std::uint32_t side = 0;               ///< of the atlas [texels]
+    std::vector<StoredTexcoords> sheets;  ///< one per surface of the atlas
+    std::uint32_t side = 0;               ///< side of the atlas [texels]
     float texels_per_metre = 0.0f;
     std::uint32_t charts = 0;
-    std::vector<glm::ivec2> back_shift;  ///< as of Atlas
-    std::uint32_t shows_front = 0;       ///< 1: as of Atlas
+    std::vector<glm::ivec2> back_shift;  ///< as in Atlas
+    std::uint32_t shows_front = 0;       ///< 1: as in Atlas
 
-    /// Where links end: at lumels, in the sky, nowhere, or lost on an instance.
+    /// Number of possible ends of a link: lumels, sky, absorbed, absorbed on an instance.
     std::uint64_t ends() const { return lumels.size() + 2 + instances.size(); }
-    /// What a link that was renumbered ended on is no longer there. No file has such links.
+    /// End of a renumbered link whose target was removed. Never in a file.
     std::uint64_t gone() const { return ends(); }
 };
 
-/// Are so many rays of a lumel a grid that Lumel keeps?
+/// True for the supported ray counts 4, 16, 64 and 256.
 constexpr bool is_grid(std::uint32_t rays)
 {
     return rays == 4 || rays == 16 || rays == 64 || rays == 256;
 }
 
-/// Side of the grid of a lumel's rays. Throws Error{input} unless there are 4, 16, 64 or 256.
+/// Side of the grid of a lumel's rays. Throws Error{input} unless `rays` is 4, 16, 64 or 256.
 std::uint32_t side_of_rays(std::uint32_t rays);
 
-/// What lumels and instances that were kept are now: by their number then. kNotThere: gone.
+/// New numbers of stored lumels and instances, by old number. kNotThere: removed.
 struct Renumbering {
     static constexpr std::uint32_t kNotThere = ~0u;
 
@@ -65,16 +65,15 @@ struct Renumbering {
     std::size_t lumels_now = 0, instances_now = 0;
 };
 
-/// The same links between lumels and instances that have other numbers now. Those that are new
-/// have a print of 0, as if they had changed; links that ended on what is gone end in gone().
-/// Places are left out.
+/// The links with lumels and instances renumbered. New lumels and instances have hash 0, as if
+/// changed; links to removed ones end in gone(). Leaves out texture coordinates.
 StoredLinks renumbered(const StoredLinks& kept, const Renumbering& now);
 
-/// Takes over the places of an atlas.
+/// Copies the texture coordinates of an atlas.
 void keep_places(const Atlas& atlas, StoredLinks& kept);
 
-/// The atlas whose places were kept. scene: as write_scene_glb wrote it from that atlas.
-/// pages: that it was written as. Throws Error{input} if it has other surfaces or another size.
+/// The atlas with the stored texture coordinates. scene: as write_scene_glb wrote it from that
+/// atlas. pages: of that atlas. Throws Error{input} if its surfaces or size differ.
 Atlas atlas_of(const StoredLinks& kept, const Scene& scene, const Pages& pages);
 
 }  // namespace lumel

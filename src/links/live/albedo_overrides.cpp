@@ -11,7 +11,7 @@ AlbedoOverrides::AlbedoOverrides(const Lumels& lumels)
     albedo_ = unclamped_;
 }
 
-/// By the difference of a white and a black one.
+/// Computed from the difference of a white and a black material.
 AlbedoOverrides::Coat AlbedoOverrides::coat_of(const Scene& scene, const Atlas& atlas,
                                                int material) const
 {

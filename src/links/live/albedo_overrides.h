@@ -1,5 +1,5 @@
 #pragma once
-// Albedos of lumels whose materials change their colour.
+// Albedos of lumels whose material colours are overridden.
 
 #include <cstdint>
 #include <map>
@@ -15,27 +15,27 @@ class AlbedoOverrides {
 public:
     explicit AlbedoOverrides(const Lumels& lumels);
 
-    /// A material reflects with this base colour times its texture. Scene and atlas: those of the
-    /// lumels.
+    /// Sets the base colour of a material, which is multiplied by its texture. `scene` and `atlas`
+    /// belong to the lumels.
     void set(const Scene& scene, const Atlas& atlas, int material, const glm::vec3& colour);
 
     const std::vector<glm::vec3>& albedo() const { return albedo_; }  ///< [N] 0…1
 
 private:
-    /// What one of a material's lumels reflects is linear in its colour.
+    /// Albedo of a lumel per colour of its material: linear.
     struct Share {
         std::uint32_t lumel;
         glm::vec3 per_colour;
     };
     struct Coat {
-        glm::vec3 colour;  ///< now
+        glm::vec3 colour;  ///< current
         std::vector<Share> shares;
     };
     Coat coat_of(const Scene& scene, const Atlas& atlas, int material) const;
 
     std::vector<glm::vec3> unclamped_;  ///< [N]
     std::vector<glm::vec3> albedo_;     ///< [N]
-    std::map<int, Coat> coats_;         ///< of materials that have been painted
+    std::map<int, Coat> coats_;         ///< by material
 };
 
 }  // namespace lumel

@@ -1,5 +1,5 @@
 #pragma once
-// Cells of a grid over the directions of a hemisphere.
+// Grid cells over the directions of a hemisphere.
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 
 namespace lumel {
 
-/// A rectangle of cells (u, v) of a grid of side × side over (sin² θ, φ / 2π). v counts around.
+/// Rectangle of cells (u, v) of a side × side grid over (sin² θ, φ / 2π). v is periodic.
 struct DirectionCells {
     std::uint32_t first_u = 0, end_u = 0;
     std::uint32_t first_v = 0, count_v = 0;
 
-    /// visit(cell), numbered v * side + u.
+    /// Calls visit(cell), numbered v * side + u.
     template <class Visit>
     void for_each(std::uint32_t side, const Visit& visit) const
     {
@@ -25,13 +25,13 @@ struct DirectionCells {
     }
 };
 
-/// Those that hold all directions from 0 that meet a box, centre ± half[0] ± half[1] ± half[2] [m],
-/// and lie above the horizon z = 0. Seen from outside, a box reaches as far around and as far down
-/// as its corners do. How far up is bounded by its height, and by how near the axis it comes.
+/// Cells with all directions from 0 that meet a box, centre ± half[0] ± half[1] ± half[2] [m],
+/// above the horizon z = 0. Seen from outside, the corners bound a box in azimuth and from below;
+/// its height and its distance from the axis bound it from above.
 inline DirectionCells cells_towards(const glm::vec3& centre, const glm::mat3& half,
                                     std::uint32_t side)
 {
-    // Far above the rounding of angles and squares of sines, far below a cell.
+    // Well above the rounding of angles and squared sines, well below a cell.
     constexpr float kRounding = 1e-4f, kPi = std::numbers::pi_v<float>;
     if (centre.z + std::abs(half[0].z) + std::abs(half[1].z) + std::abs(half[2].z) < 0.0f)
         return {};
@@ -52,7 +52,7 @@ inline DirectionCells cells_towards(const glm::vec3& centre, const glm::mat3& ha
         right = turn(right, aside) < 0.0f ? aside : right;
         left = turn(left, aside) > 0.0f ? aside : left;
     }
-    const bool around = !(nearest > 0.0f);  // the axis may be inside
+    const bool around = !(nearest > 0.0f);  // the box may contain the axis
     const float low = around ? 0.0f : nearest * nearest / (nearest * nearest + highest * highest);
     if (!(lowest > 0.0f))
         high = 1.0f;

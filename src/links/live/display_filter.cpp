@@ -11,12 +11,12 @@
 namespace lumel {
 namespace {
 
-/// Lumels and tiles of a piece of work: a few milliseconds.
+/// Lumels and tiles per piece of work: a few milliseconds.
 constexpr std::size_t kLumelsAtOnce = 8192, kTilesAtOnce = 4;
-/// Lumels worth a task.
+/// Lumels per task.
 constexpr std::size_t kGrain = 256;
-/// Something nearer than this many times their distance may stand between two neighbours; a ray
-/// between them tells, this far above them in sides of a lumel.
+/// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
+/// a ray between them, kLift sides of a lumel above them, decides.
 constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
 
 bool is_back(const Lumel& lumel)
@@ -24,7 +24,7 @@ bool is_back(const Lumel& lumel)
     return (lumel.flags & kLumelBack) != 0;
 }
 
-/// visit(lumel, texel of the tile) for each within a tile, row by row.
+/// Calls visit(lumel, texel of the tile) for each lumel within the tile, row by row.
 template <class Visit>
 void for_each_lumel(const FilterTile& tile, const Visit& visit)
 {
@@ -34,7 +34,7 @@ void for_each_lumel(const FilterTile& tile, const Visit& visit)
                 visit(i, std::size_t(y) * kTile + std::size_t(x), wide_at(x, y));
 }
 
-/// What rays bring [lx].
+/// Irradiance gathered by rays [lx].
 glm::vec3 by_rays(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel)
 {
     return sweeps.received(lumel) + (sky.empty() ? glm::vec3(0.0f) : sky[lumel]);
@@ -140,7 +140,7 @@ bool DisplayFilter::do_tiles(const Work& work)
     return last == tiles_.size();
 }
 
-/// kNoLumel where there is none that light reaches.
+/// kNoLumel if there is none that can receive light.
 std::uint32_t DisplayFilter::lumel_at(int x, int y, int side) const
 {
     const int width = place_.lumels.width;
@@ -151,8 +151,7 @@ std::uint32_t DisplayFilter::lumel_at(int x, int y, int side) const
     return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
 }
 
-/// Light of the rays whose cells lie on the white and on the black fields of a board, each as if it
-/// were all.
+/// Irradiance by the rays of each checkerboard half, scaled as if they were all rays.
 void DisplayFilter::find_halves(std::size_t i)
 {
     const std::span<const std::uint32_t> links = links_.of(i);
@@ -165,7 +164,7 @@ void DisplayFilter::find_halves(std::size_t i)
     halves_[1][i] = share * glm::vec3(sums[1]) + sky_ * 2.0f * (sky - white);
 }
 
-/// How near the rays of a lumel end [m], at least.
+/// Lower bound on the lengths of a lumel's rays [m].
 void DisplayFilter::find_nearest(std::size_t i)
 {
     const glm::vec3& centre = place_.world[i].centre;
@@ -177,7 +176,7 @@ void DisplayFilter::find_nearest(std::size_t i)
     nearest_[i] = std::max(nearest, 0.0f);
 }
 
-/// To which of its neighbours on the same chart and side light may mix.
+/// Bits of the neighbours on the same chart and side across which the filter may step.
 std::uint8_t DisplayFilter::steps_of(std::size_t i) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];
@@ -194,7 +193,7 @@ std::uint8_t DisplayFilter::steps_of(std::size_t i) const
     return std::uint8_t(steps);
 }
 
-/// Nothing stands between two neighbours.
+/// True if no geometry separates two neighbours.
 bool DisplayFilter::may_step(std::size_t i, std::size_t j) const
 {
     const WorldLumel &a = place_.world[i], &b = place_.world[j];
@@ -206,7 +205,7 @@ bool DisplayFilter::may_step(std::size_t i, std::size_t j) const
                                             std::uint32_t(i)));
 }
 
-/// Solution 0 is the guide, the mean of its followers, which are the halves.
+/// Solution 0 is the guide, the mean of the cross-filtered solutions 1 and 2, which are the halves.
 void DisplayFilter::fill(const Tile& of, FilterTile& tile) const
 {
     for (int y = -kHalo; y < kTile + kHalo; ++y)
@@ -260,8 +259,8 @@ void DisplayFilter::weigh(Tile& of, FilterTile& tile)
     });
 }
 
-/// Noise of lumels is independent: the variance of Σ w x / Σ w is Σ w² σ² / (Σ w)². What lies
-/// between the light of neighbours is not in it.
+/// Noise is independent between lumels: the variance of Σ w x / Σ w is Σ w² σ² / (Σ w)². Ignores
+/// the filter's bias.
 float DisplayFilter::noise_left(std::uint32_t i, const Tile& of) const
 {
     const auto light = [&](std::uint32_t j) { return 0.5f * (halves_[0][j] + halves_[1][j]); };
@@ -273,14 +272,13 @@ float DisplayFilter::noise_left(std::uint32_t i, const Tile& of) const
         sum += one.weight * light(one.lumel);
         variance += one.weight * one.weight * noise_[one.lumel];
     }
-    // Of sums over weights both, so that (Σ w) goes. The variance is that of three channels
-    // together.
+    // The ratio of two weighted sums, so Σ w cancels. The variance is summed over three channels.
     constexpr float kChannels = 3.0f;
     const float mean = sum_of(sum) / kChannels;
     return mean > 0.0f ? std::sqrt(variance / kChannels) / mean : 0.0f;
 }
 
-/// There must be weights.
+/// Requires weights.
 template <class Light>
 glm::vec3 DisplayFilter::mixed(const Light& light, std::size_t i) const
 {

@@ -1,6 +1,5 @@
 #pragma once
-// Less noise in what is shown: weights by which lumels mix with those around them, kept while the
-// light changes.
+// Filter weights for displayed light, reused while the light changes.
 
 #include <array>
 #include <cstdint>
@@ -14,41 +13,39 @@ namespace lumel {
 
 struct FilterTile;
 
-/// The narrow filter of charts (links/filter/filter_tile.h): two lumels to either side. Its weights
-/// come from light that was at rest once, and serve what follows. Lumels of which it has none are
-/// shown as they are.
+/// The narrow chart filter (links/filter/filter_tile.h) of radius 2. Its weights come from light
+/// that had converged, and are reused for later light. Lumels without weights are shown unfiltered.
 class DisplayFilter {
 public:
-    /// What is given must outlive it.
+    /// All arguments must outlive this.
     DisplayFilter(const LinkContext& place, const LumelLinks& links);
 
-    /// Light by rays is that of the links and sweeps now, and of the sky, times a factor: makes all
-    /// weights anew in the steps that follow.
+    /// Schedules new weights for the current links, sweeps and sky light times `sky`. Call step()
+    /// next.
     void begin(const LumelSweeps& sweeps, const glm::vec3& sky);
-    /// The same for light of which these are independent halves [2][N] [lx].
+    /// Schedules new weights from independent halves of the light [2][N] [lx].
     void begin(std::array<std::vector<glm::vec3>, 2> halves);
-    /// A piece of that. True when all is done.
+    /// Runs a piece of that work. Returns true when all is done.
     bool step();
 
-    /// H at a lumel [lx]: direct light, which is sharp, as it is, and light by rays filtered. sky:
-    /// what of its light the sweeps began with [N] [lx]; empty: none.
+    /// Irradiance at a lumel [lx]: direct light unfiltered, light by rays filtered. sky: [N] sky
+    /// light that the sweeps began with [lx]; empty: none.
     glm::vec3 irradiance(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                          std::size_t lumel) const;
-    /// The part of it that rays bring.
+    /// Its part by rays.
     glm::vec3 filtered(const LumelSweeps& sweeps, std::span<const glm::vec3> sky,
                        std::size_t lumel) const;
-    /// Any light [N] by the weights.
+    /// Applies the weights to any light [N].
     glm::vec3 filtered(std::span<const glm::vec3> light, std::size_t lumel) const;
-    /// Of the light that is shown, by its size: the root of the mean square over channels of what
-    /// is expected to be wrong, for the noise of rays alone. 1 of lumels that have no weights yet,
-    /// 0 of buried ones, which no one sees.
+    /// Expected error of the displayed light from ray noise, as RMS over channels relative to the
+    /// light. 1 for lumels without weights, 0 for buried ones.
     float noise(const LumelSweeps& sweeps, std::span<const glm::vec3> sky, std::size_t lumel) const;
     std::uint64_t bytes() const;
 
 private:
     struct Weight {
         std::uint32_t lumel;
-        float weight;  ///< beside 1 of its own
+        float weight;  ///< relative to 1 for the lumel itself
     };
     /// A tile of one side of the atlas.
     struct Tile {
@@ -77,18 +74,18 @@ private:
 
     const LinkContext place_;
     const LumelLinks& links_;
-    const LumelSweeps* sweeps_ = nullptr;  ///< that weights are made for
+    const LumelSweeps* sweeps_ = nullptr;  ///< for which weights are made
     glm::vec3 sky_{0.0f};
     std::vector<std::uint32_t> by_side_;  ///< [texels][2]
     std::vector<Tile> tiles_;
     std::vector<Place> places_;      ///< [N]
-    std::vector<float> noise_left_;  ///< [N] of light by rays when weights were made, by its size
+    std::vector<float> noise_left_;  ///< [N] relative noise of light by rays when weights were made
     enum class Stage { halves, nearest, steps, noise, weights, done } stage_ = Stage::done;
     std::size_t next_ = 0;  ///< lumel or tile of the stage
-    // Light by rays from every other direction, and by the others: empty when done.
-    std::array<std::vector<glm::vec3>, 2> halves_;  ///< [N] [lx]
-    std::vector<float> nearest_, noise_;            ///< [N] [m], and the variance of a half
-    std::vector<std::uint8_t> steps_;               ///< [N] bit s: light may mix over kSteps[s]
+    std::array<std::vector<glm::vec3>, 2>
+        halves_;                          ///< [N] [lx] by the rays of each half; empty when done
+    std::vector<float> nearest_, noise_;  ///< [N] [m], and variance of a half
+    std::vector<std::uint8_t> steps_;     ///< [N] bit s: may step over kSteps[s]
 };
 
 }  // namespace lumel

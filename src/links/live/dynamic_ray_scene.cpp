@@ -63,15 +63,15 @@ bool DynamicRayScene::is_clear(const RaySpan& ray) const
 
 bool DynamicRayScene::is_clear_but_for(std::size_t thing, const RaySpan& ray) const
 {
-    if (still_.passing(ray) == glm::vec3(0.0f))
+    if (still_.transmittance(ray) == glm::vec3(0.0f))
         return false;
     for (std::size_t t = 0; t < trees_.size(); ++t)
-        if (t != thing && may_meet(t, ray) && trees_[t].passing(ray) == glm::vec3(0.0f))
+        if (t != thing && may_meet(t, ray) && trees_[t].transmittance(ray) == glm::vec3(0.0f))
             return false;
     return true;
 }
 
-/// A look at a box costs much less than one at a tree.
+/// Testing a box costs much less than a query of a BVH.
 bool DynamicRayScene::may_meet(std::size_t thing, const RaySpan& ray) const
 {
     return boxes_[thing].may_meet(ray.origin, ray.direction, ray.far, ray_offset_);

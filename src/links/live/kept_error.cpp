@@ -1,11 +1,11 @@
-// The light over all links is, but for terms of second order, the mean of that over the white and
-// that over the black ones: half of their difference is a draw of its error. Like the links, direct
-// light has two halves, and each of the former begins from one of the latter.
+// Up to second-order terms, the light over all links is the mean of that over the two checkerboard
+// halves: half of their difference is a sample of its error. Direct light also has two halves, and
+// each half of the links starts from one of them.
 //
-// Weights of a filter follow the noise of the light that they were made for, and what they get
-// wrong does not show in it. So it is found by weights that know the white links alone, by what
-// they do to two quarters of the black ones: the mean of (F a - a) · (F b - b) is the square of F t
-// - t, with t the light without noise.
+// Filter weights depend on the noise of the light they were made for, so that light does not show
+// the filter's bias. The bias is estimated with weights made from the white links only, applied to
+// two quarters a and b of the black ones: the mean of (F a - a) · (F b - b) is the square of F t -
+// t, where t is the light without noise.
 
 #include "links/live/kept_error.h"
 
@@ -19,25 +19,25 @@
 namespace lumel {
 namespace {
 
-/// Lumels are dark below this part of the mean, as of LinkRadiosity.
+/// Lumels are dark below this fraction of the mean, as in LinkRadiosity.
 constexpr double kDark = 1.0 / 3.0;
-/// Light still to come to a half, as a part of all and of dark lumels' own: a twentieth of an error
-/// that is a percent.
+/// Convergence threshold of a half, for all and for dark lumels: a twentieth of an error of one
+/// percent.
 constexpr double kResidual = 5e-4;
-/// Lumels worth a task, and those of a sweep between two looks at the watch.
+/// Lumels per task, and per part of a sweep between progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
-/// Part of the time until the filter is judged, about.
+/// Progress at which the filter's bias is estimated.
 constexpr double kHalves = 0.4;
 
-/// The light over half of the links.
+/// Light over half of the links.
 struct Half {
     LumelSweeps sweeps;
     std::vector<glm::vec3> sky;  ///< [N] [lx]
     bool rests = false;
 
-    /// A part of a sweep.
+    /// Runs part of a sweep.
     void step() { rests = rests || (sweeps.step(kStep) && sweeps.rests(kResidual)); }
-    /// What rays bring [lx].
+    /// Irradiance gathered by rays [lx].
     glm::vec3 by_rays(std::size_t i, const DisplayFilter* filter) const
     {
         return filter ? filter->filtered(sweeps, sky, i) : sweeps.received(i) + sky[i];
@@ -49,7 +49,7 @@ bool is_buried(const LightAtRest& light, std::size_t i)
     return (light.lumels[i].flags & kLumelBuried) != 0;
 }
 
-/// Light of the sky by the rays of a half, as if they were all.
+/// Sky light by the rays of a half, scaled as if they were all rays.
 std::vector<glm::vec3> sky_of(const LumelLinks& links, std::uint32_t half)
 {
     std::vector<glm::vec3> sky = links.white_sky_light();
@@ -68,9 +68,9 @@ Half begun(const LightAtRest& light, std::uint32_t half)
     return one;
 }
 
-/// [N] Squares of what noise makes of each lumel, all channels together.
+/// [N] Squared noise of each lumel, summed over channels.
 std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     Half halves[2] = {begun(light, 0), begun(light, 1)};
     while (!halves[0].rests || !halves[1].rests) {
@@ -78,7 +78,7 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
             for (std::size_t k = first; k < last; ++k)
                 halves[k].step();
         });
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     }
     std::vector<float> noise(light.lumels.size(), 0.0f);
     parallel_for(noise.size(), kGrain, [&](std::size_t first, std::size_t last) {
@@ -92,9 +92,9 @@ std::vector<float> noise_of(const LightAtRest& light, const DisplayFilter* filte
     return noise;
 }
 
-/// [N] Squares, of any sign, of what the filter gets wrong of each lumel.
+/// [N] Signed squared filter bias of each lumel.
 std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
-                            const ProgressCallback& watch)
+                            const ProgressCallback& progress)
 {
     const std::size_t count = light.lumels.size();
     std::array<std::vector<glm::vec3>, 4> quarters;
@@ -110,7 +110,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
     });
     filter.begin({std::move(quarters[0]), std::move(quarters[1])});
     while (!filter.step())
-        tell(watch, 0.0);
+        notify(progress, 0.0);
     const std::vector<glm::vec3>&a = quarters[2], &b = quarters[3];
     std::vector<float> wrong(count, 0.0f);
     parallel_for(count, kGrain, [&](std::size_t first, std::size_t last) {
@@ -121,7 +121,7 @@ std::vector<float> wrong_of(const LightAtRest& light, DisplayFilter& filter,
     return wrong;
 }
 
-/// Of some lumels: sums of squares and of light.
+/// Sums of squares and of light over some lumels.
 struct Sums {
     SquaredError squares;
     double light = 0.0, count = 0.0;
@@ -135,11 +135,13 @@ struct Sums {
 
 }  // namespace
 
-KeptError error_of(const LightAtRest& light, DisplayFilter* filter, const ProgressCallback& watch)
+KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
+                   const ProgressCallback& progress)
 {
-    const std::vector<float> noise = noise_of(light, filter, part_of(watch, 0.0, kHalves));
-    const std::vector<float> wrong = filter ? wrong_of(light, *filter, part_of(watch, kHalves, 1.0))
-                                            : std::vector<float>(noise.size(), 0.0f);
+    const std::vector<float> noise = noise_of(light, filter, part_of(progress, 0.0, kHalves));
+    const std::vector<float> wrong = filter
+                                         ? wrong_of(light, *filter, part_of(progress, kHalves, 1.0))
+                                         : std::vector<float>(noise.size(), 0.0f);
     const auto sums_below = [&](double most) {
         Sums sums;
         for (std::size_t i = 0; i < noise.size(); ++i) {

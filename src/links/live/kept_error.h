@@ -1,5 +1,5 @@
 #pragma once
-// How far light over kept links is off, as parts of their rays tell.
+// Error estimate of light over stored links, from subsets of their rays.
 
 #include <span>
 #include <vector>
@@ -10,26 +10,26 @@
 
 namespace lumel {
 
-/// Relative, in the sense of SolverState::error and dark_error; < 0: of no light there is none.
+/// Relative, as SolverState::error and dark_error; < 0: there is no light.
 struct KeptError {
     double all = -1.0, dark = -1.0;
 };
 
-/// Light at rest over the links of a scene.
+/// Converged light over the links of a scene.
 struct LightAtRest {
     const LumelLinks& links;
     const LumelSweeps& sweeps;
-    std::span<const Lumel> lumels;         ///< [N]
-    std::span<const glm::vec3> lamps;      ///< [N] [lx] direct light but what rays bring of the sky
-    std::span<const glm::vec3> off;        ///< [N] [lx] of that, see LightGroups
-    const std::vector<glm::vec3>& albedo;  ///< [N]
-    std::span<const glm::vec3> irradiance;  ///< [N] [lx] H, filtered where that is wanted
+    std::span<const Lumel> lumels;          ///< [N]
+    std::span<const glm::vec3> lamps;       ///< [N] [lx] direct light, without that of the links
+    std::span<const glm::vec3> off;         ///< [N] [lx] its deviation, see LightGroups
+    const std::vector<glm::vec3>& albedo;   ///< [N]
+    std::span<const glm::vec3> irradiance;  ///< [N] [lx] H, filtered if requested
 };
 
-/// Lights the scene over either half of the links, each with its half of the rays to lamps and sky,
-/// so that what bounces carry of their noise is in it. filter: null, or with the weights of H,
-/// which are others afterwards.
+/// Solves again over each half of the links, with its half of the shadow rays, so that the estimate
+/// includes noise transported by bounces. filter: null, or with the weights of H; its weights are
+/// changed.
 KeptError error_of(const LightAtRest& light, DisplayFilter* filter,
-                   const ProgressCallback& watch = {});
+                   const ProgressCallback& progress = {});
 
 }  // namespace lumel

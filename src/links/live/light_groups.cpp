@@ -11,11 +11,11 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task: all of their light, and that which a move may change.
+/// Lumels per task: for all their light, and for the part that a move can change.
 constexpr std::size_t kGrain = 256, kFollowed = 64;
-/// Lumels between two looks at the watch.
+/// Lumels between progress reports.
 constexpr std::size_t kStep = 16384;
-/// A sender of more sources chooses among them for each ray, by what they may send.
+/// Emitters of more sources select one for each ray, by sampling weight.
 constexpr std::size_t kMaxAlone = 8;
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
@@ -23,7 +23,7 @@ constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kChoicePair = 2;
 }  // namespace
 
 LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                         const ProgressCallback& watch)
+                         const ProgressCallback& progress)
     : place_(place),
       options_(options)
 {
@@ -37,7 +37,7 @@ LightGroups::LightGroups(const LinkContext& place, const GroupedLightOptions& op
     this->place();
     const double share = 1.0 / double(std::max<std::size_t>(groups_.size(), 1));
     for (std::size_t g = 0; g < groups_.size(); ++g)
-        find(groups_[g], part_of(watch, share * double(g), share * double(g + 1)));
+        find(groups_[g], part_of(progress, share * double(g), share * double(g + 1)));
 }
 
 void LightGroups::list_senders()
@@ -52,7 +52,7 @@ void LightGroups::list_senders()
     }
 }
 
-/// Of senders that were none before, such as the bright part of another sky.
+/// Adds groups for new emitters, such as the bright part of a new sky.
 void LightGroups::add_groups()
 {
     const bool is_full = !groups_.empty() && groups_.back().is_shared();
@@ -66,7 +66,7 @@ void LightGroups::add_groups()
     }
 }
 
-/// Surfaces that move may be split into other sources.
+/// Moving surfaces may be split into different sources.
 void LightGroups::place()
 {
     list_senders();
@@ -79,7 +79,7 @@ void LightGroups::place()
     }
 }
 
-/// Its number, or that of senders where there is none.
+/// Index of the emitter, or the number of emitters if there is none.
 std::uint32_t LightGroups::sender_of(LightSources::Part part, std::uint32_t index) const
 {
     const auto found = std::find_if(senders_.begin(), senders_.end(), [&](const Emitter& sender) {
@@ -115,7 +115,7 @@ void LightGroups::make_room(Group& group) const
         group.off.resize(group.light.size());
 }
 
-void LightGroups::find(Group& group, const ProgressCallback& watch)
+void LightGroups::find(Group& group, const ProgressCallback& progress)
 {
     const std::size_t lumels = place_.lumels.lumels.size();
     make_room(group);
@@ -126,7 +126,7 @@ void LightGroups::find(Group& group, const ProgressCallback& watch)
                 find_at(group, i);
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels));
+            notify(progress, double(done) / double(lumels));
             return true;
         });
     summed_ = false;
@@ -153,7 +153,7 @@ std::uint64_t LightGroups::follow(std::uint32_t thing, const Box& before, std::s
     return found;
 }
 
-/// Do any of its sources move with a thing?
+/// True if one of its sources moves with the object.
 bool LightGroups::is_moved(const Group& group, std::uint32_t thing) const
 {
     return std::any_of(group.senders.begin(), group.senders.end(), [&](std::uint32_t s) {
@@ -176,7 +176,7 @@ bool LightGroups::may_cross(const Group& group, std::size_t i, const Box& before
     });
 }
 
-/// May a ray from a lumel to a source meet a box?
+/// True if a ray from the lumel to the source can hit a box.
 bool LightGroups::may_cross(std::uint32_t source, std::size_t i, const Box& box) const
 {
     const LightSources::SourceInfo origin = place_.sources.origin(source);
@@ -223,15 +223,15 @@ LightGroups::Found LightGroups::light_of(const Emitter& sender, std::size_t i) c
     return sum;
 }
 
-/// Rays to all sources start at the same points, so that light from all around adds up to all.
+/// Rays to all sources start at the same points, so that light from all directions sums correctly.
 RayOrigin LightGroups::start_of(std::size_t i, std::uint32_t k) const
 {
     const PathSamples samples(PathSamples::hash(options_.seed, std::uint32_t(i)), k);
     return place_.starts.start(i, samples.stratified(kStartPair));
 }
 
-glm::vec3 LightGroups::passing(const RayOrigin& start, const SourceSample& sample,
-                               std::uint32_t seed) const
+glm::vec3 LightGroups::transmittance(const RayOrigin& start, const SourceSample& sample,
+                                     std::uint32_t seed) const
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
@@ -239,8 +239,8 @@ glm::vec3 LightGroups::passing(const RayOrigin& start, const SourceSample& sampl
     return glm::vec3(place_.rays.is_clear(ray) ? 1.0f : 0.0f);
 }
 
-/// A few rays, and many where these see a part of the source. The first half of either number is as
-/// well spread as the second.
+/// A few rays, and many if they see part of the source. The first half of each set is as well
+/// stratified as the second.
 LightGroups::Found LightGroups::by_one(std::uint32_t source, std::uint32_t stream,
                                        std::size_t i) const
 {
@@ -254,13 +254,13 @@ LightGroups::Found LightGroups::by_one(std::uint32_t source, std::uint32_t strea
         const RayOrigin start = start_of(i, k);
         const SourceSample sample =
             place_.sources.sample(source, start, samples.stratified(kSourcePair));
-        found.add(sample, passing(start, sample, samples.bits(kSourcePair)));
+        found.add(sample, transmittance(start, sample, samples.bits(kSourcePair)));
     }
     const glm::vec3 light = found.light();
     return {light, half.light() - light};
 }
 
-/// Each ray goes to a source that is chosen by what it may send.
+/// Each ray goes to a source selected by sampling weight.
 LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t stream,
                                         std::size_t i) const
 {
@@ -283,8 +283,8 @@ LightGroups::Found LightGroups::by_many(const Emitter& sender, std::uint32_t str
             continue;
         const SourceSample sample =
             place_.sources.sample(sender.sources[n], start, samples.stratified(kSourcePair));
-        sum +=
-            passing(start, sample, samples.bits(kSourcePair)) * sample.irradiance * (total / own);
+        sum += transmittance(start, sample, samples.bits(kSourcePair)) * sample.irradiance *
+               (total / own);
     }
     const glm::vec3 light = sum / float(options_.many_rays);
     return {light, half / (0.5f * float(options_.many_rays)) - light};

@@ -1,5 +1,5 @@
 #pragma once
-// Direct light, kept apart by what sends it.
+// Direct light per emitter or group of emitters.
 
 #include <cstdint>
 #include <vector>
@@ -13,39 +13,40 @@
 namespace lumel {
 
 struct GroupedLightOptions {
-    std::uint32_t few_rays = 4;    ///< from each lumel to each source; powers of two
-    std::uint32_t many_rays = 16;  ///< where those see a part of it
-    /// That light may take [bytes]. Senders beyond it share one group: to dim one of them, that is
-    /// found again.
+    std::uint32_t few_rays = 4;    ///< from each lumel to each source; a power of two
+    std::uint32_t many_rays = 16;  ///< if those see part of the source; a power of two
+    /// Memory limit [bytes]. Emitters beyond it share one group, which is recomputed when one of
+    /// them is dimmed.
     std::uint64_t most_bytes = std::uint64_t(1) << 30;
     std::uint32_t seed = 0;
-    bool halves = false;  ///< keeps what half of the rays tell otherwise, see off()
+    bool halves = false;  ///< stores the deviation of half of the rays, see off()
 };
 
-/// The light that each lamp, each emissive material and the bright part of the sky send to each
-/// lumel. What a lumel receives of a group depends on itself and the group alone.
+/// Light from each lamp, each emissive material and the bright part of the sky at each lumel. A
+/// lumel's light of a group depends on nothing but the two.
 class LightGroups {
 public:
-    /// Finds it. What is given must outlive it.
+    /// Computes all light. All arguments must outlive this.
     LightGroups(const LinkContext& place, const GroupedLightOptions& options,
-                const ProgressCallback& watch = {});
+                const ProgressCallback& progress = {});
 
-    /// All that a sender sends is `factor` times what the scene says.
+    /// Scales an emitter's light to `factor` × its value in the scene. Returns false if there is
+    /// none.
     bool set_factor(LightSources::Part part, std::uint32_t index, const glm::vec3& factor);
-    /// A light of the scene has moved, and the sources know.
+    /// Recomputes a moved light. Requires that the sources are updated.
     void find_again(LightSources::Part part, std::uint32_t index);
-    /// Surfaces have moved, and the sources know.
+    /// Updates the sources of moved surfaces. Requires that the sources are updated.
     void place();
-    /// A thing has moved from a box, and this is placed: of these lumels, finds again what changes.
-    /// Once all lumels have followed, light is as if all had been found. Returns for how many
-    /// lumels one group was found again, in all.
+    /// Recomputes the light of these lumels that an object's move from box `before` can change.
+    /// Call after place(). After all lumels, light equals that of a new LightGroups. Returns the
+    /// number of (lumel, group) pairs recomputed.
     std::uint64_t follow(std::uint32_t thing, const Box& before, std::size_t first,
                          std::size_t last);
 
     /// Σ over groups [N] [lx].
     const std::vector<glm::vec3>& sum();
-    /// What the first half of the rays found less what all of them did, Σ over groups [N] [lx], as
-    /// if all factors were 1, but of groups that senders share; only with options.halves.
+    /// [N] [lx] Irradiance by the first half of the rays minus that by all, Σ over groups, at
+    /// factor 1 but for shared groups. Requires options.halves.
     std::vector<glm::vec3> off() const;
     std::size_t groups() const { return groups_.size(); }
     std::uint64_t bytes() const;
@@ -60,13 +61,13 @@ private:
     struct Group {
         std::vector<std::uint32_t> senders;
         std::vector<glm::vec3>
-            light;  ///< [N] [lx] of the one sender by factor 1, of several by theirs
-        std::vector<glm::vec3> off;  ///< [N] [lx] of it, see off()
+            light;                   ///< [N] [lx] of one emitter at factor 1; of several, at theirs
+        std::vector<glm::vec3> off;  ///< [N] [lx] deviation, see off()
 
         bool is_shared() const { return senders.size() > 1; }
     };
 
-    /// Light of a lumel [lx], and by how much that of half of the rays differs.
+    /// Light of a lumel [lx], and the deviation by half of the rays.
     struct Found {
         glm::vec3 light{0.0f}, off{0.0f};
 
@@ -81,14 +82,15 @@ private:
     void add_groups();
     void make_room(Group& group) const;
     std::uint32_t sender_of(LightSources::Part part, std::uint32_t index) const;
-    void find(Group& group, const ProgressCallback& watch = {});
+    void find(Group& group, const ProgressCallback& progress = {});
     void find_at(Group& group, std::size_t lumel) const;
     Found light_of(const Group& group, std::size_t lumel) const;
     Found light_of(const Emitter& sender, std::size_t lumel) const;
     Found by_one(std::uint32_t source, std::uint32_t stream, std::size_t lumel) const;
     Found by_many(const Emitter& sender, std::uint32_t stream, std::size_t lumel) const;
     RayOrigin start_of(std::size_t lumel, std::uint32_t ray) const;
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
     bool is_moved(const Group& group, std::uint32_t thing) const;
     bool may_cross(const Group& group, std::size_t lumel, const Box& before, const Box& now) const;
     bool may_cross(std::uint32_t source, std::size_t lumel, const Box& box) const;

@@ -9,14 +9,14 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task.
+/// Lumels per task.
 constexpr std::size_t kGrain = 1024;
-/// Where more instances moved, or more of the lumels, all links are traced: looking for those that
-/// changed would take as long.
+/// With more moved instances, or a larger fraction of changed lumels, all links are traced:
+/// searching for changed links would take as long.
 constexpr std::size_t kMaxMoved = 64;
 constexpr double kMaxStarts = 0.5;
 
-/// Where a material lets light pass. Textures come by their contents.
+/// Adds the transmission of a material. Textures are hashed by content.
 void add_passage(Fingerprint& print, const Scene& scene, const Primitive& primitive)
 {
     const Material& material = scene.materials[std::size_t(primitive.material)];
@@ -39,7 +39,7 @@ void add_passage(Fingerprint& print, const Scene& scene, const Primitive& primit
     print.add(scene.textures[std::size_t(use.texture)].rgba);
 }
 
-/// Corner by corner: vertices may have been split.
+/// By corner: vertices may have been split.
 void add_triangles(Fingerprint& print, const Primitive& primitive)
 {
     for (const std::uint32_t corner : primitive.indices) {
@@ -49,7 +49,7 @@ void add_triangles(Fingerprint& print, const Primitive& primitive)
     }
 }
 
-/// Lumels whose texel a hit on a changed one may have been looked up from, or may be now.
+/// Marks the lumels near a changed one on its instance, whose hits may now be looked up otherwise.
 void mark_around(const Lumels& lumels, const std::vector<std::uint32_t>& by_side,
                  const Lumel& changed, std::vector<char>& ends)
 {
@@ -120,7 +120,7 @@ LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std
     const std::vector<Lumel>& lumels = place.lumels.lumels;
     const std::vector<std::uint64_t> prints = lumel_hashes(place.world, place.lumels);
     const std::vector<std::uint64_t> instances = instance_hashes(place.scene);
-    const std::size_t lost = lumels.size() + 2;  // lost on an instance
+    const std::size_t lost = lumels.size() + 2;  // absorbed on an instance
     changes.starts.resize(lumels.size());
     changes.ends.resize(kept.gone() + 1);
     changes.ends[kept.gone()] = 1;

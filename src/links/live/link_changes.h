@@ -1,5 +1,5 @@
 #pragma once
-// Which of the links that were kept a scene may have changed.
+// Finds the stored links that scene changes can invalidate.
 
 #include <cstdint>
 #include <vector>
@@ -11,27 +11,25 @@
 
 namespace lumel {
 
-/// [N] Of where each lumel's rays start: its place, and what is open of it.
+/// [N] Hash of each lumel's position and pieces; differs if its ray origins do.
 std::vector<std::uint64_t> lumel_hashes(const WorldLumels& world, const Lumels& lumels);
 
-/// [I] Of what rays meet of each instance: its triangles in their place, and where they let light
-/// pass.
+/// [I] Hash of each instance's world-space triangles and transmission.
 std::vector<std::uint64_t> instance_hashes(const Scene& scene);
 
-/// Of a scene against links that were kept.
+/// Changes of a scene since its links were stored.
 struct LinkChanges {
-    /// An instance that is elsewhere or otherwise.
+    /// A moved or changed instance.
     struct Moved {
         RayScene tree;
         Box box;
     };
 
-    bool all = true;           ///< nothing fits: the rest is empty
-    std::vector<char> starts;  ///< [N] its links start elsewhere
-    std::vector<char> ends;    ///< [ends] links that ended there may end elsewhere
-    std::vector<Moved> moved;  ///< links may meet it where it is now
+    bool all = true;           ///< nothing is reusable: the rest is empty
+    std::vector<char> starts;  ///< [N] the lumel's ray origins changed
+    std::vector<char> ends;    ///< [ends] links with this end can change
+    std::vector<Moved> moved;  ///< links can now hit these
 };
-/// rays, seed: that are wanted.
 LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays,
                           std::uint32_t seed);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene in which things move gives to those that trace its light.
+// Context for tracing light in a scene with movable objects.
 
 #include "lights/sources.h"
 #include "links/live/dynamic_ray_scene.h"
@@ -14,21 +14,21 @@ struct LinkContext {
     const WorldLumels& world;
     const RayOrigins& starts;
     const LightSources& sources;
-    float ray_offset;  ///< how far off surfaces rays start [m]
+    float ray_offset;  ///< distance of ray origins from surfaces [m]
 
-    /// The thing that a lumel is on, or DynamicRayScene::kStatic.
+    /// The object that a lumel is on, or DynamicRayScene::kStatic.
     std::uint32_t object_of(std::size_t lumel) const
     {
         return rays.object_of(lumels.lumels[lumel].instance);
     }
-    /// No point of a lumel, nor where its rays start, is farther from its centre [m].
+    /// Bounding radius of a lumel and its ray origins around its centre [m].
     float reach(std::size_t lumel) const
     {
         return kReach * lumels.lumels[lumel].size + kLifts * ray_offset;
     }
 
 private:
-    /// A lumel is √2 of its sizes wide at most. Starts are lifted twice.
+    /// Factors: a lumel is at most √2 sizes wide; ray origins are offset twice.
     static constexpr float kReach = 1.5f, kLifts = 2.0f;
 };
 

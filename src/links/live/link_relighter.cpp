@@ -8,9 +8,10 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task, and those of a sweep between two looks at the watch.
+/// Lumels per task, and per part of a sweep between progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
-/// Parts of the time, about: direct light of all, sweeps of what follows, weights of what follows.
+/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of the
+/// remainder.
 constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace
@@ -21,14 +22,13 @@ const Scene& without_coloured_glass(const Scene& scene)
         if (is_coloured_glass(material))
             throw Error(ErrorKind::input, scene.path,
                         "has coloured glass (material \"" + material.name +
-                            "\"), which links that are kept do not know; make it white, or "
-                            "opaque");
+                            "\"), which links do not support; make it white, or opaque");
     return scene;
 }
 
 LinkRelighter::LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                              const KeptLightOptions& options, const StoredLinks* kept,
-                             const ProgressCallback& watch)
+                             const ProgressCallback& progress)
     : scene_(without_coloured_glass(scene)),
       atlas_(atlas),
       lumels_(lumels),
@@ -39,7 +39,7 @@ LinkRelighter::LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumel
       starts_(world_, nullptr, rays_.ray_offset(), false),
       sources_(std::in_place, scene, *surfaces_,
                glm::distance(rays_.still().low(), rays_.still().high())),
-      links_(place(), atlas, side_of_rays(options.rays), options.seed, kept, watch)
+      links_(place(), atlas, side_of_rays(options.rays), options.seed, kept, progress)
 {
 }
 
@@ -48,7 +48,7 @@ LinkContext LinkRelighter::place() const
     return {scene_, lumels_, rays_, *surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
 }
 
-/// Materials, lamps and sky as they are now.
+/// Updates sources from the current materials, lamps and sky.
 void LinkRelighter::find_sources()
 {
     surfaces_.emplace(scene_);
@@ -56,11 +56,11 @@ void LinkRelighter::find_sources()
     links_.find_sky();
 }
 
-std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& watch)
+std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& progress)
 {
     find_sources();
     std::vector<glm::vec3> off;
-    const std::vector<glm::vec3> lamps = light_of_lamps(off, part_of(watch, 0.0, kDirect));
+    const std::vector<glm::vec3> lamps = light_of_lamps(off, part_of(progress, 0.0, kDirect));
     std::vector<glm::vec3> direct = lamps, albedo;
     const std::vector<glm::vec3>& sky = links_.sky_light();
     for (std::size_t i = 0; i < direct.size(); ++i) {
@@ -69,7 +69,7 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& watch)
     }
     sweeps_.emplace(links_);
     sweeps_->begin(direct, albedo);
-    const ProgressCallback after = part_of(watch, kDirect, 1.0);
+    const ProgressCallback after = part_of(progress, kDirect, 1.0);
     settle(part_of(after, 0.0, kSweeps));
     const ProgressCallback rest = part_of(after, kSweeps, 1.0);
     std::optional<DisplayFilter> filter;
@@ -82,36 +82,36 @@ std::vector<glm::vec3> LinkRelighter::irradiance(const ProgressCallback& watch)
     });
     error_ = error_of({links_, *sweeps_, lumels_.lumels, lamps, off, albedo, result},
                       filter ? &*filter : nullptr, part_of(rest, kWeights, 1.0));
-    tell(watch, 1.0);
+    notify(progress, 1.0);
     return result;
 }
 
-/// What lamps, emissive surfaces and the bright part of the sky send [N] [lx]; off: as of
+/// [N] [lx] Light from lamps, emissive surfaces and the bright part of the sky; off: as in
 /// LightGroups.
 std::vector<glm::vec3> LinkRelighter::light_of_lamps(std::vector<glm::vec3>& off,
-                                                     const ProgressCallback& watch)
+                                                     const ProgressCallback& progress)
 {
     GroupedLightOptions options = options_.light;
     options.halves = true;
-    LightGroups light(place(), options, watch);
+    LightGroups light(place(), options, progress);
     off = light.off();
     return light.sum();
 }
 
-/// Sweeps until at rest.
-void LinkRelighter::settle(const ProgressCallback& watch)
+/// Sweeps until converged.
+void LinkRelighter::settle(const ProgressCallback& progress)
 {
     for (bool rests = false; !rests;) {
         rests = sweeps_->step(kStep) && sweeps_->rests(options_.residual);
-        tell(watch, rests ? 1.0 : 0.0);
+        notify(progress, rests ? 1.0 : 0.0);
     }
 }
 
-void LinkRelighter::make_weights(DisplayFilter& filter, const ProgressCallback& watch)
+void LinkRelighter::make_weights(DisplayFilter& filter, const ProgressCallback& progress)
 {
     filter.begin(*sweeps_, glm::vec3(1.0f));
     while (!filter.step())
-        tell(watch, 0.0);
+        notify(progress, 0.0);
 }
 
 StoredLinks LinkRelighter::kept(const std::string& hash) const

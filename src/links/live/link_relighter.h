@@ -1,5 +1,5 @@
 #pragma once
-// The light of a scene that stands still, over links that are kept for a later run.
+// Relights a static scene over links that can be stored for a later run.
 
 #include <optional>
 #include <vector>
@@ -13,45 +13,45 @@
 namespace lumel {
 
 struct KeptLightOptions {
-    std::uint32_t rays = 64;  ///< of a lumel: 4, 16, 64 or 256
+    std::uint32_t rays = 64;  ///< per lumel: 4, 16, 64 or 256
     std::uint32_t seed = 0;
-    /// Of direct light; many: as what is baked is looked at for long.
+    /// Direct light. Many rays: results are baked.
     GroupedLightOptions light = {.few_rays = 8, .many_rays = 64};
-    /// Light still to come, as a part of all and of dark lumels' own, to rest at.
+    /// Convergence threshold for the relative residual of all lumels and of dark ones.
     double residual = 2e-4;
-    bool filter = true;  ///< of what rays bring, see links/live/display_filter.h
+    bool filter = true;  ///< filters light by rays, see links/live/display_filter.h
 };
 
-/// Traces links, or takes over those that still hold; lights them as often as lamps, sky and what
-/// surfaces send change. The same scene, options and seed have the same light in every bit, whether
-/// links were traced or taken over, and whatever was lit before. Works on the host.
+/// Traces links, or reuses stored ones that are still valid, and lights the scene over them each
+/// time that lamps, sky or emission change. For equal scene, options and seed the light is equal
+/// bit for bit, whether links were traced or reused, and whatever was lit before. Runs on the CPU.
 class LinkRelighter {
 public:
-    /// What is given must outlive it; of the scene lights, sky and what materials send may change.
-    /// kept: links of a former run, or null. Throws Error{input} for coloured glass.
+    /// All arguments must outlive this; lights, sky and emission of the scene may change. kept:
+    /// links of an earlier run, or null. Throws Error{input} for coloured glass.
     LinkRelighter(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                   const KeptLightOptions& options, const StoredLinks* kept = nullptr,
-                  const ProgressCallback& watch = {});
+                  const ProgressCallback& progress = {});
     LinkRelighter(const LinkRelighter&) = delete;
     LinkRelighter& operator=(const LinkRelighter&) = delete;
 
-    /// Finds the light of the scene as it is now: H [N] [lx].
-    std::vector<glm::vec3> irradiance(const ProgressCallback& watch = {});
+    /// H [N] [lx] of the scene as it is now.
+    std::vector<glm::vec3> irradiance(const ProgressCallback& progress = {});
 
-    /// Of the last light.
+    /// Error estimate of the last light.
     const KeptError& error() const { return error_; }
     const LumelLinks& links() const { return links_; }
-    int sweeps() const { return sweeps_ ? sweeps_->sweeps() : 0; }  ///< of the last light
-    /// For a later run. hash: Scene::hash.
+    int sweeps() const { return sweeps_ ? sweeps_->sweeps() : 0; }  ///< for the last light
+    /// Links to store for a later run. hash: Scene::hash.
     StoredLinks kept(const std::string& hash) const;
 
 private:
     LinkContext place() const;
     void find_sources();
     std::vector<glm::vec3> light_of_lamps(std::vector<glm::vec3>& off,
-                                          const ProgressCallback& watch);
-    void settle(const ProgressCallback& watch);
-    void make_weights(DisplayFilter& filter, const ProgressCallback& watch);
+                                          const ProgressCallback& progress);
+    void settle(const ProgressCallback& progress);
+    void make_weights(DisplayFilter& filter, const ProgressCallback& progress);
 
     const Scene& scene_;
     const Atlas& atlas_;
@@ -67,7 +67,7 @@ private:
     KeptError error_;
 };
 
-/// The scene itself. Throws Error{input} if it has coloured glass.
+/// Returns the scene. Throws Error{input} if it has coloured glass.
 const Scene& without_coloured_glass(const Scene& scene);
 
 }  // namespace lumel

@@ -13,12 +13,11 @@
 namespace lumel {
 namespace {
 
-/// Lumels between two looks at the clock: of a sweep, about a tenth of a millisecond; that follow a
-/// move, 5 ms at most, where all of them are on the thing.
+/// Lumels between clock checks: of a sweep, about 0.1 ms; of an update after a move, at most 5 ms,
+/// if all are on the object.
 constexpr std::size_t kStep = 4096, kPiece = 256;
 
-/// Links traced again, as a part of all, that are worth a sweep before the rest: they took three
-/// times as long.
+/// After this fraction of all links is retraced, a sweep runs before the rest.
 constexpr double kWorthASweep = 0.01;
 
 using Groups = std::vector<std::vector<std::uint32_t>>;
@@ -38,7 +37,7 @@ Groups instances_of(const Scene& scene, const std::vector<std::string>& things,
     return result;
 }
 
-/// Index of the first of that name, or how many there are.
+/// Index of the first element of that name, or the number of elements.
 template <class Named>
 std::uint32_t index_of(const std::vector<Named>& all, const std::string& name)
 {
@@ -69,7 +68,7 @@ std::vector<glm::mat4> transforms_of(const Scene& scene)
 void check_factor(const glm::vec3& factor)
 {
     if (!(factor.x >= 0.0f && factor.y >= 0.0f && factor.z >= 0.0f))
-        throw Error(ErrorKind::input, "factor", "is negative, but light is not");
+        throw Error(ErrorKind::input, "factor", "must not be negative");
 }
 
 template <class All>
@@ -96,13 +95,13 @@ LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
     for (const std::uint32_t instance : movers) {
         if (instance >= moves.size())
             throw Error(ErrorKind::input, scene.path,
-                        "has no instance " + std::to_string(instance) + " that could move");
+                        "has no instance " + std::to_string(instance));
         moves[instance] = 1;
     }
     Atlas atlas = make_atlas(scene, options);
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     mark_buried_by_still(scene, moves, lumels);
     return {std::move(scene), std::move(atlas), std::move(lumels)};
 }
@@ -136,7 +135,7 @@ float LiveLinks::extent() const
 LinkContext LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
-        throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
+        throw Error(ErrorKind::input, scene().path, "has no static geometry");
     return {scene(), lumels(), rays_, surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
 }
 
@@ -199,7 +198,7 @@ void LiveLinks::replace_sky(Sky sky, double angle)
     place_sky(angle);
 }
 
-/// What others refer to stays where it is.
+/// The Sky object keeps its address: others refer to it.
 void LiveLinks::place_sky(double angle)
 {
     laid_out_.scene.sky = angle != 0.0 ? turned(given_sky_, angle) : given_sky_;
@@ -223,7 +222,7 @@ void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
     check_index(material, scene().materials, "material");
     if (glm::clamp(colour, 0.0f, 1.0f) != colour)
         throw Error(ErrorKind::input, "colour of \"" + scene().materials[material].name + "\"",
-                    "is not from 0 to 1");
+                    "must be from 0 to 1");
     paint_.set(scene(), atlas(), int(material), colour);
     edited_ = true;
 }
@@ -253,11 +252,11 @@ std::uint32_t LiveLinks::thing(const std::string& name) const
 {
     const auto found = std::find(options_.things.begin(), options_.things.end(), name);
     if (found == options_.things.end())
-        throw Error(ErrorKind::input, "\"" + name + "\"", "is not one of the things that may move");
+        throw Error(ErrorKind::input, "\"" + name + "\"", "is not a movable object");
     return std::uint32_t(found - options_.things.begin());
 }
 
-/// Places begin from those of the scene that was given, so that no rounding adds up.
+/// Transforms start from those of the given scene, so that rounding does not accumulate.
 void LiveLinks::put(std::uint32_t thing, const glm::mat4& motion)
 {
     motions_[thing] = motion;
@@ -308,7 +307,7 @@ bool LiveLinks::is_under_way() const
     return !following_.empty() || is_requested();
 }
 
-/// All things first: rays that are traced again for one meet the others where they are.
+/// Places all objects first: rays retraced for one then hit the others at their new positions.
 void LiveLinks::put_requested()
 {
     for (std::uint32_t t = 0; t < requested_.size(); ++t)
@@ -325,7 +324,7 @@ void LiveLinks::put_requested()
     light_.place();
 }
 
-/// The first whose direct light is not known to all lumels.
+/// The first move whose direct light is not updated for all lumels.
 LiveLinks::PendingMove* LiveLinks::with_direct()
 {
     const auto found =
@@ -334,7 +333,7 @@ LiveLinks::PendingMove* LiveLinks::with_direct()
     return found == following_.end() ? nullptr : &*found;
 }
 
-/// A piece of the direct light that has changed.
+/// Updates a piece of the changed direct light.
 void LiveLinks::follow_direct(PendingMove& one)
 {
     const std::size_t count = lumels().lumels.size();
@@ -345,15 +344,14 @@ void LiveLinks::follow_direct(PendingMove& one)
     edited_ |= with_direct() == nullptr;
 }
 
-/// Do the lumels around a thing, and on it, not know of its move yet? They do before things move
-/// on, so that what never stops is followed by these.
+/// True if lumels on and around the object are not updated yet. They are updated before further
+/// moves, so that an object in constant motion still has correct light around it.
 bool LiveLinks::has_near_to_follow(const PendingMove& one)
 {
     return one.links < one.order.near;
 }
 
-/// A piece of the links that have changed. What a shell of lumels found is shown where that is
-/// much.
+/// Updates a piece of the changed links. Runs a sweep after a distance band in which many changed.
 void LiveLinks::follow_links()
 {
     const auto next = std::find_if(following_.begin(), following_.end(), has_near_to_follow);
@@ -396,8 +394,8 @@ void LiveLinks::begin()
     edited_ = false;
 }
 
-/// A part of what there is to do. What is found is shown before things move on, and their links
-/// follow for a while before they do.
+/// Runs a piece of the pending work. Results are shown before objects move again, and near links
+/// are updated first.
 void LiveLinks::work()
 {
     if (PendingMove* one = with_direct())
@@ -417,7 +415,7 @@ void LiveLinks::work()
     }
 }
 
-/// A part of a sweep.
+/// Runs part of a sweep.
 void LiveLinks::sweep()
 {
     if (edited_)
@@ -451,7 +449,7 @@ LiveLinksState LiveLinks::advance(double budget_ms)
     return state_;
 }
 
-/// After a whole sweep.
+/// Call after a complete sweep.
 bool LiveLinks::is_at_rest()
 {
     const StillToCome now = sweeps_.still_to_come();

@@ -1,5 +1,11 @@
 #pragma once
-// A lit scene that is edited while it is seen: light over links that are kept.
+// Interactive lighting: keeps irradiance up to date while lights, materials and objects change.
+//
+//     H = D + X,    X_i = 1/n Σ_k B[link_ik],    B = ρ H
+//
+// Every lumel traces n rays once and stores the lumel that each ray hits: a link. Dimming a light
+// or changing an albedo takes sweeps over the links and no rays. Moving an object retraces the rays
+// that start on it, ended on it or now hit it.
 
 #include <optional>
 #include <string>
@@ -15,135 +21,129 @@
 namespace lumel {
 
 struct LiveLinksOptions {
-    std::uint32_t rays = 64;  ///< of a lumel: 4, 16, 64 or 256
+    std::uint32_t rays = 64;  ///< per lumel: 4, 16, 64 or 256
     GroupedLightOptions light;
-    /// Names of what may move: of all instances of that name.
+    /// Names of movable objects: all instances of that name.
     std::vector<std::string> things;
-    /// What else may move: instances that move together. Their numbers follow those of the names.
+    /// Further movable objects, by instance. Their numbers follow those of the names.
     std::vector<std::vector<std::uint32_t>> groups;
     std::uint32_t seed = 0;
-    /// Light still to come, as a part of all and of dark lumels' own, to rest at.
+    /// Convergence threshold for the relative residual of all lumels and of dark ones.
     double residual = 1e-4;
-    bool filter = true;  ///< makes weights for shown()
+    bool filter = true;  ///< makes filter weights for shown()
 };
 
-/// A scene with its lumels.
 struct LumelScene {
     Scene scene;
     Atlas atlas;
     Lumels lumels;
 };
 
-/// Lays a scene out. What lies under or in what stays is buried. Throws Error.
+/// Builds the atlas and lumels of a scene. Lumels under or inside static geometry are buried.
+/// Throws Error.
 LumelScene lay_out(Scene scene, const AtlasOptions& options,
                    const std::vector<std::string>& things);
-/// The same by instances.
+/// Takes movable objects by instance.
 LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
                           const std::vector<std::uint32_t>& movers);
 
-/// What moves have found again.
+/// Work done after moves.
 struct Moved {
     Retraced links;
-    double direct = 0.0;  ///< share of direct light: of lumels, each for each group
+    double direct = 0.0;  ///< recomputed pairs of lumel and light group, relative to their number
 };
 
 struct LiveLinksState {
-    /// Light still to come, as far as the last sweeps tell: of all lumels by their mean, and of
-    /// dark ones by theirs.
+    /// Relative residual, estimated from the last sweeps: of all lumels and of dark ones.
     double residual = 1.0, dark_residual = 1.0;
     int sweeps = 0;                ///< since the last edit
-    bool under_way = false;        ///< links or direct light do not know all requests yet
-    bool weighing = false;         ///< light is at rest, and the weights of shown() are being made
-    bool at_rest = false;          ///< advance() has nothing left to do
-    Moved found;                   ///< again for all moves, from the beginning on
-    std::uint64_t all_sweeps = 0;  ///< from the beginning on
+    bool under_way = false;        ///< retracing or direct light is pending
+    bool weighing = false;         ///< converged, but filter weights for shown() are pending
+    bool at_rest = false;          ///< converged: advance() has no work left
+    Moved found;                   ///< total over all moves
+    std::uint64_t all_sweeps = 0;  ///< total
 };
 
-/// Every lumel has traced its rays once, and what they met is kept. So a lamp that is dimmed or a
-/// wall that is painted takes no ray: light that arrives straight from each sender is kept apart,
-/// and a few sweeps over the links bring all bounces. When a thing moves only the rays that it
-/// starts, ends or stops are traced again.
+/// Lights a scene on the CPU and updates it after edits. Edit, call advance() once per frame, then
+/// read shown() for display or irradiance() for the unfiltered solution. move() retraces before it
+/// returns; request() leaves that to advance(), where direct light of the new position appears
+/// first, all at once. Until the links are retraced, indirect light and the dim part of the sky
+/// belong to the old position.
 ///
-/// At rest the light is that of a scene that is solved anew with the same seed: links and direct
-/// light in every bit, what bounces within the residual. Works on the host; not safe for use from
-/// several threads. Closed rooms of albedo 0.99 take hundreds of sweeps.
-///
-/// move() traces at once. request() leaves that to advance(), within its budget. Light that arrives
-/// straight from senders is found first, and shown when it is whole; until the links have followed
-/// too, what bounces, and the sky but for its bright part, is that of the places before.
+/// When state().at_rest, links and direct light equal those of a new LiveLinks of the edited scene
+/// with the same seed, bit for bit; indirect light agrees within LiveLinksOptions::residual. Closed
+/// rooms of albedo 0.99 take hundreds of sweeps. Not thread-safe.
 class LiveLinks {
 public:
-    /// Traces all links, and finds all direct light. Throws Error{input} for things that the scene
-    /// does not have, for scenes of which nothing stays, and for coloured glass.
+    /// Traces all links and all direct light. Throws Error{input} if an object does not exist,
+    /// nothing is static, or there is coloured glass.
     LiveLinks(LumelScene laid_out, const LiveLinksOptions& options);
     LiveLinks(const LiveLinks&) = delete;
     LiveLinks& operator=(const LiveLinks&) = delete;
 
-    /// What lights of that name, or surfaces of a material of that name, send is `factor` times
-    /// their value in the scene. Throws Error{input} if there is none, or a factor is negative.
+    /// Scales the emission of all lights, or of a material's surfaces, of that name to `factor` ×
+    /// its value in the scene. Throws Error{input} if there is none, or if a factor is negative.
     void set_lamp(const std::string& name, const glm::vec3& factor);
-    /// The same of one light, or of the surfaces of one material, by their indices.
+    /// Scale one light, or the surfaces of one material, by index.
     void set_light(std::uint32_t light, const glm::vec3& factor);
     void set_emission(std::uint32_t material, const glm::vec3& factor);
-    /// The same of the sky.
+    /// Scales the sky.
     void set_sky(const glm::vec3& factor);
-    /// The sky of the scene, turned about +y, counter-clockwise as seen from above, by an angle
-    /// [rad] from how it was given. No ray is traced again but those to its bright parts.
+    /// Rotates the given sky by an angle [rad] about +y, counter-clockwise seen from above.
+    /// Retraces shadow rays to its bright parts only.
     void turn_sky(double angle);
-    /// Another sky, turned so, stands in place of the one of the scene.
     void replace_sky(Sky sky, double angle);
-    /// A material reflects with this base colour, 0 to 1, times its texture. The first time for
-    /// each material takes longer. Throws Error{input} if there is no such material.
+    /// Sets a material's base colour, 0 to 1, which is multiplied by its texture. The first call
+    /// for a material is slower. Throws Error{input} if there is no such material.
     void set_albedo(const std::string& material, const glm::vec3& colour);
     void set_albedo(std::uint32_t material, const glm::vec3& colour);
-    /// Lights of that name shine from elsewhere (light to world).
+    /// Moves all lights of that name (light to world).
     void move_lamp(const std::string& name, const glm::mat4& transform);
     void move_light(std::uint32_t light, const glm::mat4& transform);
-    /// A thing stands where `motion` takes it from its place in the scene (world to world).
-    /// Throws Error{input} if it is no thing of the options, or would be stretched.
+    /// Moves an object by `motion` from its position in the scene (world to world). Throws
+    /// Error{input} if it is not one of the options' objects, or `motion` is not rigid.
     Moved move(const std::string& thing, const glm::mat4& motion);
-    /// The same, in advance(). Of several requests for a thing the last counts.
+    /// Schedules a move for advance(). A later request for the object replaces it.
     void request(std::uint32_t thing, const glm::mat4& motion);
 
-    /// Works for about so many milliseconds, or until at rest: follows what was requested, then
-    /// sweeps. Longer by a few milliseconds at most; a part of a sweep at least.
+    /// Works for about `budget_ms`, or until converged: first pending moves, then sweeps. Exceeds
+    /// the budget by a few milliseconds at most; runs at least part of a sweep.
     LiveLinksState advance(double budget_ms);
-    /// Until at rest.
+    /// Works until converged.
     LiveLinksState settle();
 
     const LiveLinksState& state() const { return state_; }
     /// H [N] [lx]
     std::vector<glm::vec3> irradiance() const;
-    /// The same for the eye: what rays bring is filtered (links/live/display_filter.h) by weights
-    /// of the last light that was at rest. Takes as long as a part of a sweep.
+    /// Irradiance for display [N] [lx]: light gathered by rays is filtered
+    /// (links/live/display_filter.h) with the weights of the last converged solution. Takes as long
+    /// as part of a sweep.
     std::vector<glm::vec3> shown() const;
 
-    /// [N] What is not settled of shown(), by its size, 0…1: the noise of its rays as the filter
-    /// leaves it, as far as two halves of them tell, and light still to come. Not in it: what few
-    /// rays to a lamp or the filter itself get wrong. 1 before light was at rest for the first
-    /// time.
+    /// [N] Estimated relative error of shown(), 0…1: filtered ray noise plus residual. Excludes
+    /// noise of shadow rays and the filter's bias. 1 until light has first converged.
     std::vector<float> error_estimate() const;
 
     const Scene& scene() const { return laid_out_.scene; }
     const Atlas& atlas() const { return laid_out_.atlas; }
     const Lumels& lumels() const { return laid_out_.lumels; }
     const LumelLinks& links() const { return links_; }
-    /// ρ [N], with what was painted.
+    /// ρ [N], with albedo overrides.
     const std::vector<glm::vec3>& albedo() const { return paint_.albedo(); }
-    /// Memory that links and light take, without what the scene and its rays do.
+    /// Memory of links and light [bytes], without scene and BVHs.
     std::uint64_t bytes() const;
-    /// D [N] [lx], what rays bring from the sky included.
+    /// D [N] [lx], including the sky light of the links.
     std::vector<glm::vec3> direct();
 
 private:
     using Part = LightSources::Part;
-    /// A thing that has moved, and how many lumels know.
+    /// A moved object, and the number of lumels already updated.
     struct PendingMove {
         std::uint32_t thing;
-        Box before;              ///< where it was when direct light last was whole
-        std::size_t direct = 0;  ///< lumels
-        RetraceOrder order;      ///< in which links follow
-        std::size_t links = 0;   ///< lumels of it
+        Box before;              ///< its bounds when direct light was last complete
+        std::size_t direct = 0;  ///< number of lumels with updated direct light
+        RetraceOrder order;      ///< order in which links are retraced
+        std::size_t links = 0;   ///< number of lumels of `order` that are retraced
     };
 
     float extent() const;
@@ -165,13 +165,13 @@ private:
 
     LiveLinksOptions options_;
     LumelScene laid_out_;
-    std::vector<glm::mat4> given_;  ///< [instances] transforms of the scene that was given
+    std::vector<glm::mat4> given_;  ///< [instances] transforms of the given scene
     DynamicRayScene rays_;
     Surfaces surfaces_;
     WorldLumels world_;
     RayOrigins starts_;
     Sky given_sky_;
-    std::optional<LightSources> sources_;  ///< always; made anew where it is for another sky
+    std::optional<LightSources> sources_;                ///< never empty; replaced with the sky
     std::vector<std::vector<std::uint32_t>> lumels_of_;  ///< [things] lumels on each
     LumelLinks links_;
     LightGroups light_;
@@ -179,14 +179,14 @@ private:
     AlbedoOverrides paint_;
     DisplayFilter filter_;
     glm::vec3 sky_factor_{1.0f};
-    std::vector<glm::vec3> sky_light_;  ///< [N] [lx] of it when the sweeps began; empty: no sky
-    std::vector<glm::mat4> motions_;    ///< [things] from where they were given
+    std::vector<glm::vec3> sky_light_;  ///< [N] [lx] sky light when the sweeps began; empty: no sky
+    std::vector<glm::mat4> motions_;    ///< [things] relative to the given scene
     std::vector<std::optional<glm::mat4>> requested_;  ///< [things] motions
     std::vector<PendingMove> following_;
-    std::uint64_t unseen_ = 0;  ///< links traced again since the last sweep began
+    std::uint64_t unseen_ = 0;  ///< links retraced since the last sweep began
     bool edited_ = true;        ///< since the last sweep
-    bool swept_ = true;         ///< wholly, since the last edit
-    bool weighing_ = false;     ///< light is at rest, but not the filter's weights
+    bool swept_ = true;         ///< a complete sweep has run since the last edit
+    bool weighing_ = false;     ///< light has converged, filter weights have not
     LiveLinksState state_;
 };
 

@@ -1,11 +1,11 @@
-// Which links can change when a thing moves:
+// Links that can change when an object moves:
 //
 // - those that start on it,
-// - those that ended on it, of which those that were lost on it have an end of their own,
-// - those that meet it in its new place. Only the rays of the cells of directions that lead to it
-//   are made again, and ask the thing alone.
+// - those that ended on it; rays absorbed on it have an end of their own,
+// - those that hit it at its new position. Only rays in the direction cells that cover it are
+//   regenerated, and tested against the object alone.
 //
-// What merely passed its old place meets what it met before.
+// Links that only passed its old position keep their ends.
 
 #include "links/live/lumel_links.h"
 
@@ -24,12 +24,12 @@
 namespace lumel {
 namespace {
 
-/// Lumels worth a task: all of their links, and those that a move may change.
+/// Lumels per task: for all their links, and for those that a move can change.
 constexpr std::size_t kGrain = 256, kFollowed = 64;
-/// Lumels between two looks at the watch.
+/// Lumels between progress reports.
 constexpr std::size_t kStep = 16384;
-/// Random numbers of a ray: places within its cells of directions and of starts; of four of them,
-/// which quarters they are of.
+/// Random numbers of a ray: positions within its direction cell and origin cell; assignment of four
+/// rays to quarters.
 constexpr std::uint32_t kAcross = 1, kStart = 2, kStartAcross = 3, kQuarter = 4;
 
 float to_unit(std::uint32_t key, std::uint32_t what)
@@ -39,7 +39,7 @@ float to_unit(std::uint32_t key, std::uint32_t what)
 
 }  // namespace
 
-/// The rays of a lumel. All have one frame.
+/// The rays of a lumel, in one common frame.
 class LumelLinks::Rays {
 public:
     Rays(const LumelLinks& links, std::size_t lumel)
@@ -59,8 +59,8 @@ public:
                                    glm::vec2(PathSamples::to_unit(key), to_unit(key, kAcross))) /
                                   float(side));
     }
-    /// Starts lie in the cells of a grid over the lumel, another for each ray. The cells of rays
-    /// that go up alike, or around alike, are apart.
+    /// Origins lie in the cells of a grid over the lumel, a different one for each ray. Rays of
+    /// similar elevation or azimuth have distant cells.
     RayOrigin start(std::uint32_t k) const
     {
         const std::uint32_t key = PathSamples::hash(own_, k), side = links_.side_;
@@ -83,7 +83,8 @@ private:
 };
 
 LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side,
-                       std::uint32_t seed, const StoredLinks* kept, const ProgressCallback& watch)
+                       std::uint32_t seed, const StoredLinks* kept,
+                       const ProgressCallback& progress)
     : place_(place),
       near_(place.scene, atlas, place.lumels),
       side_(side),
@@ -100,13 +101,13 @@ LumelLinks::LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32
         on_thing_.push_back(place_.rays.object_of(i));
     if (kept)
         if (const LinkChanges changes = changes_since(*kept, place_, rays(), seed_); !changes.all) {
-            take_over(*kept, changes, watch);
+            take_over(*kept, changes, progress);
             return;
         }
-    trace_all(watch);
+    trace_all(progress);
 }
 
-void LumelLinks::trace_all(const ProgressCallback& watch)
+void LumelLinks::trace_all(const ProgressCallback& progress)
 {
     parallel_steps(
         lumels_, kStep, kGrain,
@@ -115,17 +116,17 @@ void LumelLinks::trace_all(const ProgressCallback& watch)
                 trace(i);
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels_));
+            notify(progress, double(done) / double(lumels_));
             return true;
         });
     traced_.started = links_.size();
 }
 
-/// Traces what has changed. What light the sky brings is left to find_sky().
+/// Retraces changed links. find_sky() computes the sky light.
 void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
-                           const ProgressCallback& watch)
+                           const ProgressCallback& progress)
 {
-    links_ = kept.links;  // of which some may be StoredLinks::gone()
+    links_ = kept.links;  // may contain StoredLinks::gone()
     std::mutex adding;
     parallel_steps(
         lumels_, kStep, kFollowed,
@@ -137,14 +138,14 @@ void LumelLinks::take_over(const StoredLinks& kept, const LinkChanges& changes,
             traced_ += sum;
         },
         [&](std::size_t done) {
-            tell(watch, double(done) / double(lumels_));
+            notify(progress, double(done) / double(lumels_));
             return true;
         });
     find_sky();
 }
 
-/// A link changes only where it starts elsewhere, ended on what changed, or meets what moved where
-/// that is now.
+/// A link changes only if its origin changed, its end changed, or it hits a moved instance at its
+/// new position.
 Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
 {
     Retraced count;
@@ -165,7 +166,7 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
     for (const LinkChanges::Moved& moved : changes.moved)
         for_rays_towards(rays_of, i, moved.box, [&](std::uint32_t k, const glm::vec3& direction) {
             const RaySpan ray = rays_of.ray(rays_of.start(k), direction, k);
-            if (moved.tree.passing(ray) != glm::vec3(0.0f))
+            if (moved.tree.transmittance(ray) != glm::vec3(0.0f))
                 return;
             links[k] = end_of(rays_of, k);
             ++count.crossed;
@@ -173,7 +174,7 @@ Retraced LumelLinks::take_over(std::size_t i, const LinkChanges& changes)
     return count;
 }
 
-/// Visits the rays of a lumel that may meet something in a box.
+/// Visits a lumel's rays that can hit something in a box.
 template <class Visit>
 void LumelLinks::for_rays_towards(const Rays& rays_of, std::size_t i, const Box& box,
                                   const Visit& visit) const
@@ -215,7 +216,7 @@ glm::vec3 LumelLinks::direction(std::size_t lumel, std::uint32_t ray) const
     return Rays(*this, lumel).direction(ray);
 }
 
-/// Where ray k of a lumel ends.
+/// End of ray k of a lumel.
 std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
 {
     const RayOrigin start = rays.start(k);
@@ -226,8 +227,8 @@ std::uint32_t LumelLinks::end_of(const Rays& rays, std::uint32_t k) const
     return place_.rays.closest(ray, hit) ? end_at(hit) : sky();
 }
 
-/// Where it ends if it meets this thing. What it meets there is the first, unless something lies
-/// before; to learn that is less than to find what it is.
+/// Its end if it hits this object. The hit is the closest unless something occludes it, which costs
+/// less to test than a closest hit.
 std::optional<std::uint32_t> LumelLinks::end_by(const Rays& rays, std::uint32_t k,
                                                 const glm::vec3& direction, std::uint32_t thing,
                                                 Misses misses) const
@@ -284,7 +285,7 @@ void LumelLinks::find_sky(const Rays& rays_of, std::size_t i)
     white_sky_light_[i] = share * sums[0];
 }
 
-/// What one ray brings from the sky, if it meets it, as if it were all [lx].
+/// Sky light of one ray if it hits the sky, scaled as if it were the only one [lx].
 glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
 {
     if (place_.scene.sky.empty())
@@ -292,7 +293,8 @@ glm::vec3 LumelLinks::sky_by(std::size_t lumel, std::uint32_t ray) const
     return std::numbers::pi_v<float> * place_.sources.dim_sky(direction(lumel, ray));
 }
 
-/// Of the random numbers of a lumel. Its number may be another once things appear or vanish.
+/// Seed of a lumel's random numbers. The lumel's index can change when objects are added or
+/// removed.
 std::uint32_t LumelLinks::key_of(std::size_t i) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];

@@ -1,5 +1,5 @@
 #pragma once
-// The lumel that each ray from a lumel meets, kept while things move.
+// Ray links from lumel to lumel, updated when objects move.
 
 #include <array>
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace lumel {
 
-/// Rays of links that a move has traced again.
+/// Counts of links retraced after a move.
 struct Retraced {
-    std::uint64_t started = 0;  ///< on the thing
-    std::uint64_t ended = 0;    ///< on it before
-    std::uint64_t crossed = 0;  ///< met it in its new place
+    std::uint64_t started = 0;  ///< the ray started on the object
+    std::uint64_t ended = 0;    ///< it ended on the object before
+    std::uint64_t crossed = 0;  ///< it hits the object now
 
     std::uint64_t all() const { return started + ended + crossed; }
     Retraced& operator+=(const Retraced& other)
@@ -32,42 +32,42 @@ struct Retraced {
 
 struct LinkChanges;
 
-/// Each lumel sends side² rays, spread by the cosine to its normal: one into each cell of a grid
-/// over (sin² θ, φ). A ray depends on the place of its lumel in the atlas and on its number alone,
-/// so that it can be made again.
+/// Each lumel sends side² cosine-distributed rays, one per cell of a grid over (sin² θ, φ). A ray
+/// depends only on its number and on the atlas position of its lumel, so it can be regenerated.
 class LumelLinks {
 public:
-    /// Traces all of them. What is given must outlive it. side: a power of two.
-    /// kept: links of the same scene or of one in which something stood elsewhere; then only those
-    /// that may have changed are traced, and all of them are as if they had been.
+    /// Traces all links. side: grid side, a power of two. The members of `place` and `atlas` must
+    /// outlive this. kept: links of the same scene, or of one with objects elsewhere: only links
+    /// that can have changed are traced, with the same result.
     LumelLinks(const LinkContext& place, const Atlas& atlas, std::uint32_t side, std::uint32_t seed,
-               const StoredLinks* kept = nullptr, const ProgressCallback& watch = {});
+               const StoredLinks* kept = nullptr, const ProgressCallback& progress = {});
 
-    /// A thing has moved: of these lumels, traces again what starts on it, ended on it, or meets it
-    /// now. Once all lumels have followed, links are as if all had been traced.
+    /// Retraces the rays of these lumels that start on `thing`, ended on it or hit it now. After
+    /// all lumels, links equal those of a new LumelLinks.
     Retraced follow(std::uint32_t thing, std::span<const std::uint32_t> lumels);
 
-    /// The sky is another, and the sources know: finds again what rays bring from it.
+    /// Recomputes sky light for a changed sky. Requires that the sources are updated.
     void find_sky();
 
-    std::uint32_t rays() const { return side_ * side_; }  ///< of a lumel
-    /// What the rays of a lumel have met [side²]: a lumel or one of the ends below.
+    std::uint32_t rays() const { return side_ * side_; }  ///< per lumel
+    /// Ends of a lumel's rays [side²]: lumels, or the ends below.
     std::span<const std::uint32_t> of(std::size_t lumel) const
     {
         return {links_.data() + lumel * rays(), rays()};
     }
-    /// Where one of these rays goes: unit, world.
+    /// Direction of a ray: unit, world space.
     glm::vec3 direction(std::size_t lumel, std::uint32_t ray) const;
     std::uint32_t sky() const { return lumels_; }
-    /// Not above the surface, or nothing that reflects of an instance.
+    /// Ends of absorbed rays: those below the surface, and those that hit an instance without a
+    /// lumel.
     std::uint32_t lost() const { return lumels_ + 1; }
     std::uint32_t lost_on(std::uint32_t instance) const { return lumels_ + 2 + instance; }
-    /// All of them: lumels and ends.
+    /// Number of ends, lumels included.
     std::size_t ends() const { return on_thing_.size(); }
 
-    /// Links of a scene that were not taken over from those that were kept.
+    /// Counts of links traced at construction, reused ones excluded.
     const Retraced& traced() const { return traced_; }
-    /// Takes over all that a later run needs of them.
+    /// Stores everything that a later run needs.
     void keep(StoredLinks& kept) const;
     std::uint64_t bytes() const
     {
@@ -75,31 +75,30 @@ public:
                (sky_light_.size() + white_sky_light_.size()) * sizeof(glm::vec3);
     }
 
-    /// What the rays of a lumel bring from the sky, without the bright parts that are a source
-    /// [lx].
+    /// Sky light by rays [lx] per lumel, without the bright parts that are sources.
     const std::vector<glm::vec3>& sky_light() const { return sky_light_; }
-    /// The part of it by rays of the white half.
+    /// Its part by rays of the white half.
     const std::vector<glm::vec3>& white_sky_light() const { return white_sky_light_; }
-    /// Of rays whose cells lie on the white (0) and on the black fields (1) of a board.
+    /// Checkerboard half of a ray's cell: 0 white, 1 black.
     std::uint32_t half_of(std::uint32_t ray) const { return (ray % side_ + ray / side_) % 2; }
-    /// What the rays of each quarter bring, each as if it were all [lx], where ends send `sent`:
-    /// 0 and 1 are the white half, 2 and 3 the black one. Each has one of every four cells beside
-    /// each other, by chance, so that quarters differ by noise alone.
+    /// Light by the rays of each quarter, scaled as if they were all rays [lx], if ends have
+    /// radiosity `sent`: 0 and 1 are the white half, 2 and 3 the black one. Each quarter has a
+    /// random one of every four adjacent cells, so that quarters differ only by noise.
     template <class Sent>
     std::array<glm::vec3, 4> by_quarters(std::size_t lumel, const Sent& sent) const;
 
 private:
     class Rays;
 
-    void trace_all(const ProgressCallback& watch);
+    void trace_all(const ProgressCallback& progress);
     void take_over(const StoredLinks& kept, const LinkChanges& changes,
-                   const ProgressCallback& watch);
+                   const ProgressCallback& progress);
     Retraced take_over(std::size_t lumel, const LinkChanges& changes);
     template <class Visit>
     void for_rays_towards(const Rays& rays, std::size_t lumel, const Box& box,
                           const Visit& visit) const;
     std::uint32_t end_of(const Rays& rays, std::uint32_t k) const;
-    /// What rays do that do not meet a thing: end where they did, or further on.
+    /// Rays that miss an object: keep their end, or go on to the next hit.
     enum class Misses { stay, go_on };
     std::optional<std::uint32_t> end_by(const Rays& rays, std::uint32_t k,
                                         const glm::vec3& direction, std::uint32_t thing,
@@ -117,7 +116,7 @@ private:
     std::uint32_t side_, seed_, lumels_;
     Retraced traced_;
     std::vector<std::uint32_t> links_;     ///< [N][side²]
-    std::vector<std::uint32_t> on_thing_;  ///< [ends] a thing, or DynamicRayScene::kStatic
+    std::vector<std::uint32_t> on_thing_;  ///< [ends] an object, or DynamicRayScene::kStatic
     std::vector<glm::vec3> sky_light_, white_sky_light_;  ///< [N]
 };
 

@@ -7,10 +7,10 @@
 namespace lumel {
 namespace {
 
-/// Lumels between these shares of the mean are dark; darker ones are black to who looks.
+/// Lumels between these fractions of the mean are dark; darker ones look black.
 constexpr double kDarkest = 0.005, kDark = 0.3;
 
-/// Changes count as shrinking by this factor at least.
+/// Minimum assumed convergence: changes shrink at least by this factor.
 constexpr double kSlowest = 1.0 - 1e-6;
 
 double all_channels(const glm::vec4& light)
@@ -18,8 +18,8 @@ double all_channels(const glm::vec4& light)
     return double(light.x + light.y + light.z);
 }
 
-/// Changes that shrink by a factor q leave q / (1 - q) of the last to come; all, where one sweep
-/// does not tell yet.
+/// Changes that shrink by a factor q leave q / (1 - q) of the last as residual; the first sweep
+/// counts as not shrinking.
 double still_to_come_after(double change, double before)
 {
     const double factor = before > 0.0 ? std::min(change / before, kSlowest) : kSlowest;
@@ -50,7 +50,7 @@ double LumelSweeps::Sums::relative() const
 void LumelSweeps::begin(const std::vector<glm::vec3>& direct, const std::vector<glm::vec3>& albedo)
 {
     mean_ = 0.0;
-    // Light that nothing sends any more would take tens of sweeps to fade.
+    // Emission has ended: the remaining light would take tens of sweeps to decay.
     const bool dark = std::all_of(direct.begin(), direct.end(),
                                   [](const glm::vec3& one) { return one == glm::vec3(0.0f); });
     if (dark)
@@ -75,10 +75,10 @@ glm::vec4 LumelSweeps::arriving(std::size_t i) const
     glm::vec4 sum(0.0f);
     if (half_ == kAll) {
         for (std::size_t k = 0; k < links.size(); k += 2)
-            sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs wait less for each other
+            sum += sent_[links[k]] + sent_[links[k + 1]];  // pairs shorten the chain of additions
         return share * sum;
     }
-    for (std::uint32_t k = 0; k < links.size(); k += 2)  // one of each pair is of either half
+    for (std::uint32_t k = 0; k < links.size(); k += 2)  // one ray of each pair is in this half
         sum += sent_[links[links_.half_of(k) == half_ ? k : k + 1]];
     return 2.0f * share * sum;
 }

@@ -6,9 +6,9 @@
 namespace lumel {
 namespace {
 
-/// Distances at which shells end, in radii of the ball around the thing; the last has all the rest.
+/// Outer radii of the distance bands, in bounding radii of the object; the last band is unbounded.
 constexpr std::array<float, 3> kEnds{0.5f, 1.0f, 2.0f};
-/// The shell of lumels on the thing, after the closest.
+/// Index of the band of lumels on the object, after the closest; number of bands.
 constexpr std::size_t kOwn = 1, kShells = kEnds.size() + 2;
 
 }  // namespace

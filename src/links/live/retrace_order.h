@@ -1,5 +1,5 @@
 #pragma once
-// Whose links follow first when a thing moves.
+// Order in which links are retraced after a move.
 
 #include <cstdint>
 #include <span>
@@ -10,18 +10,19 @@
 
 namespace lumel {
 
-/// All lumels, in shells around a thing: those close to it, whose light a move changes most; those
-/// on it, which take longest, as all their links start elsewhere; then farther and farther ones.
+/// All lumels in distance bands around an object: first close ones, which the move changes most;
+/// then those on the object, which take longest, as all their links restart; then increasingly
+/// distant ones.
 struct RetraceOrder {
-    std::vector<std::uint32_t> lumels;  ///< [N], those of a shell in their own order
-    std::vector<std::size_t> ends;      ///< [shells] in `lumels`; no shell is empty
-    std::size_t near = 0;               ///< in `lumels`: end of those on the thing
+    std::vector<std::uint32_t> lumels;  ///< [N], by band
+    std::vector<std::size_t> ends;      ///< [bands] end of each band in `lumels`; no band is empty
+    std::size_t near = 0;               ///< end of the lumels on the object, in `lumels`
 
-    /// Where the shell ends that the lumel at `place` of the order is in.
+    /// End of the band that contains index `place`.
     std::size_t end_after(std::size_t place) const;
     bool ends_at(std::size_t place) const;
 };
-/// own: lumels on the thing. box: around it where it is now.
+/// own: lumels on the object. box: its current bounds.
 RetraceOrder follow_order(const WorldLumels& world, std::span<const std::uint32_t> own,
                           const Box& box);
 

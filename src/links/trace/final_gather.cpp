@@ -10,15 +10,15 @@
 namespace lumel {
 namespace {
 
-/// Random streams of parts and of links.
+/// Random streams of sub-lumels and of links.
 constexpr std::uint32_t kPartStream = 1, kLinkStream = 3;
-/// Blocks of lumels that one step traces: a million rays.
+/// Blocks of lumels per step: a million rays.
 constexpr std::size_t kBlocksPerStep = 64;
-/// Deviation of what one ray brings, as a part of the mean of all light, in the furnished room of
+/// Standard deviation of one ray, relative to the mean of all light, in the furnished room of
 /// scenes/; other rooms have less.
 constexpr double kDeviation = 0.5;
 constexpr double kMinRays = 64.0, kMaxRays = 4096.0;
-/// Error that is aimed at where none is asked for.
+/// Target error if none is given.
 constexpr double kUsualError = 0.015;
 
 std::vector<char> buried(const Lumels& lumels)
@@ -71,7 +71,7 @@ void FinalGather::step()
     }
 }
 
-/// Adds what the rays of blocks up to `last` met.
+/// Adds the results of blocks up to `last`.
 void FinalGather::take(std::size_t last)
 {
     for (std::size_t b = block_; b < last; ++b) {

@@ -1,5 +1,5 @@
 #pragma once
-// The last bounce of light, at the row of each lumel: rays from it find who sends what.
+// Final gather: cosine-distributed rays look up direct and coarse indirect light where they hit.
 
 #include <vector>
 
@@ -8,17 +8,17 @@
 
 namespace lumel {
 
-/// What lumels receive of light that was reflected, if that is known roughly everywhere: rays
-/// spread by the cosine take direct light per cell where they end, and the rough light beside it.
+/// Indirect irradiance of lumels, given coarse indirect light: rays return the direct light of the
+/// cell that they hit, plus the coarse light.
 class FinalGather {
 public:
-    /// What is given must outlive it. received: [N] [lx] beside the direct light. rays: of each
-    /// lumel; a multiple of kGatherRays is taken.
+    /// All arguments must outlive this. received: [N] coarse indirect irradiance [lx]. rays: per
+    /// lumel, rounded up to a multiple of kGatherRays.
     FinalGather(const DirectRays& direct, std::vector<glm::vec3> received, std::uint32_t rays,
                 std::uint32_t seed);
 
     bool done() const { return round_ == rounds_; }
-    /// A part of a second of work.
+    /// Works for a fraction of a second.
     void step();
     /// H [N] [lx]
     std::vector<glm::vec3> irradiance() const;
@@ -27,20 +27,20 @@ private:
     void take(std::size_t last);
 
     const DirectRays& direct_;
-    std::vector<glm::vec3> sent_;  ///< [N] [lm/m²] beside what is reflected of direct light
+    std::vector<glm::vec3> sent_;  ///< [N] [lm/m²] reflected coarse light
     SubLumels parts_;
     LinkTracer tracer_;
     std::uint32_t round_ = 0, rounds_;
     std::size_t block_ = 0;
-    LinkSet gathered_;            ///< of the round at work
-    std::vector<glm::vec3> sum_;  ///< [N] over rays
+    LinkSet gathered_;            ///< current round
+    std::vector<glm::vec3> sum_;  ///< [N] over all rays
     std::vector<std::uint32_t> rays_;
 };
 
-/// Rays of a lumel in a round.
+/// Rays per lumel and round.
 inline constexpr std::uint32_t kGatherRays = 64;
 
-/// That each lumel needs for an error of its last bounce below this part of the mean of all light.
+/// Rays per lumel for an error of its last bounce below `error` × the mean of all light.
 std::uint32_t gather_rays(double error);
 
 }  // namespace lumel

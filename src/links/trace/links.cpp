@@ -1,21 +1,18 @@
-// Radiosity over links: all light that a lumel receives is direct light D, which rays to points on
-// light sources find, and what rays spread by the cosine bring. Each of these is traced once. The
-// part of a lumel that it meets is kept, a link of four bytes, and
-//
-//     H = D + X,    X_p = (1/n_p) Σ_k ρ (D + X)[target_pk]  + sky,
+// Radiosity over links. The irradiance of a lumel is direct light D, from shadow rays to light
+// sources, plus light along cosine-distributed rays. Each of these is traced once. The sub-lumel
+// that it hits is stored, a link of four bytes, and
 //
 // is solved over the links, sweep by sweep, for all bounces at once (links/trace/sweeps.cpp). The
-// cost grows with the number of lumels, as there is no shooter whose light falls off with the
-// square of the distance.
+// cost grows linearly with the number of lumels.
 //
-// Three solutions have links of their own, and direct light is found in two halves. The result is
-// the mean of the solutions, filtered over charts. The weights of the filter for two of them, A and
-// B, come from the third, so that the error of the filtered A', B' can be stated: their variance is
-// in A' - B', and the square of what the filter gets wrong is the mean of (A' - A)(B' - B). See
-// links/filter/filter.h, links/filter/mean.h.
+// Three solutions have their own links, and direct light has two halves. The result is the mean of
+// the solutions, filtered over charts. The filter weights for two solutions A and B come from the
+// third, so that the error of the filtered A', B' can be estimated: their variance is in A' - B',
+// and the squared filter bias is the mean of (A' - A)(B' - B). See links/filter/filter.h,
+// links/filter/mean.h.
 //
-// A lumel is too coarse where light changes within it: it has a grid of cells for direct light, and
-// parts, each with an X of its own, where geometry cuts it (atlas/cells/cells.h).
+// Where light changes within a lumel, direct light is stored for a grid of cells, and geometry cuts
+// the lumel into sub-lumels, each with its own X (atlas/cells/cells.h).
 
 #include "links/trace/links.h"
 
@@ -35,43 +32,42 @@
 namespace lumel {
 namespace {
 
-/// Rays of a lumel in each solution of the first round; powers of two stratify best.
+/// Rays per lumel in each solution of the first round; powers of two stratify best.
 constexpr std::uint32_t kFirstRays = 8;
-/// A later round has at least this share of the rays so far, and so many rays of a lumel at most.
+/// Minimum and maximum rays of a later round, relative to the rays so far.
 constexpr double kMinMore = 0.4, kMaxMore = 3.0;
-/// Rays that are shared out by deviation do as much as 1 / kAdaptiveGain times as many even ones.
+/// Rays allocated by deviation reduce the variance like 1 / kAdaptiveGain as many uniform ones.
 constexpr double kAdaptiveGain = 0.6;
 constexpr std::uint32_t kMaxRays = 4096;
-/// Of a lumel in all solutions, for a stated error of 5 %: 24 in Cornell's box, 34 in Sponza, 74 in
-/// the town of scenes/town.py.
+/// Rays per lumel in all solutions for an estimated error of 5 %: 24 in Cornell's box, 34 in
+/// Sponza, 74 in the town of scenes/town.py.
 constexpr double kLikelyRays = 64.0;
-/// [bytes] A link; what a part keeps of each round in each solution: where its links begin.
+/// [bytes] of a link, and of a sub-lumel per round and solution: start of its links.
 constexpr double kLinkBytes = sizeof(std::uint32_t), kPartBytes = 2 * sizeof(std::uint32_t);
-/// Lumels whose direct light differs from cell to cell: most that was seen.
+/// Fraction of lumels with direct light per cell: maximum seen.
 constexpr double kVarying = 0.1;
-/// Share of its rays that go to all lumels alike.
+/// Fraction of rays allocated uniformly.
 constexpr double kEvenShare = 0.25;
-/// Blocks of links that one step traces at the first round's number of rays.
+/// Blocks of links per step, at the first round's number of rays.
 constexpr std::size_t kBlocksPerStep = 128;
-/// The same where they are drawn, which costs the same for more of them: a million rays (200 MB).
+/// Blocks per step when rasterising, whose cost hardly grows with them: a million rays (200 MB).
 constexpr std::size_t kBlocksPerDrawing = 512;
-/// Direct light is found better if its variance is so many times what it should be; in one go at
-/// most to this share of what it is.
+/// Refines direct light if its variance is this multiple of its target; at most to kMinDirect × the
+/// present variance in one pass.
 constexpr double kTooUncertain = 1.25, kMinDirect = 1.0 / 16.0;
-/// A ray of a link costs so many times one to a source, sweeps and filter included.
+/// Cost of a link relative to a shadow ray, sweeps and filter included.
 constexpr double kCostOfLink = 1.5;
-/// Bounds of direct light's share in the variance that is asked for.
+/// Bounds on the fraction of the target variance that direct light may have.
 constexpr double kMinShare = 0.1, kMaxShare = 0.6;
-/// Part of the first round that direct light takes, for the bar only.
+/// Fraction of the first round that direct light takes, for the progress bar only.
 constexpr double kDirectOfRound = 0.5;
-/// Mean albedo of rooms whose level is balanced.
+/// Minimum mean albedo of rooms whose level is balanced.
 constexpr double kBrightRoom = 0.95;
-/// Lumels that are darker than this share of the mean are dark.
+/// Lumels below this fraction of the mean are dark.
 constexpr double kDark = 1.0 / 3.0;
-/// None counts as darker than this share of the mean where rays are shared out.
+/// Minimum brightness in ray allocation, relative to the mean.
 constexpr double kDarkest = 1e-2;
-/// Random streams: of directions that are shared, of parts, of direct light, and of links of the
-/// solutions.
+/// Random streams: shared directions, sub-lumels, direct light, and links of the solutions.
 constexpr std::uint32_t kSharedStream = 0, kPartStream = 1, kDirectStream = 2, kLinkStream = 3;
 
 std::vector<char> buried(const Lumels& lumels)
@@ -82,14 +78,14 @@ std::vector<char> buried(const Lumels& lumels)
     return result;
 }
 
-/// What something makes; null, and a word of it, where the device cannot.
+/// The result of `make`; null, with a debug message, if the device does not support it.
 template <class Make>
 auto unless_refused(const Make& make) -> decltype(make())
 {
     try {
         return make();
     } catch (const Error& error) {
-        log_info(std::string("the host casts the rays: ") + error.what());
+        log_info(std::string("tracing rays on the CPU: ") + error.what());
         return nullptr;
     }
 }
@@ -115,7 +111,7 @@ std::unique_ptr<RayCaster> caster_for(const gpu::Device& device, const RayScene&
     return cast_on_host(rays);
 }
 
-/// Adds the time that something takes to a stage [ms].
+/// Adds the elapsed time to a stage [ms].
 class Clock {
 public:
     explicit Clock(double& sum) : sum_(sum) {}
@@ -198,7 +194,7 @@ void LinkRadiosity::step()
 {
     switch (stage_) {
     case Stage::begin: {
-        const Clock clock(times_["parts of lumels"]);
+        const Clock clock(times_["sub-lumels"]);
         cut();
         stage_ = Stage::direct;
         break;
@@ -232,7 +228,7 @@ void LinkRadiosity::step()
     state_.begun = begun();
 }
 
-/// All that changes once the lumels are cut, which is done anew.
+/// State that changes after the lumels are cut; the cut is repeated.
 template <class Archive>
 void LinkRadiosity::state(Archive& archive)
 {
@@ -260,7 +256,7 @@ void LinkRadiosity::read_state(StateReader& reader)
     check_sizes();
 }
 
-/// Throws where what was read is of other lumels or parts.
+/// Throws if the state that was read is of other lumels or sub-lumels.
 void LinkRadiosity::check_sizes() const
 {
     const std::size_t lumels = order_.size(), parts = parts_->count();
@@ -277,7 +273,7 @@ void LinkRadiosity::check_sizes() const
                     "is of another version of Lumel; bake without --resume");
 }
 
-/// How much of the first round is done.
+/// Progress of the first round.
 double LinkRadiosity::begun() const
 {
     if (state_.shots > 0)
@@ -300,7 +296,7 @@ void LinkRadiosity::cut()
         gathered.emplace(parts_->count());
 }
 
-/// A step of the round's rays.
+/// Traces a step of the round's rays.
 void LinkRadiosity::trace()
 {
     const std::size_t blocks = bundles_ ? kBlocksPerDrawing : kBlocksPerStep;
@@ -321,14 +317,14 @@ void LinkRadiosity::trace()
     traced_ = last;
 }
 
-/// As many rays as the error still asks for, within limits.
+/// Starts a round with the rays that the target error requires, within limits.
 void LinkRadiosity::begin_round()
 {
     mean_rays_ = state_.shots > 0 ? more_rays() : kFirstRays;
     const double fit = rays_that_fit();
     if (state_.shots > 0 && fit < kMinMore * double(state_.shots) / double(kSolutions)) {
         state_.full = true;
-        stage_ = Stage::direct;  // of which there is nothing to do
+        stage_ = Stage::direct;  // without work
         return;
     }
     mean_rays_ = std::min(mean_rays_, std::max(fit, double(kFirstRays)));
@@ -341,7 +337,7 @@ void LinkRadiosity::begin_round()
         gathered->rounds.emplace_back(tracer_->blocks());
 }
 
-/// Rays that each solution should have more, for the error that is asked for.
+/// Further rays per lumel and solution for the target error.
 double LinkRadiosity::more_rays() const
 {
     const double so_far = double(state_.shots) / double(kSolutions);
@@ -359,7 +355,7 @@ double LinkRadiosity::more_rays() const
     return std::min(more, double(kMaxRays));
 }
 
-/// Rays that each solution can have more, by the memory that their links take.
+/// Further rays per lumel and solution that fit in memory.
 double LinkRadiosity::rays_that_fit() const
 {
     if (most_bytes_ == 0)
@@ -373,8 +369,8 @@ double LinkRadiosity::rays_that_fit() const
     return std::max(double(most_bytes_) - taken - starts, 0.0) / (kSolutions * of_ray);
 }
 
-/// What the square of each lumel's error counts [N]: where dark lumels are asked for, what they
-/// lack counts by their own light, half way.
+/// [N] Weight of each lumel's squared error. With a target for dark lumels 1 / irradiance, halfway
+/// between absolute and relative errors.
 std::vector<double> LinkRadiosity::weights() const
 {
     std::vector<double> weight(order_.size(), 1.0);
@@ -386,8 +382,8 @@ std::vector<double> LinkRadiosity::weights() const
     return weight;
 }
 
-/// The sum of variances is least if rays are in proportion to deviations. A part of the rays goes
-/// to all alike, since what has not met any light yet looks quiet.
+/// Allocates rays. The sum of variances is minimal if rays are proportional to deviations. Some
+/// rays are uniform, since lumels whose rays have not found a light yet seem noiseless.
 void LinkRadiosity::share_out_rays()
 {
     rays_.assign(order_.size(), std::uint16_t(std::lround(mean_rays_)));
@@ -426,8 +422,8 @@ void LinkRadiosity::end_round()
     go_on();
 }
 
-/// In a bright closed room the level of all light has a noise of its own, but what surfaces absorb
-/// is known: all that is sent, Σ A (1 - ρ) (D + X) = Σ A D.
+/// In a bright closed room the overall level of the light is noisy, but the absorbed light is
+/// known: it equals the direct light, Σ A (1 - ρ) (D + X) = Σ A D.
 void LinkRadiosity::balance(std::size_t k)
 {
     if (!gathered_[k]->is_closed())
@@ -454,7 +450,7 @@ void LinkRadiosity::balance(std::size_t k)
         light *= factor;
 }
 
-/// The errors that are asked for.
+/// Target errors, with current values.
 std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
 {
     std::vector<Wanted> result;
@@ -465,7 +461,7 @@ std::vector<LinkRadiosity::Wanted> LinkRadiosity::wanted() const
     return result;
 }
 
-/// What comes next: better direct light, or more links.
+/// Starts the next stage: refines direct light, or adds links.
 void LinkRadiosity::go_on()
 {
     const std::vector<Wanted> all = wanted();
@@ -480,8 +476,8 @@ void LinkRadiosity::go_on()
         begin_round();
 }
 
-/// The share of direct light in the variance that is asked for. A variance that falls as 1 / rays
-/// is reached at the least cost if its parts are as the roots of variance × cost.
+/// Fraction of the target variance for direct light. For variances that fall as 1 / rays, the total
+/// cost is minimal if they are in proportion to √(variance × cost).
 double LinkRadiosity::share_of_direct(const Errors& now) const
 {
     const double of_rays = kCostOfLink * now.rays * double(state_.shots * order_.size());
@@ -490,7 +486,7 @@ double LinkRadiosity::share_of_direct(const Errors& now) const
     return sum > 0.0 ? std::clamp(root / sum, kMinShare, kMaxShare) : kMaxShare;
 }
 
-/// Prepares to find direct light better, where its noise is what is in the way.
+/// Schedules refinement of direct light if its noise dominates.
 bool LinkRadiosity::refine_direct()
 {
     double share = 1.0;
@@ -507,7 +503,7 @@ bool LinkRadiosity::refine_direct()
     return share < 1.0 && direct_->refine(share, state_.shots * order_.size(), weights());
 }
 
-/// What rays brought to a lumel in one solution, of the parts of light that are wanted [lx].
+/// Irradiance by rays at a lumel in one solution, of the requested parts of light [lx].
 glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
 {
     glm::vec3 sky(0.0f);
@@ -529,7 +525,7 @@ glm::vec3 LinkRadiosity::brought(std::size_t i, std::size_t k) const
     return {};
 }
 
-/// All that rays brought to a lumel in one solution [lx].
+/// Irradiance by all rays at a lumel in one solution [lx].
 glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
 {
     glm::vec3 sum(0.0f);
@@ -541,7 +537,7 @@ glm::vec3 LinkRadiosity::indirect(std::size_t i, std::size_t k) const
     return rays > 0 ? sum / float(rays) : glm::vec3(0.0f);
 }
 
-/// How near the rays of each lumel met anything [N] [m].
+/// [N] Distance to the nearest ray hit of each lumel [m].
 std::vector<float> LinkRadiosity::nearest() const
 {
     std::vector<float> nearest(lumels_.lumels.size(), std::numeric_limits<float>::max());
@@ -552,7 +548,7 @@ std::vector<float> LinkRadiosity::nearest() const
     return nearest;
 }
 
-/// Takes the mean of the solutions.
+/// Averages the solutions.
 void LinkRadiosity::combine()
 {
     Solutions found;
@@ -568,8 +564,8 @@ void LinkRadiosity::combine()
     mean_ = mean_of(found, filter ? &*filter : nullptr);
 }
 
-/// Beside the error of what rays brought, that of direct light: the difference of two independent
-/// halves has four times the variance of their mean.
+/// Adds the error of direct light to that of rays: the difference of two independent halves has
+/// four times the variance of their mean.
 void LinkRadiosity::estimate()
 {
     struct Sums {
@@ -611,7 +607,7 @@ void LinkRadiosity::estimate()
     state_.dark_error = std::sqrt(dark_.rays + dark_.direct);
 }
 
-/// At a lumel, of the parts of light that are wanted [lx].
+/// Irradiance at a lumel, of the requested parts of light [lx].
 glm::vec3 LinkRadiosity::arrived(std::size_t i) const
 {
     const glm::vec3 direct = parts_wanted_ == Parts::indirect ? glm::vec3(0.0f) : direct_->mean(i);

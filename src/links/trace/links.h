@@ -1,5 +1,5 @@
 #pragma once
-// Light gathered over links: rays that are traced once, and kept. See links.cpp.
+// Radiosity over links: rays are traced once, and their hits stored. See links.cpp.
 
 #include <array>
 #include <memory>
@@ -19,33 +19,34 @@
 
 namespace lumel {
 
-/// Finds the light of all sources itself, skies and lamps too. Works on the host; a step is a part
-/// of a second of it.
+/// Solves for light of all sources, including skies and lamps. Runs on the CPU; a step takes a
+/// fraction of a second.
 class LinkRadiosity final : public Solver {
 public:
-    /// What is given must outlive it. limits: how far rounds should go. parts: of the light that
-    /// irradiance() has. Throws Error{device} if the device should cast the rays, and cannot.
+    /// All arguments must outlive this. limits: stopping criteria. parts: of the light that
+    /// irradiance() returns. Throws Error{device} if the options require a ray tracing backend that
+    /// the device lacks.
     LinkRadiosity(const gpu::Device& device, const HostScene& host, const Lumels& lumels,
                   const LinksOptions& options, const SolveLimits& limits, Parts parts);
     ~LinkRadiosity() override;
 
-    /// Bytes on the device: none.
+    /// GPU memory [bytes]: none.
     static std::uint64_t device_bytes(const SolveSize&, const LinksOptions&) { return 0; }
 
-    /// Bytes on the host that the links of the first round take.
+    /// Host memory of the first round's links [bytes].
     static std::uint64_t first_bytes(std::size_t lumels);
 
-    /// The same of as many rays as most scenes take, `shots` of a lumel at most (0: no limit). How
-    /// many are traced is known only by the error that they leave.
+    /// Host memory of links for the ray count of most scenes, at most `shots` per lumel (0: no
+    /// limit) [bytes]. The actual count depends on the error.
     static std::uint64_t likely_bytes(std::size_t lumels, std::uint64_t shots);
 
-    /// Bytes on the host beside links, for as long as the solver lives.
+    /// Host memory except links, for the lifetime of the solver [bytes].
     static std::uint64_t host_bytes(std::size_t lumels, std::size_t pieces, std::size_t texels);
 
-    /// The same of what only a sweep or the filter takes.
+    /// Temporary host memory of a sweep or of the filter, whichever is larger [bytes].
     static std::uint64_t sweep_bytes(std::size_t lumels, std::size_t texels);
 
-    /// Rays of a lumel count as shots.
+    /// `shots` are rays per lumel.
     void step() override;
     SolverState state() const override { return state_; }
     std::vector<glm::vec3> irradiance() override;
@@ -57,12 +58,12 @@ public:
 
 private:
     enum class Stage { begin, direct, links, solve };
-    /// Squares of what rays and what direct light have in an error.
+    /// Squared error by rays and by direct light.
     struct Errors {
         double rays = 0.0, direct = 0.0;
     };
     struct Wanted {
-        double error;  ///< that is asked for
+        double error;  ///< target
         Errors now;
     };
 
@@ -93,32 +94,32 @@ private:
     const LinksOptions options_;
     const double target_error_, target_dark_error_;
     const std::uint64_t most_shots_;  ///< 0: no limit
-    const std::uint64_t most_bytes_;  ///< of links, 0: no limit
+    const std::uint64_t most_bytes_;  ///< memory limit of links, 0: no limit
     const Parts parts_wanted_;
     const Lumels& lumels_;
     Surfaces surfaces_;
-    std::unique_ptr<BundleCaster> bundles_;  ///< null: caster_ casts all rays
+    std::unique_ptr<BundleCaster> bundles_;  ///< null: caster_ traces all rays
     std::unique_ptr<RayCaster> caster_;
     LinkScene place_;
     WorldLumels world_;
     Cells cells_;
     RayOrigins starts_;
     LightSources sources_;
-    std::vector<std::uint32_t> order_;  ///< [N] lumels, neighbours in space together
+    std::vector<std::uint32_t> order_;  ///< [N] lumels, neighbours in space close
     std::optional<SubLumels> parts_;
     std::optional<DirectEstimator> direct_;
     std::optional<LinkTracer> tracer_;
     std::optional<LinkSolver> solver_;
-    // Solutions that share nothing random but direct light.
+    // Solutions share no random numbers except those of direct light.
     std::array<std::optional<LinkSet>, kSolutions> gathered_;
-    std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] beside direct light
-    Mean mean_;                                                ///< of them, the result beside it
+    std::array<std::vector<glm::vec3>, kSolutions> received_;  ///< [P] [lx] without direct light
+    Mean mean_;                                                ///< their mean
     Stage stage_ = Stage::begin;
-    std::uint32_t round_ = 0;          ///< that is traced
-    double mean_rays_ = 0.0;           ///< of a lumel in it, in each half
-    std::vector<std::uint16_t> rays_;  ///< [N] of lumels in it, in each half
-    std::size_t traced_ = 0;           ///< blocks of it
-    double mean_light_ = 0.0;          ///< of all channels together [lx]
+    std::uint32_t round_ = 0;          ///< current round
+    double mean_rays_ = 0.0;           ///< per lumel in the round, in each solution
+    std::vector<std::uint16_t> rays_;  ///< [N] rays of each lumel in the round, in each solution
+    std::size_t traced_ = 0;           ///< blocks of the round
+    double mean_light_ = 0.0;          ///< summed over channels [lx]
     Errors all_, dark_;
     SolverState state_;
     gpu::StageTimes times_;

@@ -7,21 +7,21 @@
 
 namespace lumel {
 
-/// Who casts rays.
+/// Ray tracing backend.
 enum class Rays {
-    automatic,  ///< a device that is no CPU, by queries or else by raster; or the host
+    automatic,  ///< GPU ray queries or rasterisation if the device is not a CPU; else the host
     host,
     query,   ///< the device's ray queries
-    raster,  ///< drawings by the device, for rays that leave lumels; others go to the host
+    raster,  ///< GPU rasterisation for rays that leave lumels; the host traces others
 };
 
 struct LinksOptions {
     std::uint32_t seed = 1;
     SampleRule rule = SampleRule::area;
-    bool filter = true;  ///< averages lumels with others of their chart that look alike
+    bool filter = true;  ///< averages similar lumels of a chart
     Rays rays = Rays::automatic;
-    /// Lumels share directions with those so many texels off, in 16 sets for 4. 0: every lumel has
-    /// its own, but for Rays::raster, which takes kInterleaved.
+    /// Lumels share directions with those this number of texels away: 4 makes 16 sets. 0: every
+    /// lumel has its own, except that Rays::raster uses kInterleaved.
     std::uint32_t interleaved = 0;
 };
 

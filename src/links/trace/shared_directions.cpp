@@ -16,15 +16,15 @@
 namespace lumel {
 namespace {
 
-/// Directions of a set for each ray of a lumel: a quarter of Σ max(0, cos) over the sphere is kept,
-/// so that most are taken once at most.
+/// Directions in a set per ray of a lumel: a quarter of Σ max(0, cos) over the sphere is kept, so
+/// that most are drawn at most once.
 constexpr double kPerRay = 4.0;
-/// As each lumel divides by the sum of its cosines, light has a bias of about the square of that
-/// sum's spread over the normals: 1.8 % for 32 directions, 0.05 % for 1024. More are not worth
-/// their drawings; rays take one several times, from different points.
+/// Each lumel divides by the sum of its cosines, which biases light by about the squared spread of
+/// that sum over normals: 1.8 % for 32 directions, 0.05 % for 1024. Larger sets are not worth their
+/// drawings; rays then reuse directions from different points.
 constexpr std::uint32_t kMin = 32, kMax = 1024;
 
-/// A rotation, all alike [Sho92].
+/// A uniform random rotation [Sho92].
 glm::quat random_rotation(std::uint32_t seed)
 {
     const auto number = [&](std::uint32_t k) {

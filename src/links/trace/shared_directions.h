@@ -1,5 +1,5 @@
 #pragma once
-// Directions that many lumels send their rays along.
+// Ray directions shared by many lumels.
 
 #include <cstdint>
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace lumel {
 
-/// Sets of directions, each spread evenly over the sphere and turned at random. Lumels whose places
-/// in the atlas repeat after `side` texels share a set. One set for all would leave its pattern in
-/// the light, with edges that no filter removes.
+/// Sets of directions, each spread evenly over the sphere and randomly rotated. Lumels share a set
+/// if their atlas positions are equal modulo `side` texels. A single set would leave visible
+/// patterns with edges that the filter keeps.
 class SharedDirections {
 public:
-    /// rays: that a lumel sends out, in the mean.
+    /// rays: per lumel, on average.
     SharedDirections(std::uint32_t side, double rays, std::uint32_t seed);
 
     std::span<const glm::vec3> all() const { return directions_; }
-    std::uint32_t set(std::uint32_t x, std::uint32_t y) const  ///< of a texel
+    std::uint32_t set(std::uint32_t x, std::uint32_t y) const  ///< set of a texel
     {
         return y % side_ * side_ + x % side_;
     }
@@ -27,13 +27,13 @@ public:
 
 private:
     std::uint32_t side_, per_set_;
-    std::vector<glm::vec3> directions_;  ///< [sets][per_set], neighbours mostly together
+    std::vector<glm::vec3> directions_;  ///< [sets][per_set], mostly sorted by neighbours
 };
 
-/// Draws directions of a set for one lumel, in proportion to the cosine.
+/// Draws directions of a set for a lumel, with probability proportional to the cosine.
 class CosineDraw {
 public:
-    /// directions must outlive it.
+    /// directions must outlive this.
     CosineDraw(const SharedDirections& directions, std::uint32_t set)
         : directions_(&directions),
           first_(directions.first(set)),
@@ -47,8 +47,8 @@ public:
 private:
     const SharedDirections* directions_;
     std::uint32_t first_;
-    glm::vec3 normal_{0.0f};    ///< that below_ is of
-    std::vector<float> below_;  ///< [per_set] Σ cosines up to each
+    glm::vec3 normal_{0.0f};    ///< normal that below_ was computed for
+    std::vector<float> below_;  ///< [per_set] cumulative cosines
 };
 
 }  // namespace lumel

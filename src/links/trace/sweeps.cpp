@@ -13,26 +13,26 @@
 namespace lumel {
 namespace {
 
-/// The scene is cut into this many cells a side for the groups.
+/// Cells per side of the scene's bounds, for the groups.
 constexpr int kGroupCells = 4;
 /// Sweeps before groups are made.
 constexpr int kPlainSweeps = 10;
-/// What is left to come may be this share of a part's own light, in the mean of squares; parts
-/// darker than kDarkest of the mean count as if they had that.
+/// Convergence threshold: RMS residual relative to each sub-lumel's own light. Sub-lumels darker
+/// than kDarkest × the mean count as that bright.
 constexpr double kStill = 1e-3, kDarkest = 1e-4;
 constexpr int kMaxSweeps = 2000;
-/// A correction changes a group by this factor at most.
+/// Maximum factor of a group's correction.
 constexpr double kMaxFactor = 64.0;
-/// Of a group [m²], where one has none.
+/// Replaces the area of an empty group [m²].
 constexpr double kMinArea = 1e-30;
-/// Blocks of one task.
+/// Blocks per task.
 constexpr std::size_t kGrain = 4;
-/// Changes count as shrinking by this factor at least.
+/// Minimum assumed convergence: changes shrink at least by this factor.
 constexpr double kSlowest = 1.0 - 1e-6;
-/// A pivot this small: all that a group sends comes back to it.
+/// A pivot below this means that all light of a group returns to it.
 constexpr double kSingular = 1e-7;
 
-/// Σ over channels, in the mean of all parts.
+/// Mean over sub-lumels, summed over channels.
 double mean_of(const std::vector<glm::vec4>& sent)
 {
     double sum = 0.0;
@@ -43,10 +43,10 @@ double mean_of(const std::vector<glm::vec4>& sent)
 
 }  // namespace
 
-/// Corrects the level of groups after a sweep x → y of what parts send: with K_ab the share of what
-/// group a receives that comes from b, times ρ, and r_a the mean change of a, the change still to
-/// come is (1 - K)⁻¹ K r in the mean of a. Parts get it in proportion to what they send, so that
-/// none comes into dark cavities, which would keep it long.
+/// Corrects the level of groups after a sweep x → y of the reflected light. With K_ab the
+/// fraction of group a's received light that comes from b, times ρ, and r_a the mean change of a,
+/// the mean residual of a is (1 - K)⁻¹ K r. It is distributed in proportion to the light that
+/// sub-lumels send, so that none is added to dark cavities, which would lose it slowly.
 class LinkSolver::Groups {
 public:
     Groups(const LinkSolver& solver, const LinkSet& gathered)
@@ -63,8 +63,8 @@ public:
             invert(inverse_[c]);
     }
 
-    /// Adds the change still to come to `now`; before: what it was before the sweep. Returns that
-    /// change as a part of what groups send: root of the mean square, by what they send.
+    /// Adds the estimated residual to `now`; before: light before the sweep. Returns its RMS
+    /// relative to the light of the groups.
     double correct(const std::vector<Reflected>& before, std::vector<Reflected>& now) const
     {
         std::vector<glm::dvec3> change(size_, glm::dvec3(0.0)), mean = change, factor = change;
@@ -150,7 +150,7 @@ private:
                 inverse_[c][std::size_t(g) * size_ + g] += 1.0;
     }
 
-    /// In place, by Gauss-Jordan with the diagonal as pivots: 1 - K is diagonally dominant.
+    /// In place, by Gauss-Jordan elimination with diagonal pivots: 1 - K is diagonally dominant.
     void invert(std::vector<double>& m) const
     {
         const std::size_t n = size_;
@@ -158,8 +158,8 @@ private:
             const double pivot = m[k * n + k];
             if (!(pivot > kSingular))
                 throw Error(ErrorKind::input, "albedo 1",
-                            "in a closed room: light that is nowhere absorbed grows without "
-                            "bound; make some surface darker");
+                            "in a closed room: light without absorption grows without bound; make "
+                            "some surface darker");
             m[k * n + k] = 1.0;
             for (std::size_t j = 0; j < n; ++j)
                 m[k * n + j] /= pivot;
@@ -208,7 +208,7 @@ LinkSolver::LinkSolver(const Lumels& lumels, const WorldLumels& world, const Sub
     group_count_ = std::uint32_t(number.size());
 }
 
-/// X of a block's parts from what all send, and what they send then.
+/// Computes X of a block's sub-lumels from the light that all send, and the light they then send.
 LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t b, double floor,
                                            const std::vector<Reflected>& sent,
                                            std::vector<Reflected>& next,
@@ -229,7 +229,7 @@ LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t 
                 received[p] = sum / float(gathered.rays[p]);
         }
         for (std::uint32_t p = parts_.first(i); p < parts_.end(i); ++p) {
-            // A part without a ray takes the lumel's mean.
+            // A sub-lumel without rays takes the lumel's mean.
             if (gathered.rays[p] == 0)
                 received[p] = rays > 0 ? of_all / float(rays) : glm::vec3(0.0f);
             next[p] = glm::vec4(lumels_.lumels[i].albedo * received[p], 0.0f);
@@ -245,7 +245,7 @@ LinkSolver::Change LinkSolver::sweep_block(const LinkSet& gathered, std::size_t 
     return change;
 }
 
-/// Σ of all that the rays of part p have brought, in a block's row.
+/// Σ of the light along all rays of sub-lumel p, in a row of the block.
 glm::vec3 LinkSolver::received_by(const LinkSet& gathered, std::size_t b, std::size_t row,
                                   std::uint32_t p, const std::vector<Reflected>& sent) const
 {
@@ -283,7 +283,7 @@ void LinkSolver::solve(const LinkSet& gathered, std::vector<glm::vec3>& received
             all.count += change.count;
         }
         const double size = all.count > 0 ? std::sqrt(all.squares / double(all.count)) : 0.0;
-        // Changes that shrink by a factor q leave q / (1 - q) of the last to come.
+        // Changes that shrink by a factor q leave q / (1 - q) of the last as residual.
         const double factor = std::min(before > 0.0 ? size / before : kSlowest, kSlowest);
         const double to_come =
             groups ? size + groups->correct(sent, next) : size * factor / (1.0 - factor);

@@ -1,5 +1,5 @@
 #pragma once
-// All bounces of light over stored links.
+// Solves for all bounces over stored links.
 
 #include <cstdint>
 #include <vector>
@@ -10,27 +10,27 @@
 
 namespace lumel {
 
-/// Solves X = C + K ρ X for what parts receive beside direct light:
+/// Solves X = C + K ρ X for the irradiance of sub-lumels without direct light:
 ///
 ///     X_p = (1/n_p) Σ_k (C_pk + w_pk ρ X[target_pk]),
 ///
-/// C what the rays met of direct light and sky, w the weight of a link. By sweeps (Jacobi) until
-/// still, and where they are slow, as in bright closed rooms, with a correction by groups of parts
-/// that face alike and lie in one cell of the scene.
+/// where C is direct and sky light at the ray hits and w the weight of a link. Jacobi sweeps until
+/// converged; if they are slow, as in bright closed rooms, with a coarse correction by groups of
+/// sub-lumels that face the same way in one cell of the scene.
 class LinkSolver {
 public:
-    /// What is given must outlive it.
+    /// All arguments must outlive this.
     LinkSolver(const Lumels& lumels, const WorldLumels& world, const SubLumels& parts,
                const std::vector<std::uint32_t>& order);
 
-    /// X [P] [lx], beginning from what it holds if that is not empty. Throws Error{input} if the
-    /// light of a closed room is nowhere absorbed.
+    /// X [P] [lx]; starts from `received` unless it is empty. Throws Error{input} if the light of a
+    /// closed room is never absorbed.
     void solve(const LinkSet& gathered, std::vector<glm::vec3>& received) const;
 
 private:
     class Groups;
     using Reflected = glm::vec4;  ///< ρ X, padded: one aligned load per link
-    /// What a sweep changed of what parts send, each relative to its own.
+    /// Changes of the sent light in a sweep, relative to each sub-lumel's own.
     struct Change {
         double squares = 0.0;
         std::size_t count = 0;

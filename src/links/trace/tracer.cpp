@@ -18,76 +18,75 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// A ray whose hit is nearer than this many sides of the larger lumel is reflected there once more,
-/// and looks for direct light there: so near, neither the cells of a lumel nor its parts are fine
-/// enough.
+/// A hit closer than this many sides of the larger lumel is reflected again, with shadow rays at
+/// the hit: neither cells nor sub-lumels resolve such small distances.
 constexpr float kTooNear = 0.25f;
-/// A first hit nearer than the first is reflected too: next to a corner indirect light changes
-/// within a lumel, and is known for parts only. Beyond the second it looks for direct light only
-/// where that varies within the lumel: else the lumel's has less noise.
+/// A first hit closer than kNear is reflected too: near corners indirect light changes within a
+/// lumel, but is stored per sub-lumel only. It gets shadow rays if closer than kNearForCells, or if
+/// direct light varies within the lumel; otherwise the lumel's has less noise.
 constexpr float kNear = 2.0f, kNearForCells = 1.0f;
-/// Within so many sides what is met may be a sliver of a lumel that its cells know nothing of, as
-/// in a gap between two walls: light is looked up in a cell that sees it, or not at all.
+/// Hits closer than this many sides can be on a sliver that the lumel's cells do not represent, as
+/// in a gap between two walls: light is looked up in a cell visible from the hit, or not at all.
 constexpr float kMayBeHidden = 1.0f;
-/// Reflections before that, at most.
+/// Maximum number of such reflections.
 constexpr int kMaxReflections = 8;
-/// Lookups are checked by rays this far above the surfaces, in sides of the lumel.
+/// Height of visibility rays to cells above the surface, in sides of the lumel.
 constexpr float kLift = 0.05f;
 
-/// Dimension pairs of a ray's random numbers; each reflection has kPerReflection more.
+/// Dimension pairs of a ray's random numbers; each reflection uses kPerReflection more.
 constexpr std::uint32_t kStartPair = 0, kDirectionPair = 1, kPassPair = 2, kFirstReflection = 3,
                         kPerReflection = 2;
 
 }  // namespace
 
-/// A ray from a lumel with its reflections: what it has gathered, and what is left of it.
+/// A ray from a lumel with its reflections: gathered light and remaining weight.
 struct LinkTracer::Path {
     PathSamples samples;
-    std::uint32_t from;  ///< part that it left
-    float size;          ///< of the lumel that it left last [m]
+    std::uint32_t from;  ///< sub-lumel of origin
+    float size;          ///< size of the last lumel on the path [m]
     glm::vec3 weight{1.0f};
-    glm::vec3 reflected{0.0f};  ///< of surfaces met [lx]
+    glm::vec3 reflected{0.0f};  ///< reflected by surfaces [lx]
     glm::vec3 sky{0.0f};        ///< [lx]
     HitKind met = HitKind::nothing;
-    std::uint32_t part = 0;  ///< that it met
-    float nearest = kFar;    ///< [m] to what it met first
+    std::uint32_t part = 0;  ///< sub-lumel that it hit
+    float nearest = kFar;    ///< distance to the first hit [m]
 };
 
-/// Where a ray has met a lumel.
+/// A ray's hit on a lumel.
 struct LinkTracer::PathHit {
-    std::uint32_t ray;  ///< of the wave
+    std::uint32_t ray;  ///< ray of the batch
     std::uint32_t lumel, cell;
     glm::vec3 position;              ///< [m]
-    bool may_be_hidden;              ///< from cells of the lumel
-    bool looks_around;               ///< finds direct light for itself, not by a cell
-    bool goes_on;                    ///< reflected there
-    bool is_hidden = false;          ///< no cell sees it
-    std::uint32_t unseen_cells = 0;  ///< bit c: cell c was looked for, and is hidden
+    bool may_be_hidden;              ///< the hit may be occluded from the lumel's cells
+    bool looks_around;               ///< traces shadow rays instead of using a cell
+    bool goes_on;                    ///< is reflected there
+    bool is_hidden = false;          ///< no cell is visible
+    std::uint32_t unseen_cells = 0;  ///< bit c: cell c was tested, and is occluded
 };
 
-/// Paths that are followed together, a reflection at a time.
+/// Paths traced together, one reflection at a time.
 struct LinkTracer::RayBatch {
     std::vector<std::uint32_t> lumels;
     std::vector<std::uint32_t> paths_before;  ///< [lumels + 1]
-    std::vector<Path> paths;                  ///< of one lumel after those of another
+    std::vector<Path> paths;                  ///< grouped by lumel
 
-    // Of paths that have not ended.
+    // Paths that have not ended.
     int reflections = 0;
     std::vector<RaySpan> rays;
     std::vector<std::uint32_t> path_of;  ///< [rays]
     std::vector<RayHit> hits;            ///< [rays or more]
-    std::vector<std::uint32_t> along;    ///< [rays] before any is reflected: of shared directions
-    bool is_cast = false;                ///< hits are known before any is reflected
+    std::vector<std::uint32_t> along;    ///< [rays] shared direction, for first rays
+    bool is_cast = false;                ///< hits of first rays are known
     std::vector<PathHit> arrivals;
 
-    // Of one reflection; kept so as to be allocated once.
-    std::vector<std::uint32_t> open;  ///< arrivals that look for a cell
+    // One reflection; members to reuse their memory.
+    std::vector<std::uint32_t> open;  ///< hits that need a visible cell
     std::vector<RaySpan> to_cells;
-    std::vector<glm::vec3> passing;  ///< [to_cells]
+    std::vector<glm::vec3> transmittance;  ///< [to_cells]
     ShadowRays looks;
     std::vector<RaySpan> next_rays;
     std::vector<std::uint32_t> next_path_of;  ///< [next_rays]
-    std::vector<std::uint32_t> looking;       ///< paths that look around
+    std::vector<std::uint32_t> looking;       ///< paths with shadow rays
 
     RayBatch() { begin(); }
     void begin()
@@ -138,7 +137,6 @@ LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
 {
 }
 
-/// Rays that lumel i sends out.
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];
@@ -174,7 +172,7 @@ void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) co
     wave.paths_before.push_back(std::uint32_t(wave.paths.size()));
 }
 
-/// Casts the rays of waves before they are followed, all together.
+/// Traces the first rays of several batches together.
 void LinkTracer::cast_bundles(const SharedDirections& shared, std::vector<RayBatch>& waves) const
 {
     std::vector<std::uint32_t> along;
@@ -207,7 +205,7 @@ void LinkTracer::follow(RayBatch& wave) const
     }
 }
 
-/// Ends paths that meet no lumel; the others arrive.
+/// Ends paths that hit no lumel; makes a PathHit of the others.
 void LinkTracer::meet(RayBatch& wave) const
 {
     wave.arrivals.clear();
@@ -248,8 +246,8 @@ void LinkTracer::meet(RayBatch& wave) const
     }
 }
 
-/// In lumels of several parts, finds the cell whose point is nearest among those that the position
-/// sees. Paths that see none go on, as long as they may.
+/// For hits that may be occluded from their cell, finds the nearest visible cell of the lumel.
+/// Paths without one are reflected, up to the maximum.
 void LinkTracer::find_seen_cells(RayBatch& wave) const
 {
     std::vector<std::uint32_t>& open = wave.open;
@@ -258,7 +256,7 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
         if (!wave.arrivals[a].looks_around && wave.arrivals[a].may_be_hidden)
             open.push_back(a);
     while (!open.empty()) {
-        // One ray for each that has a cell left.
+        // One ray for each hit with an untested cell.
         wave.to_cells.clear();
         std::erase_if(open, [&](std::uint32_t a) {
             PathHit& arrival = wave.arrivals[a];
@@ -271,9 +269,9 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
             arrival.goes_on = arrival.looks_around = wave.reflections < kMaxReflections;
             return true;
         });
-        wave.passing.resize(wave.to_cells.size());
-        place_.caster.passing(wave.to_cells, wave.passing);
-        auto passed = wave.passing.begin();
+        wave.transmittance.resize(wave.to_cells.size());
+        place_.caster.transmittance(wave.to_cells, wave.transmittance);
+        auto passed = wave.transmittance.begin();
         std::erase_if(open, [&](std::uint32_t a) {
             const bool sees = *passed++ != glm::vec3(0.0f);
             if (!sees)
@@ -283,8 +281,8 @@ void LinkTracer::find_seen_cells(RayBatch& wave) const
     }
 }
 
-/// To the point of the nearest cell that is not known to be hidden, which becomes the arrival's;
-/// empty: there is none.
+/// Ray to the nearest cell not known to be occluded, which becomes the hit's cell; empty if there
+/// is none.
 std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t seed) const
 {
     const std::uint32_t j = arrival.lumel;
@@ -306,7 +304,7 @@ std::optional<RaySpan> LinkTracer::ray_to_cell(PathHit& arrival, std::uint32_t s
                        point.position + ray_offset * point.normal, 0.0f, seed);
 }
 
-/// Ends paths at the parts that they met, or sends their reflections out.
+/// Ends paths at the sub-lumels that they hit, or reflects them.
 void LinkTracer::end_or_reflect(RayBatch& wave) const
 {
     wave.next_rays.clear();
@@ -343,7 +341,7 @@ void LinkTracer::end_or_reflect(RayBatch& wave) const
     wave.path_of.swap(wave.next_path_of);
 }
 
-/// Samples the lights from where a path has arrived, if it should, and goes on from there.
+/// Queues the hit's shadow rays, if it has any, and returns the reflected ray.
 RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, Path& path,
                             ShadowRays& looks) const
 {
@@ -365,7 +363,7 @@ RaySpan LinkTracer::reflect(const RayBatch& wave, const PathHit& arrival, Path& 
                    path.samples.bits(pair_of(wave.reflections + 1)));
 }
 
-/// Takes over what the paths of one lumel have found.
+/// Stores the results of one lumel's paths.
 void LinkTracer::keep(const RayBatch& wave, std::size_t n, LinkBlock& block, LinkSet& into) const
 {
     const std::uint32_t first = parts_.first(wave.lumels[n]);
@@ -396,7 +394,7 @@ void LinkTracer::keep(const RayBatch& wave, std::size_t n, LinkBlock& block, Lin
     }
 }
 
-/// Takes over what a wave has found, whose lumels are those of order_ from `first` on.
+/// Stores the results of a batch, whose lumels are those of order_ from `first` on.
 void LinkTracer::keep_all(const RayBatch& wave, std::size_t first, LinkSet& into) const
 {
     for (std::size_t n = 0; n < wave.lumels.size(); ++n) {
@@ -424,7 +422,7 @@ void LinkTracer::trace_blocks(std::size_t first, std::size_t last, const Sending
     }
 }
 
-/// The same by bundles: a drawing serves all of the blocks.
+/// Traces by bundles: one drawing serves all blocks.
 void LinkTracer::trace_bundles(std::size_t first, std::size_t last, const Sending& sending,
                                LinkSet& into) const
 {

@@ -1,6 +1,6 @@
 #pragma once
-// Links: what each part of a lumel meets along rays spread by the cosine. Each ray is traced once,
-// and the part that it meets is kept; all further bounces go over what is kept.
+// Traces links: the sub-lumels that cosine-distributed rays hit. Each ray is traced once and its
+// hit stored; all further bounces use stored links.
 
 #include <cstdint>
 #include <optional>
@@ -16,19 +16,19 @@
 
 namespace lumel {
 
-/// A ray that met a part after it had passed glass or had been reflected on its ray.
+/// A link of weight < 1: the ray crossed glass or was reflected on the way.
 struct AttenuatedLink {
     std::uint32_t part;
-    std::uint32_t weight;  ///< what is left of it, RGB9E5
+    std::uint32_t weight;  ///< remaining weight, RGB9E5
 };
 
-/// Links of the parts of some lumels.
+/// Links of some lumels' sub-lumels.
 struct LinkBlock {
     std::vector<std::uint32_t> first;       ///< [parts + 1] into target
-    std::vector<std::uint32_t> target;      ///< parts
+    std::vector<std::uint32_t> target;      ///< sub-lumels
     std::vector<std::uint32_t> first_weak;  ///< [parts + 1] into weak
     std::vector<AttenuatedLink> weak;
-    bool loses = false;  ///< some of the rays met no surface that reflects
+    bool loses = false;  ///< some rays hit no reflecting surface
 
     template <class Archive>
     void state(Archive& archive)
@@ -37,10 +37,10 @@ struct LinkBlock {
     }
 };
 
-/// Lumels of one block.
+/// Lumels per block.
 inline constexpr std::size_t kLinkBlock = 256;
 
-/// What one of two independent sets of rays has found so far.
+/// Links and light gathered in one of several independent solutions.
 struct LinkSet {
     explicit LinkSet(std::size_t parts)
         : reflected(parts, glm::vec3(0.0f)),
@@ -50,16 +50,16 @@ struct LinkSet {
     {
     }
 
-    /// Did every ray meet a surface that reflects?
+    /// True if all rays hit reflecting surfaces.
     bool is_closed() const;
-    /// That links take.
+    /// Memory of links [bytes].
     std::size_t bytes() const;
 
     std::vector<std::vector<LinkBlock>> rounds;  ///< [rounds][blocks]
-    std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of the direct light that they met [lx]
-    std::vector<glm::vec3> sky;        ///< [P] Σ over rays of the sky's light [lx]
-    std::vector<std::uint32_t> rays;   ///< [P] that count
-    std::vector<float> nearest;        ///< [P] [m] how near they met anything
+    std::vector<glm::vec3> reflected;  ///< [P] Σ over rays of direct light at their hits [lx]
+    std::vector<glm::vec3> sky;        ///< [P] Σ over rays of sky light [lx]
+    std::vector<std::uint32_t> rays;   ///< [P] valid rays
+    std::vector<float> nearest;        ///< [P] distance to the nearest hit [m]
 
     template <class Archive>
     void state(Archive& archive)
@@ -68,10 +68,10 @@ struct LinkSet {
     }
 };
 
-/// Follows rays from lumels until they meet a part.
+/// Traces rays from lumels until they hit a sub-lumel.
 class LinkTracer {
 public:
-    /// What is given must outlive it. `order` [N]: of lumels, in which blocks take them.
+    /// All arguments must outlive this. order [N]: lumels in the order of blocks.
     LinkTracer(const LinkScene& place, const LightSources& sources, const WorldLumels& world,
                const RayOrigins& starts, const Cells& cells, const SubLumels& parts,
                const DirectEstimator& direct, const std::vector<std::uint32_t>& order,
@@ -79,13 +79,13 @@ public:
 
     std::size_t blocks() const { return (order_.size() + kLinkBlock - 1) / kLinkBlock; }
 
-    /// Rays that lumels send out.
+    /// Rays to trace.
     struct Sending {
         const std::vector<std::uint16_t>& rays;  ///< [N]; powers of two stratify best
-        std::uint32_t stream;                    ///< of random numbers
-        const SharedDirections* shared;          ///< null: every lumel has directions of its own
+        std::uint32_t stream;                    ///< random stream
+        const SharedDirections* shared;          ///< null: every lumel has its own directions
     };
-    /// Traces those of blocks [first, last) into the last round of `into`.
+    /// Traces blocks [first, last) into the last round of `into`.
     void trace(std::size_t first, std::size_t last, const Sending& sending, LinkSet& into) const;
 
 private:

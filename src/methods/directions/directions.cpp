@@ -14,17 +14,19 @@
 //
 // Differs from the paper:
 // - K directions per iteration, from a scrambled Sobol sequence over the sphere.
-// - A running average in phases (iteration.cpp): a baked map is to converge. With Scheme::paper the
-//   source follows the average after every batch, which SolverOptions::leak makes the paper's.
-// - Maps name lumels, not colours, so that emission and reflected light are gathered apart.
-// - Layers::list keeps every surface of a pixel, and Layers::peel has one after the other
+// - A running average in phases (iteration.cpp): a baked map must converge. With Scheme::paper
+//   the source follows the average after every batch; SolverOptions::leak then gives the paper's
+//   average.
+// - Maps store lumels, not colours, so that emission and reflected light are gathered separately.
+// - Layers::list stores every surface of a pixel, and Layers::peel renders one after the other
 //   (C. Everitt. Interactive Order-Independent Transparency. 2001). Both are exact. Peeling stalls
-//   in every batch, to read back one word: whether the last layer showed any lumel something new.
-// - Regions are slabs along d, whose surfaces compete only among themselves (illumination_maps.h).
-//   As many as the measured overdraw requires (slabs.cpp).
-// - With Scheme::phased rays find the light of small emissive surfaces (directions_radiosity.cpp).
-// - The sky is gathered with Scheme::paper only; else it is among the emission already, through
-//   exact views of its own (raster/shadow_maps/direct_light.h).
+//   in every batch, to read back one word: whether the last layer showed any lumel a new surface.
+// - Regions are slabs along d, within which surfaces compete (illumination_maps.h). Their number
+//   follows from the measured overdraw (slabs.cpp).
+// - With Scheme::phased rays find the light of small emissive surfaces
+//   (directions_radiosity.cpp).
+// - The sky is gathered with Scheme::paper only; otherwise it is part of the emission, by exact
+//   views of its own (raster/shadow_maps/direct_light.h).
 
 #include "methods/directions/directions.h"
 
@@ -40,15 +42,14 @@
 namespace lumel {
 namespace {
 
-/// Directions that are made at a time.
 constexpr std::uint32_t kChunk = 1024;
 /// Dimension pairs of a direction's random numbers.
 constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
-/// Pixels of all maps of a batch, which bounds their memory.
+/// Maximum pixels of all maps of a batch, which limits their memory.
 constexpr std::uint64_t kMaxPixels = 4u << 20;
 
-/// Pixels of a map across a typical lumel: fewer, and the rays of pixels miss lumels that are seen
-/// from the side; more cost time.
+/// Pixels of a map across a typical lumel. With fewer, pixel rays miss lumels seen edge-on; more
+/// cost time.
 constexpr float kPixelsPerLumel = 3.5f;
 
 std::uint32_t map_side(const gpu::Device& device, const World& world, const Lumels& lumels,
@@ -110,7 +111,7 @@ GlobalDirections::GlobalDirections(const gpu::Device& device, const World& world
 GlobalDirections::Chunk GlobalDirections::make_chunk(std::uint32_t half, std::uint32_t first) const
 {
     const bool with_sky = options_.iteration.scheme == Scheme::paper && options_.sky;
-    // Channels take turns with one direction, so that each has a whole sequence of them.
+    // Channels take turns, so that each uses a complete sequence.
     const bool in_turn = world_->has_coloured_glass();
     std::vector<ParallelView> views;
     std::vector<GlobalDirection> directions;
@@ -158,7 +159,7 @@ std::uint64_t GlobalDirections::device_bytes(const SolveSize& size,
     const std::uint32_t maps = wanted_batch(options, side, slabs);
     const std::uint64_t seen =
         options.layers == Layers::peel ? std::bit_floor(maps) * size.count() : 1;
-    // Two chunks of directions for each half, and one that is being made.
+    // Two chunks of directions per half, and one under construction.
     constexpr std::uint64_t kChunks = 5;
     return IlluminationMaps::device_bytes(options.layers, side, maps, slabs) +
            kChunks * kChunk * (sizeof(ParallelView) + sizeof(GlobalDirection)) +
@@ -179,8 +180,8 @@ void GlobalDirections::step()
     iteration_.finish_batch(pacer_, batch_, iteration_.sends_reflected() ? batch_ : 0);
 }
 
-/// Layer after layer, until one shows no lumel anything new: those behind it then cannot either.
-/// As many as were needed before are drawn without asking.
+/// Renders layers until one shows no lumel a new surface: those behind it cannot either. Checks
+/// only from the number of layers needed so far.
 void GlobalDirections::peel(const Chunk& chunk, std::uint32_t first_view)
 {
     bool more = true;
@@ -253,8 +254,7 @@ std::vector<glm::vec3> GlobalDirections::irradiance()
     std::vector<glm::vec3> irradiance = iteration_.irradiance(pacer_);
     if (options_.layers == Layers::list && maps_.kept() < 1.0)
         throw Error(ErrorKind::device, "--layers list",
-                    "more surfaces lie behind one another than there is memory for; use --layers "
-                    "peel or stochastic");
+                    "out of memory for overlapping surfaces; use --layers peel or stochastic");
     return irradiance;
 }
 

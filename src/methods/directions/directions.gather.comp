@@ -8,23 +8,23 @@
 #include "raster/parallel/parallel.glsl"
 #include "raster/parallel/rays_along.glsl"
 
-// Every lumel i looks along K global directions d and takes the light of what it sees first,
+// Every lumel i looks along K global directions d and gathers the light of the first surface,
 // [TN11] Eq. (2) and Figure 5:
 //
 //     H_i += Σ_k  4 B_j max(n_i · d_k, 0),        j the lumel seen from i along d_k;
 //
-// of the sky, 4π L. The map holds fragments, which name lumels; so emitted and reflected light are
-// gathered apart in one go.
+// for the sky, 4π L. The map's fragments name lumels, so emitted and reflected light are gathered
+// separately in one pass.
 //
-// Of stochastic layers, (2 neighbours + 1)² pixels are looked up, what lies below the receiver's
-// plane is rejected, and the nearest of the rest is taken. Among slabs, this is done in the map of
-// the receiver's own; what comes first beyond it is known for certain, and one lookup is enough.
+// Stochastic layers: looks up (2 neighbours + 1)² pixels, rejects surfaces below the receiver's
+// plane, and takes the nearest of the rest. With slabs, this is done in the receiver's slab; the
+// first surface beyond it is known exactly by one lookup.
 //
-// A list holds every surface on the ray through a pixel's centre, so there the receiving point is
-// moved to where such a ray meets the lumel (first_met.glsl), and what is seen is exact. So it is
-// of peeled layers: they come nearer to the lumel one by one, and the last one above it is kept.
+// A list has every surface on the ray through a pixel's centre. The receiving point is moved to
+// where such a ray hits the lumel (first_met.glsl), so the result is exact, as with peeled layers:
+// they approach the lumel one by one, and the last one above it is kept.
 //
-// Among coloured glass directions take the colour channels in turn.
+// With coloured glass, directions take the colour channels in turn.
 
 layout(local_size_x = kGatherGroup) in;
 layout(constant_id = 0) const uint kLayers = kStochasticLayers;
@@ -39,31 +39,30 @@ layout(scalar) readonly buffer Emission { vec3 emission[]; };
 layout(scalar) readonly buffer Source { vec3 source[]; };
 layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
 layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
-layout(scalar) buffer Kept { uint kept[]; };  // [K][N] peeled: seen so far
-layout(scalar) buffer News { uint news; };  // peeled: 1: some lumel's has changed
+layout(scalar) buffer Kept { uint kept[]; };  // [K][N] peeled: surface seen so far
+layout(scalar) buffer News { uint news; };  // peeled: 1: a lumel's surface has changed
 layout(scalar) buffer SeenLightOf { SeenLight seen_light_of[]; };
 
 const float kPi = 3.14159265;
-// What lies higher than this above the plane is not the receiver itself [pixels' widths].
+// Surfaces higher than this above the plane are not the receiver itself [pixel widths].
 const float kAbovePlane = 0.02;
 
-// From this width on a piece has a ray wherever the grid of pixels lies [pixels].
+// A piece of this width has a ray for any position of the pixel grid [pixels].
 const float kWide = 2.0;
 
-// Σ cosθ of 32 directions over the sphere, before which P is taken to be right.
+// Σ cosθ of 32 directions over the sphere; P is assumed exact before.
 const float kUsual = 8.0;
 
-// What is seen, and how much it counts.
 struct Seen {
-    uint surface;  // as a Fragment has it; 0: the sky
-    float weight;  // 0: nothing is known
+    uint surface;  // as in a Fragment; 0: the sky
+    float weight;  // 0: unknown
 };
 
 // A receiving point in a view.
 struct InView {
     vec2 at;         // [pixels]
     float nearness;
-    // Heights above the receiver's plane, per pixel and per nearness [pixels' widths].
+    // Heights above the receiver's plane, per pixel and per nearness [pixel widths].
     vec2 per_pixel;
     float per_nearness;
 };
@@ -78,7 +77,7 @@ InView in_view(ParallelView view, LumelPoint point)
                       (nearness_per_metre * nearness_per_metre));
 }
 
-// The nearest that a map shows within `reach` pixels of the point, or `before`.
+// The nearest surface within `reach` pixels of the point, or `before`.
 uvec2 nearest_around(InView point, uint tile, int reach, uvec2 before)
 {
     const ivec2 corner = ivec2(tile_corner(p.tiling, tile));
@@ -103,7 +102,7 @@ Seen see_by_chance(ParallelView view, uint k, LumelPoint receiver)
     const InView point = in_view(view, receiver);
     const uint slab = min(uint(max(point.nearness, 0.0) * float(p.slabs)), p.slabs - 1u);
     const uint tile = k * p.maps + slab;
-    uvec2 nearest = uvec2(0u, floatBitsToUint(2.0));  // the sky: all that is nearer is below 1
+    uvec2 nearest = uvec2(0u, floatBitsToUint(2.0));  // the sky: surfaces are nearer, below 1
     nearest = nearest_around(point, tile, int(p.neighbours), nearest);
     if (slab + 1u < p.slabs)
         nearest = nearest_around(point, tile + p.slabs, 0, nearest);
@@ -144,8 +143,8 @@ uint nearest_peeled(PieceInView piece, RayMet ray, uint tile, uint i)
     return fragment.x;
 }
 
-// A ray that meets the point's piece. Of a thin one any ray stands for as many as meet it, which
-// are `mean` in the mean over all places of the grid.
+// A ray that hits the point's piece. For a thin piece any ray represents those that hit it; their
+// mean number over all grid positions is `mean`.
 bool choose_ray(ParallelView view, PieceInView piece, LumelPoint point, uint random, out RayMet ray)
 {
     const RaysAlong rays = rays_along(view, p.tiling, pieces[point.piece], piece);

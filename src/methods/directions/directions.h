@@ -15,29 +15,29 @@
 
 namespace lumel {
 
-/// All lumels look along one direction at a time.
+/// Gathers the light of all lumels along one global direction at a time.
 class GlobalDirections final : public Solver {
 public:
-    /// `world` must hold the atlas. Throws Error{device} if the device cannot keep the layers.
+    /// `world` must hold the atlas. Throws Error{device} if the device does not support the layers.
     GlobalDirections(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const DirectionsOptions& options, std::span<const glm::vec3> known = {});
 
-    /// Bytes on the device at most, on one whose images and arrays may be as large as is wanted.
-    /// Slabs that the device is to choose count as one.
+    /// Upper bound on GPU memory [bytes], if the device does not limit images and arrays. Automatic
+    /// slabs count as one.
     static std::uint64_t device_bytes(const SolveSize& size, const DirectionsOptions& options);
 
     void step() override;
-    /// From now on lumels emit and reflect as in `lumels`, and the sky is as it is now. For options
-    /// with a leak. Waits for the device. Throws Error{input} without one.
+    /// Takes emission and albedo from `lumels`, and the current sky. Waits for the device. Throws
+    /// Error{input} unless the options have a leak.
     void relight(const Lumels& lumels);
     SolverState state() const override { return iteration_.state(); }
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
-    std::uint32_t slabs() const { return maps_.slabs(); }  ///< that each direction is cut into
+    std::uint32_t slabs() const { return maps_.slabs(); }  ///< slabs per direction
 
 private:
-    /// Directions of one half-solution that are ready on the device.
+    /// Directions of one half-solution on the device.
     struct Chunk {
         gpu::Array<ParallelView> views;
         gpu::Array<GlobalDirection> directions;
@@ -58,12 +58,12 @@ private:
     gpu::Kernel<shaders::DirectionsGather> gather_;
     gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2] lumel of each side, or kNoLumel
     gpu::Array<std::uint32_t> seen_;      ///< [K][N] peeled: the surface that each lumel sees
-    gpu::Array<std::uint32_t> news_;      ///< [1] peeled: 1 once a layer shows something new
-    std::uint32_t layers_ = 1;            ///< peeled at most so far
+    gpu::Array<std::uint32_t> news_;      ///< [1] peeled: 1 if a layer shows a new surface
+    std::uint32_t layers_ = 1;            ///< maximum number peeled so far
     std::array<std::deque<Chunk>, 2> chunks_;
     gpu::Array<SeenLight> seen_light_;  ///< [N]
     Iteration iteration_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;  ///< last member: its destructor waits for work that uses others
 };
 
 }  // namespace lumel

@@ -5,18 +5,18 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kGatherGroup = 64u;  ///< threads per workgroup of directions.gather.comp
 
-/// A direction that light is gathered from.
+/// A direction to gather light from.
 struct GlobalDirection {
-    vec3 toward;  ///< d: unit, from receivers to what they see
-    vec3 sky;     ///< radiance [cd/m²] where nothing is seen
+    vec3 toward;  ///< d: unit, from receivers to the surfaces they see
+    vec3 sky;     ///< radiance of the sky [cd/m²]
 };
 
-/// How much of the light that a lumel seeks its map shows, over all directions so far. A map shows
-/// the world along d only where one of its rays meets the lumel, which has a chance P that is about
-/// known; Σ sought / Σ found makes up for what is wrong in it.
+/// Correction of a lumel's light, over all directions so far. A map shows the world along d only
+/// where one of its rays hits the lumel, with a probability P known approximately; Σ sought / Σ
+/// found corrects P.
 struct SeenLight {
     float sought;  ///< Σ cosθ
-    float found;   ///< Σ cosθ/P where the map tells
+    float found;   ///< Σ cosθ/P where the map has a ray
 };
 
 /// Push constants of directions.gather.comp.
@@ -28,16 +28,16 @@ struct GatherParams {
     uint first_view;   ///< views [first_view, first_view + views) in tiles 0, 1, …
     uint views;        ///< K
     uint half_index;   ///< 0 or 1: which half-solution takes this batch
-    uint first_point;  ///< numbers the points of a lumel that receive
+    uint first_point;  ///< index of a lumel's receiving point
     uint seed;
     uint centre;         ///< 1: receive at the centroid
     uint neighbours;     ///< lookups to each side of a pixel: 0, 1 or 2
     uint with_emission;  ///< 0: the source holds the emission, as in the paper
     uint with_source;    ///< 0: the source is still 0
-    uint layer;          ///< peeled: how many layers are in front of the map's
-    uint keep;           ///< peeled: 1: only keep what the layer shows; 0: add what was kept
+    uint layer;          ///< peeled: number of layers in front of the map's
+    uint keep;           ///< peeled: 1: only store what the layer shows; 0: add what was stored
     uint slabs;          ///< S, see IlluminationMaps
-    uint maps;           ///< of a direction
+    uint maps;           ///< maps per direction
 };
 
 LUMEL_SHARED_END

@@ -1,12 +1,12 @@
-// Radiosity by global directions, but for the light of emissive surfaces.
+// Radiosity by global directions, with direct light of emissive surfaces by rays.
 //
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 //
-//     D ← what emissive surfaces send straight, by rays to points on them       direct_rays.h
-//     E ← ρ (D + what sky and lamps send straight)
-//     H ← D + what [TN11] gathers of E                                          directions.h
+//     D ← direct light of emissive surfaces, by shadow rays                     direct_rays.h
+//     E ← ρ (D + direct light of sky and lamps)
+//     H ← D + light gathered from E by [TN11]                                   directions.h
 //
-// In the paper directions find all light. Few of them meet a small lamp: in the Cornell box at 128²
+// In the paper directions find all light. Few of them hit a small lamp: in the Cornell box at 128²
 // 13,000 directions leave an estimated error of 6 %.
 
 #include "methods/directions/directions_radiosity.h"
@@ -18,10 +18,9 @@
 namespace lumel {
 namespace {
 
-/// Of the error that is asked for, the share that direct light may have: with the directions'
-/// own, √(1 - share²), it makes up the whole.
+/// Error of direct light relative to the target; the directions' own, √(1 - share²), completes it.
 constexpr double kDirectShare = 0.5;
-/// The error of direct light where none is asked for.
+/// Target error of direct light if none is given.
 constexpr double kUsualError = 0.005;
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
-// Radiosity by global directions, but for the light of emissive surfaces, which rays to points on
-// them find. See directions_radiosity.cpp.
+// Radiosity by global directions, with direct light of emissive surfaces by shadow rays. See
+// directions_radiosity.cpp.
 
 #include <optional>
 
@@ -10,11 +10,11 @@
 
 namespace lumel {
 
-/// Direct light by rays to its sources, reflections along global directions.
+/// Direct light by shadow rays, reflections along global directions.
 class DirectionsRadiosity final : public Solver {
 public:
-    /// What is given must outlive it. known: as make_solver takes it. Returns `parts` of the light
-    /// that it finds.
+    /// All arguments must outlive this. known: SolverInputs::known. irradiance() returns `parts` of
+    /// the light.
     DirectionsRadiosity(const gpu::Device& device, const World& world, const HostScene& host,
                         const Lumels& lumels, const DirectionsOptions& options, double target_error,
                         std::span<const glm::vec3> known, Parts parts);
@@ -33,9 +33,9 @@ private:
     const World* world_;
     DirectionsOptions options_;
     Parts parts_;
-    double direct_error_;           ///< that direct light is to have
+    double direct_error_;           ///< target error of direct light
     std::vector<glm::vec3> known_;  ///< [N] [lx]
-    Lumels reflecting_;             ///< shine with what they reflect of direct light
+    Lumels reflecting_;             ///< emit the light that they reflect of direct light
     DirectRays direct_;
     std::optional<GlobalDirections> directions_;
     bool reflects_;

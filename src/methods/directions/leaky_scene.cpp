@@ -17,7 +17,7 @@ std::vector<char> flags_of(const Scene& scene, const LeakyOptions& options)
     for (const std::uint32_t instance : options.movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, "instance " + std::to_string(instance),
-                        "is to move, but the scene has only " + std::to_string(flags.size()));
+                        "cannot move: the scene has only " + std::to_string(flags.size()));
         flags[instance] = char(!options.still);
     }
     return flags;
@@ -27,12 +27,12 @@ Lumels lumels_of(const Scene& scene, const Atlas& atlas, const std::vector<char>
 {
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     mark_buried_by_still(scene, movers, lumels);
     return lumels;
 }
 
-/// The sky is none of the lamps: directions gather it.
+/// The lamps without the sky, which directions gather.
 LiveLamps lamps_of(const Scene& scene, const DirectLightOptions& options)
 {
     Scene lamps;
@@ -82,9 +82,9 @@ void LeakyScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not one of those that may move");
+        throw Error(ErrorKind::input, name, "is not movable");
     if (!is_rigid(scene_.instances[instance].transform, transform))
-        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+        throw Error(ErrorKind::input, name, "can be rotated and moved, but not stretched");
     requested_[instance] = transform;
 }
 
@@ -119,7 +119,7 @@ void LeakyScene::set_sky(const glm::vec3& factor)
     changed_ = true;
 }
 
-/// Returns true if anything stands elsewhere now.
+/// Returns true if any instance has moved.
 bool LeakyScene::place_what_moved()
 {
     std::vector<glm::mat4> transforms;
@@ -141,7 +141,7 @@ bool LeakyScene::place_what_moved()
     return moved;
 }
 
-/// Hands the solver what shines now; what it has gathered before leaks away.
+/// Passes the current emission to the solver; light gathered before decays.
 void LeakyScene::begin_anew()
 {
     Lumels lumels = lumels_;
@@ -151,7 +151,7 @@ void LeakyScene::begin_anew()
         lumel.emission *= emission_factor_[lumel.instance];
         lumel.albedo =
             glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
-        // Reflected direct light joins the emission of surfaces: directions know no lamps.
+        // Reflected direct light joins the emission of surfaces: directions do not find lamps.
         if (!direct_.empty())
             lumel.emission += lumel.albedo * direct_[i];
     }

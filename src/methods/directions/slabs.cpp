@@ -8,15 +8,13 @@
 namespace lumel {
 namespace {
 
-/// The overdraw is taken from this number of directions, in maps of that side [pixels]: it hardly
-/// depends on how fine they are.
+/// Directions and map side [pixels] to measure the overdraw: it hardly depends on the resolution.
 constexpr std::uint32_t kTriedDirections = 8, kTriedSide = 128;
-/// Chance of a surface to be among the lookups at which no more slabs are tried.
+/// Stops adding slabs when a surface is among the lookups with this probability.
 constexpr double kLikelyEnough = 0.999;
-/// The overdraw that is measured spreads by less than this where there is none: some 50,000 pixels
-/// give it within half a per cent.
+/// Spread of the measured overdraw of a scene without any: 50,000 pixels give it within 0.5 %.
 constexpr double kSpread = 0.02;
-/// Pixels of the maps of one direction (192 MiB).
+/// Maximum pixels of the maps of one direction (192 MiB).
 constexpr std::uint64_t kMaxPixels = 16u << 20;
 
 gpu::Array<ParallelView> tried_views(const gpu::Device& device, const World& world,

@@ -1,11 +1,11 @@
 #version 460
 #include "methods/gather/gather.shared.h"
 
-// Lumels take what their hemicubes gathered, and send it on at once:
+// Lumels receive the light that their hemicubes gathered, and send it on at once:
 //
 //     B_i = E_i + ρ_i H_i                                                         Eq. (2.2.2)
 //
-// H_i is what arrived last, or the mean of what arrived at all the lumel's points.
+// H_i is the light of the last bounce, or the mean over the lumel's points.
 
 layout(local_size_x = kBounceGroup) in;
 layout(push_constant, scalar) uniform Params { BounceParams p; };

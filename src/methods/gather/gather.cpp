@@ -7,26 +7,25 @@
 //     B ← E
 //     repeat                                                     a bounce
 //         for all lumels i, K at a time:
-//             draw B on a hemicube that stands on i              lit_views.h
+//             render B on a hemicube at i                        lit_views.h
 //             H_i ← Σ_q ΔF_q B_q over its pixels q               integrate
 //             B_i ← E_i + ρ_i H_i                                bounce, Eq. (2.2.2)
 //
-// B is one array: lumels see what those before them sent in the same bounce, which is the
-// Gauss-Seidel iteration of [CG85]. Nothing is shared with the solvers that shoot: no form factor,
-// no visibility test, no near field. Cost of a bounce: N hemicubes.
+// B is one array: lumels see light that others sent in the same bounce, the Gauss-Seidel
+// iteration of [CG85]. Shares no form factor, visibility test or near field with the shooting
+// solvers. Cost of a bounce: N hemicubes.
 //
 // Differs from the papers:
-// - Not a number of bounces: they go on until little light is still to come. What moved by |ΔH|
-//   sends ρ|ΔH| on, and no more than that can arrive.
+// - No fixed number of bounces: they continue until the residual is small. A change |ΔH| sends
+//   ρ|ΔH| on, which bounds the light still to arrive.
 // - A hemicube sees from a point, while a lumel's value is its mean over the area. Once light has
-//   settled at the lumels' middles, points move from bounce to bounce and H_i is the mean of what
-//   arrived; the difference of two half-solutions of independent points gives its error. With
-//   SampleRule::centre or Scheme::paper points stay, and the stated error is only of light still to
-//   come.
-// - Delta form factors are exact, of the part of a pixel that each of its samples stands for. The
-//   samples are not resolved to pixels first.
-// - Pixels behind the geometric surface are black, where it leans away from the shading normal.
-// - Among coloured glass each lumel has a hemicube for every colour channel.
+//   converged at lumel centres, points move from bounce to bounce and H_i is the mean over them;
+//   the difference of two half-solutions of independent points gives its error. With
+//   SampleRule::centre or Scheme::paper points stay, and the estimated error is only the residual.
+// - Delta form factors are exact for the part of a pixel that each sample represents. Samples are
+//   not resolved to pixels first.
+// - Pixels behind the geometric surface are black, where the shading normal differs from it.
+// - With coloured glass each lumel has a hemicube per colour channel.
 
 #include "methods/gather/gather.h"
 
@@ -41,14 +40,14 @@
 namespace lumel {
 namespace {
 
-/// How far eyes are lifted, as a part of the largest coordinate: ten times what rounding may put
-/// them below their own surface.
+/// Offset of eyes from the surface, relative to the largest coordinate: ten times the rounding
+/// error that may place them below it.
 constexpr float kLift = 2e-6f;
-/// Nearest distance seen, as a part of the ray_offset: nothing in front of an eye is missed.
+/// Near plane, relative to the ray offset: excludes no geometry in front of an eye.
 constexpr float kNearPart = 1e-3f;
-/// Pixels of all hemicubes of a batch, which bounds their memory to 320 MiB.
+/// Maximum pixels of all hemicubes of a batch: 320 MiB.
 constexpr std::uint64_t kMaxPixels = 4u << 20;
-/// Light counts as settled once only this part of it is still to come, or a quarter of the target
+/// Light has converged once its relative residual is below this, or below this part of the target
 /// error.
 constexpr double kSettled = 1e-3, kSettledPart = 0.25;
 
@@ -77,8 +76,8 @@ std::vector<std::uint32_t> open_lumels(const Lumels& lumels)
     return open;
 }
 
-/// [texels][2] as of lumels_by_side; texels without lumels show those of the nearest that has some,
-/// in steps to neighbours.
+/// [texels][2] as from lumels_by_side; texels without lumels show those of the nearest texel with
+/// some, by distance in steps to neighbours.
 std::vector<std::uint32_t> nearest_lumels_by_side(const Lumels& lumels)
 {
     std::vector<std::uint32_t> of_sides = lumels_by_side(lumels);
@@ -104,8 +103,8 @@ std::vector<std::uint32_t> nearest_lumels_by_side(const Lumels& lumels)
     return of_sides;
 }
 
-/// Of a rectangle on a face of the hemicube of half side 1 about the origin, from which +z leads
-/// up: on the front face right × up, on a side face, of which all are alike, right × height.
+/// Form factor of a rectangle on a face of the hemicube of half side 1 about the origin, with +z
+/// up: on the front face right × up, on a side face right × height.
 float pixel_form_factor(std::uint32_t face, double right0, double right1, double up0, double up1)
 {
     const auto corner = [&](double right, double up) {
@@ -116,10 +115,10 @@ float pixel_form_factor(std::uint32_t face, double right0, double right1, double
     return polygon_form_factor(glm::vec3(0.0f), glm::vec3(0.0f, 0.0f, 1.0f), corners, 4);
 }
 
-/// [pixels of a hemicube's tile][kManySamples] ΔF, which add up to 1: the form factors of the parts
-/// of a pixel that its samples stand for. Sample s of standard locations lies in the s-th quarter
-/// of the rows. Near the horizon that counts: the lowest pixels' own factors run from 0 to twice
-/// their mean.
+/// [pixels of a hemicube's tile][kManySamples] ΔF, which sum to 1: form factors of the parts of a
+/// pixel that its samples represent. Sample s of standard locations lies in the s-th quarter of the
+/// rows. That matters near the horizon, where the form factors within the lowest pixels run from 0
+/// to twice their mean.
 std::vector<float> delta_form_factors(std::uint32_t side, bool standard_samples)
 {
     const std::uint32_t samples = gpu::kManySamples;
@@ -276,7 +275,7 @@ void GatherRadiosity::bounce(std::uint32_t lumels)
     });
 }
 
-/// Hears at once how the bounce went: it took far longer than the answer does.
+/// Reads the statistics of the bounce at once: this takes far less time than a bounce.
 void GatherRadiosity::end_bounce()
 {
     next_ = 0;
@@ -305,20 +304,20 @@ void GatherRadiosity::end_bounce()
         const glm::vec4 sums = terms.column[1];
         const double light = std::max(double(sums.y), 1e-30);
         const double apart = std::sqrt(3.0 * double(sums.x) * double(sums.z)) / light;
-        // A few lumels decide, so halves may come close by chance: the worse of two bounces counts.
+        // Few lumels dominate, so halves can agree by chance: takes the larger of two bounces.
         state_.error = std::hypot(std::max(apart, apart_), remaining_);
         apart_ = apart;
     }
 }
 
-/// Of the light that arrives, how much more is still to come.
+/// Residual relative to the light that has arrived.
 double GatherRadiosity::still_to_come(const Terms& terms) const
 {
     const glm::vec4 sums = terms.column[0];
     const double moved = sums.x, sent_on = sums.y, arrived = sums.z;
     if (!(moved > 0.0))
         return 0.0;
-    constexpr double kMin = 1e-3;  // is lost at every bounce, or no number of them would do
+    constexpr double kMin = 1e-3;  // assumed minimum loss per bounce
     return sent_on / std::max(1.0 - sent_on / moved, kMin) / arrived;
 }
 

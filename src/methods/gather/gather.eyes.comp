@@ -6,9 +6,8 @@
 #include "raster/world/lumel.glsl"
 #include "solve/shooting/shooter.glsl"
 
-// Where the hemicubes of a batch stand: each at a point of its lumel, turned about the normal by an
-// angle of its own [Hoef13] 4.2, and lifted a little, so that the surface itself stays out of
-// view.
+// Places the hemicubes of a batch: each at a point of its lumel, rotated about the normal by its
+// own angle [Hoef13] 4.2, and lifted slightly, so that its own surface stays out of view.
 
 layout(local_size_x = kBounceGroup) in;
 layout(push_constant, scalar) uniform Params { GatherEyesParams p; };
@@ -16,10 +15,10 @@ layout(scalar) readonly buffer Order { uint order[]; };
 layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
 layout(scalar) writeonly buffer Points { GatheringPoint points[]; };
 
-// A point keeps this part of its distance to the piece's middle away from the edges, where other
-// surfaces may stand closer than eyes are lifted.
+// Points keep this part of their distance to the piece's centre away from its edges, where other
+// surfaces can be closer than the lift of eyes.
 const float kInset = 0.05;
-// Normals that differ by more than this, as 1 - cosine, are two.
+// Normals with a larger 1 - cosine count as different.
 const float kTilt = 1e-6;
 
 vec3 middle_of(Piece piece)
@@ -28,11 +27,11 @@ vec3 middle_of(Piece piece)
     return piece.origin + along * (piece.edge_u + piece.edge_v);
 }
 
-// Where the surface receives, and its normal there.
+// Receiving point and its normal.
 LumelPoint gathering_point(uint i)
 {
     const Lumel lumel = lumels[i];
-    // In pairs that lie opposite each other: what runs evenly over the lumel is met exactly.
+    // In opposite pairs: linear functions over the lumel are integrated exactly.
     const bool paired =
         lumel.piece_count == 1u && pieces[lumel.first_piece].parallelogram != 0u;
     const uint index = paired ? p.point / 2u : p.point;
@@ -41,7 +40,7 @@ LumelPoint gathering_point(uint i)
         at = 1.0 - at;
     LumelPoint x = point_on(lumel, at.x, at.y);
     x.facing = normalize(x.facing);
-    // A lumel's middle may lie in a fold, where only the mean normal leads away from all of it.
+    // A lumel's centre can lie in a fold, where only the mean normal leads away from all of it.
     if (p.centre != 0u) {
         x.normal = lumel.normal;
         x.position = lumel.position + p.ray_offset * lumel.normal;

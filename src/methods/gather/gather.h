@@ -18,15 +18,15 @@
 
 namespace lumel {
 
-/// Every lumel in turn takes what it sees.
+/// Every lumel in turn gathers the light that it sees.
 class GatherRadiosity final : public Solver {
 public:
-    /// `world` must hold the atlas. Hemicubes count as shots.
+    /// `world` must hold the atlas. `shots` are hemicubes.
     GatherRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                     const GatherOptions& options, double target_error);
 
-    /// Bytes on the device at most, of a scene without coloured glass, on one whose images may be
-    /// as large as is wanted.
+    /// Upper bound on GPU memory [bytes] for a scene without coloured glass, if the device does not
+    /// limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const GatherOptions& options);
 
     void step() override;
@@ -41,24 +41,24 @@ private:
     void bounce(std::uint32_t lumels);
     void end_bounce();
     double still_to_come(const Terms& terms) const;
-    /// The half-solution that this bounce belongs to: they take turns.
+    /// Half-solution of this bounce: they alternate.
     std::uint32_t half() const { return taken_[0] > taken_[1] ? 1 : 0; }
 
     GatherOptions options_;
-    double target_error_;  ///< that bounces settle to a part of; 0: none
+    double target_error_;  ///< bounces converge to a part of it; 0: none
     std::uint32_t count_;  ///< N lumels
     const World* world_;
-    std::uint32_t channels_;  ///< hemicubes of one lumel
-    float ray_offset_;        ///< of eyes above their surface [m]
+    std::uint32_t channels_;  ///< hemicubes per lumel
+    float ray_offset_;        ///< distance of eyes from their surface [m]
     gpu::Kernel<shaders::GatherEyes> eyes_kernel_;
     gpu::Kernel<shaders::GatherIntegrate> integrate_;
     gpu::Kernel<shaders::GatherBounce> bounce_;
     gpu::Kernel<shaders::GatherSums> figures_kernel_;
     LitViews views_;
-    std::uint32_t batch_;                 ///< lumels of a batch
+    std::uint32_t batch_;                 ///< lumels per batch
     gpu::Array<std::uint32_t> order_;     ///< [M] lumels that are not buried
     gpu::Array<std::uint32_t> lumel_of_;  ///< [texels][2]
-    std::uint32_t width_, height_;        ///< of the atlas [texels]
+    std::uint32_t width_, height_;        ///< size of the atlas [texels]
     gpu::Array<float> delta_form_factors_;
     gpu::Array<Eye> eyes_;
     gpu::Array<GatheringPoint> points_;
@@ -67,15 +67,15 @@ private:
     gpu::Array<glm::vec3> emission_;             ///< E [N]
     gpu::Array<glm::vec3> radiosity_;            ///< B [N]
     gpu::Array<glm::vec3> irradiance_, change_;  ///< H, and ΔH of the last bounce [N]
-    gpu::Array<glm::vec3> sums_;                 ///< [2][N] what arrived, by half-solution
+    gpu::Array<glm::vec3> sums_;                 ///< [2][N] sums of H, per half-solution
     LumelSums figures_;
-    std::uint32_t next_ = 0;                ///< of the order: where the bounce goes on
+    std::uint32_t next_ = 0;                ///< next lumel of the order
     bool averages_ = false;                 ///< points move, and H is their mean
     std::array<std::uint32_t, 2> taken_{};  ///< bounces in each half-solution
-    double apart_ = 0.0;                    ///< of the halves, relative, a bounce ago
-    double remaining_ = 0.0;                ///< relative, once light has settled
+    double apart_ = 0.0;                    ///< relative difference of the halves one bounce ago
+    double remaining_ = 0.0;                ///< relative residual when light converged
     SolverState state_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;  ///< last member: its destructor waits for work that uses others
 };
 
 }  // namespace lumel

@@ -2,12 +2,11 @@
 #include "methods/gather/gather.shared.h"
 #include "raster/eyes/hemicube.glsl"
 
-// What hemicubes show, multiplied by the delta form factors and summed [Hoef13] Algorithm 4.1:
+// Sums the light on hemicubes, weighted by the delta form factors [Hoef13] Algorithm 4.1:
 //
 //     H = Σ_q ΔF_q B_q                                                            [CG85]
 //
-// over the samples q of all pixels. A workgroup takes one hemicube and adds up
-// in an order that never changes.
+// over the samples q of all pixels. A workgroup sums one hemicube, in a fixed order.
 
 layout(local_size_x = kIntegrateGroup) in;
 layout(push_constant, scalar) uniform Params { IntegrateParams p; };

@@ -4,11 +4,11 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kBounceGroup = 64u;  ///< threads per workgroup of gather.eyes and gather.bounce
-LUMEL_CONST uint kIntegrateGroup = 256u;  ///< of gather.integrate.comp; a power of two
-LUMEL_CONST uint kMaxHemicubes = 1024u;   ///< K at most
+LUMEL_CONST uint kIntegrateGroup = 256u;  ///< group of gather.integrate.comp; a power of two
+LUMEL_CONST uint kMaxHemicubes = 1024u;   ///< maximum K
 
-/// A hemicube's eye stands at a point of a lumel. What lies behind the surface there, which matters
-/// if that is not where the eye looks, is no light for it.
+/// Position of a hemicube's eye on a lumel. Light from behind the geometric surface is excluded
+/// where the eye's normal differs from it.
 struct GatheringPoint {
     vec3 facing;  ///< geometric normal in the eye's frame (t, b, n), any length
     uint tilted;  ///< 1: it is not the eye's normal
@@ -16,33 +16,33 @@ struct GatheringPoint {
 
 /// Push constants of gather.eyes.comp.
 struct GatherEyesParams {
-    uint first;     ///< of the order in which lumels gather
-    uint eyes;      ///< of this batch
-    uint channels;  ///< hemicubes of one lumel: one, or one for each colour channel
-    uint point;     ///< of the sequence of points of each lumel that receive
+    uint first;     ///< first lumel in the order of gathering
+    uint eyes;      ///< hemicubes in this batch
+    uint channels;  ///< hemicubes per lumel: 1, or one per colour channel
+    uint point;     ///< index in each lumel's sequence of receiving points
     uint seed;
     uint centre;       ///< 1: receive at the centroid
-    float ray_offset;  ///< of eyes above their surface [m]
+    float ray_offset;  ///< distance of eyes from their surface [m]
 };
 
 /// Push constants of gather.integrate.comp.
 struct IntegrateParams {
     EyeViewLayout views;
-    uint samples;  ///< of each pixel
+    uint samples;  ///< samples per pixel
 };
 
 /// Push constants of gather.bounce.comp.
 struct BounceParams {
-    uint first;       ///< of the order
-    uint lumels;      ///< of this batch
-    uint channels;    ///< hemicubes of one lumel
+    uint first;       ///< first lumel of the order
+    uint lumels;      ///< lumels in this batch
+    uint channels;    ///< hemicubes per lumel
     uint count;       ///< N
-    uint averaged;    ///< 1: what arrives is added to the half-solution
+    uint averaged;    ///< 1: arriving light is added to the half-solution
     uint half_index;  ///< 0 or 1
-    uvec2 taken;      ///< bounces in each half-solution, with this one
+    uvec2 taken;      ///< bounces in each half-solution, including this one
 };
 
-/// Push constants of gather.figures.comp.
+/// Push constants of gather.sums.comp.
 struct BounceFiguresParams {
     uint count;   ///< N
     uvec2 taken;  ///< bounces in each half-solution

@@ -3,7 +3,7 @@
 #include "solve/shooting/lumel_sums.shared.h"
 #include "solve/shooting/radiosity.glsl"
 
-// How far the solution still moves, and how far its two halves are apart:
+// Change of the solution, and difference of its halves:
 //
 //     terms: Σ A 𝓛|ΔH|, Σ A 𝓛(ρ|ΔH|), Σ A 𝓛(H), 1;
 //            Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N.

@@ -1,10 +1,10 @@
-// Iteration i on the device takes what the host found from the light of iteration i - 3:
+// Iteration i on the device uses particles that started from the light of iteration i - 3:
 //
-//     step i      host: takes what it found from the light of i - 3, waits for i - 2,
-//                 begins to find from its light what i + 1 will take
-//                 device: works on i - 1, then on i
+//     step i      CPU: fetches the particles started from the light of i - 3, waits for i - 2,
+//                 starts particles from its light for i + 1
+//                 GPU: works on i - 1, then on i
 //
-// The first three start from the light that there is at the beginning.
+// The first three start from the initial light.
 
 #include "methods/glossy/carried_light.h"
 
@@ -35,7 +35,7 @@ CarriedLight::CarriedLight(const gpu::Device& device, const LobeParticles* parti
 
 std::uint64_t CarriedLight::device_bytes(std::size_t lumel_count)
 {
-    constexpr std::uint64_t kOfSlot = 3, kOnDevice = 2;  // arrays
+    constexpr std::uint64_t kOfSlot = 3, kOnDevice = 2;  // number of arrays
     return (kOfSlot * kSlots + kOnDevice) * lumel_count * sizeof(glm::vec3);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What particles carry, found on the host while the device goes on.
+// Light carried by particles, traced on the CPU while the GPU works.
 
 #include <array>
 #include <future>
@@ -11,27 +11,27 @@
 
 namespace lumel {
 
-/// Particles for each of a row of iterations on the device. Those of an iteration start from the
-/// light of a fixed number of iterations before, so that host and device never wait for each other
-/// where they are about as fast, and timing cannot change a result.
+/// Particles for consecutive iterations on the device. Those of an iteration start from the
+/// light of a fixed earlier one: CPU and GPU do not wait for each other if they are about equally
+/// fast, and timing cannot change a result.
 class CarriedLight {
 public:
-    /// particles: must outlive this; null: none are carried. direct: as LobeParticles::carry takes
-    /// it. emission: [N] [lm/m²] that particles leave beside the exitance on the device, or empty.
+    /// particles: must outlive this; null: none. direct: see LobeParticles::carry. emission: [N]
+    /// [lm/m²] sent by particles in addition to the exitance on the device, or empty.
     CarriedLight(const gpu::Device& device, const LobeParticles* particles,
                  std::span<const glm::vec3> direct, std::span<const glm::vec3> emission,
                  std::size_t lumel_count);
     static std::uint64_t device_bytes(std::size_t lumel_count);
 
-    /// Records the way of an iteration's light to the device, and begins to find that of the next.
-    /// exitance: [N] on the device, as LobeParticles::carry takes it. count: of particles.
-    /// seed, number: of this iteration, whose particles differ from all others'.
+    /// Records the upload of an iteration's light, and starts tracing that of the next. exitance:
+    /// [N] on the device, see LobeParticles::carry. count: of particles. seed, number: unique for
+    /// the iteration's particles.
     void begin(gpu::Pacer& pacer, const gpu::Array<glm::vec3>& exitance, std::size_t count,
                std::uint32_t seed, std::uint32_t number);
-    /// Ends that iteration: starts its light on its way back.
+    /// Ends the iteration: starts the readback of its light.
     void end(gpu::Pacer& pacer, const gpu::Array<glm::vec3>& exitance);
 
-    /// The next iteration is the first: what is on its way is forgotten. The pacer must have
+    /// Makes the next iteration the first and discards pending work. Requires that the pacer has
     /// finished.
     void restart();
 
@@ -41,7 +41,7 @@ public:
 private:
     static constexpr std::size_t kSlots = 2;  ///< iterations in flight
 
-    /// Host memory that an iteration's copies read and write.
+    /// Staging memory of an iteration.
     struct Slot {
         Slot(const gpu::Device& device, std::size_t count);
         gpu::Array<glm::vec3> irradiance, reflected, exitance;
@@ -56,9 +56,9 @@ private:
     std::array<Slot, kSlots> slots_;
     gpu::Array<glm::vec3> irradiance_, reflected_;
     std::uint64_t iteration_ = 0;
-    std::vector<glm::vec3> exitance_;            ///< of the device, the newest that is here
-    std::vector<glm::vec3> leaving_;             ///< that particles start from
-    std::future<LobeParticles::Carried> found_;  ///< after all that it reads: it waits when it ends
+    std::vector<glm::vec3> exitance_;            ///< newest one read back
+    std::vector<glm::vec3> leaving_;             ///< exitance that particles start from
+    std::future<LobeParticles::Carried> found_;  ///< last member: its destructor waits
 };
 
 }  // namespace lumel

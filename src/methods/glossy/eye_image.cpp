@@ -3,7 +3,7 @@
 namespace lumel {
 namespace {
 
-/// Points tried first when the work is timed (see gpu::Pacer).
+/// Points in the first, timed dispatch (see gpu::Pacer).
 constexpr std::uint32_t kProbePoints = 4096;
 
 }  // namespace

@@ -6,17 +6,17 @@
 #include "methods/glossy/lobes.glsl"
 #include "raster/eyes/sees.glsl"
 
-// What the K shooters of an iteration make points reflect to the eye ([BSS05] Eq. (6)):
+// Light of the K shooters of an iteration, reflected by points to the eye ([BSS05] Eq. (6)):
 //
 //     C ← C + Σ_k w L_j(ω) ρ_s f_r(ω, ω_eye) V cosθ cosθ_j / r² · A_j / (p_j K)
 //
-// Where rays along the lobe find the same light (results/picture/lobe_rays.cpp), w is the balance
-// heuristic [VG95] of both techniques to choose y, as densities per solid angle:
+// With rays along the lobe that find the same light (results/picture/lobe_rays.cpp), w is the
+// balance heuristic [VG95] of both techniques to choose y, as densities per solid angle:
 //
 //     w = n_A q_A / (n_A q_A + n_B q_B),     q_A = 𝓛(B_j) / Φ · r² / cosθ_j,  q_B = the lobe's.
 //
-// The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send them; the
-// disc of Eq. (8) then bounds what close shooters give.
+// The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send lobes; the
+// disc of Eq. (8) then bounds the light of close shooters.
 
 layout(local_size_x = kEyeGroup) in;
 layout(push_constant, scalar) uniform Params { EyeParams p; };

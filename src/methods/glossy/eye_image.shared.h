@@ -5,11 +5,11 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kEyeGroup = 64u;
 
-/// A point that an eye sees, on a surface that gloss counts for.
+/// A point seen by an eye, on a glossy surface.
 struct EyePoint {
     vec3 position;    ///< [m], world
     vec3 normal;      ///< shading normal, unit, on the eye's side
-    vec3 facing;      ///< of the triangle, unit, on the eye's side
+    vec3 facing;      ///< normal of the triangle, unit, on the eye's side
     vec3 toward_eye;  ///< unit
     vec3 specular;    ///< ρ_s
     float shininess;  ///< n
@@ -21,8 +21,8 @@ struct EyeParams {
     uint first;  ///< points [first, last) of this dispatch
     uint last;
     uint shots;      ///< K
-    float shooters;  ///< that a point is to meet in all
-    float rays;      ///< that are to leave it along its lobe; 0: none, shooters do it alone
+    float shooters;  ///< shooters that a point receives from in total
+    float rays;      ///< rays along its lobe; 0: shooters alone
 };
 
 LUMEL_SHARED_END

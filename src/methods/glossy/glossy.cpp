@@ -6,7 +6,7 @@
 //   [NNS99] The reflectance model; see phong.h.
 //
 // A lumel stores no directional light, only the actual irradiance of the last iteration and, common
-// to all lumels, where the shooters that caused it stood:
+// to all lumels, the positions of the shooters that caused it:
 //
 //     repeat
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(E_j + Σ I_j a_j(ω_j)) A_j      select
@@ -19,23 +19,24 @@
 // where L_j(ω) = E_j/π + Σ I_j f_r(ω_j, ω), Eq. (5), with the I_j of the iteration before.
 //
 // `Scheme::paper` with K = 1 is the paper's iteration: all iterations are averaged, and merged
-// texels shoot from their common centre. Two things are its own: receiving points move over
-// lumels, unless SampleRule::centre has them stand still, and shooters are drawn by power or by
-// area, weighted. The paper names multiple importance sampling (figure 1), but not of what.
+// texels shoot from their common centre. Two additions: receiving points move over lumels, except
+// with SampleRule::centre, and shooters are drawn by power or by area, weighted. The paper names
+// multiple importance sampling (figure 1), but not its techniques.
 //
 // Other differences from the paper:
 // - K shooters per iteration.
-// - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone. Without
-//   them, of a shooter's K lobes some stand for all, drawn by what they reflect: one where they are
-//   wide, K but at most 64 where they are narrow.
+// - Given LobeParticles, these carry the light of lobes, and shooters send E + ρ_d I alone.
+//   Without them, some of a shooter's K lobes represent all, drawn by reflected light: one where
+//   they are wide, K but at most 64 where they are narrow.
 // - Shooters come from an Owen-scrambled Sobol sequence, and their points spread over the lumel
 //   (not with Scheme::paper).
 // - Pairs of close lumels exchange their diffuse light exactly (the near field), and reflect it
-//   diffusely; lobes between them go through the same form factors. With Scheme::paper all pairs
-//   have the disc term of Eq. (8) instead.
+//   diffusely; lobes between them use the same form factors. With Scheme::paper all pairs have the
+//   disc term of Eq. (8) instead.
 // - The average forgets the first iterations, in which light had not yet spread (not with
 //   Scheme::paper).
-// - Frames of a moved eye or a changed light draw by mean power, all from one beginning; those of
+// - Frames with a new eye or changed light draw by mean power, from a common start; those of a
+//   moved scene continue from the mean light of the previous frame (glossy_frames.cpp).
 //   a moved scene go on from the mean light of the one before (glossy_frames.cpp).
 
 #include "methods/glossy/glossy.h"
@@ -50,14 +51,14 @@
 namespace lumel {
 namespace {
 
-/// Iterations after which the average begins anew: what came before lacks bounces.
+/// Iterations after which the average restarts: earlier ones lack bounces.
 constexpr std::uint64_t kRestarts[] = {8, 32};
-/// Iterations after the last restart before the error is stated.
+/// Iterations after the last restart before the error is estimated.
 constexpr std::uint64_t kFirstStated = 2;
-/// Shooters for which each lumel has one particle: then both take about as long.
+/// Shooters per particle and lumel: both then take about as long.
 constexpr std::size_t kShootersPerParticle = 8;
-/// Share of the paper's shooters that are drawn by area alone. A half of them, or by emission,
-/// leaves more than twice the variance: p in proportion to power lets all shooters send the same.
+/// Fraction of the paper's shooters drawn by area alone. Half of them, or drawing by emission, more
+/// than doubles the variance: with p in proportion to power all shooters send the same.
 constexpr float kAreaShare = 0.1f;
 
 }  // namespace
@@ -133,7 +134,7 @@ std::uint64_t GlossyIllumination::device_bytes(const SolveSize& size, const Glos
     constexpr std::uint64_t kVectors = 5, kHalves = 2;  // arrays of vec3 [N] and [2][N]
     const std::size_t count = size.count();
     const auto batch = std::uint32_t(options.views.batch);
-    // Without particles the last irradiance of every shooter is kept.
+    // Without particles the last irradiance from every shooter is stored.
     const std::uint64_t last = options.scheme == Scheme::paper ? std::uint64_t(batch) * count : 1;
     return EyeViews::device_bytes(options.views.projection, std::uint32_t(options.views.hemicube),
                                   batch) +
@@ -186,7 +187,7 @@ bool GlossyIllumination::has_two_choices() const
     return paper_ && options_.two_choices && emitted_power_ > 0.0 && reflecting_area_ > 0.0f;
 }
 
-/// On average that share, whatever K is: a fraction of a shooter is one by chance.
+/// kAreaShare of the batch on average; its fraction is rounded up by chance.
 std::uint32_t GlossyIllumination::area_shots() const
 {
     if (!has_two_choices())

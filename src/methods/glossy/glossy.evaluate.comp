@@ -2,8 +2,8 @@
 #include "methods/glossy/glossy.shared.h"
 #include "solve/shooting/radiosity.glsl"
 
-// H as the mean over all iterations since the last restart, and how far its halves are apart: the
-// first three of iteration.evaluate.comp's terms, and Σ A 𝓛 of what is absorbed.
+// H as the mean over all iterations since the last restart, and the difference of its halves: the
+// first three terms of iteration.evaluate.comp, and Σ A 𝓛 of absorbed light.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyEvaluateParams p; };

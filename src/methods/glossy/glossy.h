@@ -23,7 +23,7 @@
 
 namespace lumel {
 
-/// What goes in and out of a solution [lm], by luminance.
+/// Energy of a solution [lm], by luminance.
 struct EnergyBalance {
     double emitted = 0.0;
     double absorbed = 0.0;
@@ -32,17 +32,16 @@ struct EnergyBalance {
 /// Shooters drawn by power send diffuse light and the lobes of their last irradiance.
 class GlossyIllumination final : public Solver {
 public:
-    /// known: [N] [lx] of sky and lamps, or empty. particles: carry what lobes send on, that of
-    /// `known` too, instead of the shooters; not with Scheme::paper. Must outlive this.
-    /// first_emission: as SolverInputs has it; particles leave it too.
+    /// known: [N] [lx] light of sky and lamps, or empty. particles: carry the light of lobes,
+    /// also of `known`, instead of the shooters; not with Scheme::paper. Must outlive this.
+    /// first_emission: SolverInputs::first_emission; particles carry it too.
     GlossyIllumination(const gpu::Device& device, const World& world, const Lumels& lumels,
                        const NearField& near, const GlossyOptions& options,
                        std::span<const glm::vec3> known = {},
                        const LobeParticles* particles = nullptr,
                        std::span<const glm::vec3> first_emission = {});
 
-    /// Bytes on the device at most, but for an eye, on one whose images may be as large as is
-    /// wanted.
+    /// Upper bound on GPU memory without an eye [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const GlossyOptions& options);
 
     void step() override;
@@ -51,40 +50,40 @@ public:
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
 
-    /// Of the solution so far. Waits for the device.
+    /// Energy balance of the current solution. Waits for the device.
     EnergyBalance energy();
 
-    /// A frame of other light: E [N] [lm/m²] from now on. Every frame goes on from the iteration
-    /// that the first one went on from, with the same random numbers and the same shooters; its
-    /// average, and the eye's, start again. Where light moved far from where it was in the first
-    /// frame, that is noisy: forget_frames() then. Waits for the device.
+    /// Starts a frame with emission E [N] [lm/m²]. All frames continue from the same iteration as
+    /// the first, with the same random numbers and shooters; the averages of lumels and eye
+    /// restart. If the light differs much from the first frame, that is noisy: call
+    /// forget_frames(). Waits for the device.
     void set_emission(std::span<const glm::vec3> emission);
 
-    /// [N] 𝓛(B_j) / Φ [1/m²]: about the density with which shooters are drawn from now on. Waits
-    /// for the device.
+    /// [N] 𝓛(B_j) / Φ [1/m²]: approximate density by which the next shooters are drawn. Waits for
+    /// the device.
     std::vector<float> brightness();
-    /// Lets the next frame be the first one. Waits for the device.
+    /// Makes the next frame the first. Waits for the device.
     void forget_frames();
 
-    /// Before the first step, of a scene in which things have moved since the frame before, which
-    /// has the same lumels and is wholly solved: the iteration starts from its light, and the
-    /// average from its average, which counts as so many iterations. Without the latter frames with
-    /// the same seed have much of their noise in common. Waits for the device.
+    /// Starts from the solution of the frame `before` of the same lumels, in which objects were
+    /// elsewhere: the iteration from its light, the average from its average, weighted like `kept`
+    /// iterations. Without the latter, frames of equal seed share much of their noise. Call before
+    /// the first step. Waits for the device.
     void go_on_from(GlossyIllumination& before, float kept = 0.0f);
-    /// Iterations in the average since the last restart, without those of frames before.
+    /// Iterations in the average since the last restart, without those of earlier frames.
     std::uint64_t averaged() const { return averaged_; }
 
-    /// A frame for another eye: every step also adds to the image of one that sees these points.
-    /// It goes on as any frame does, so that all eyes meet the same shooters and close ones see
-    /// the same noise. Waits for the device.
+    /// Starts a frame for another eye: every step also adds to the image at these points. It
+    /// continues as other frames do, so that all eyes receive from the same shooters and close eyes
+    /// see the same noise. Waits for the device.
     void look_at(std::span<const EyePoint> points, std::span<const float> brightness,
                  const EyeSampling& sampling);
-    /// Before the first step: every step also adds to the image of an eye what shooters alone make
-    /// these points reflect, the accumulation texture of the paper.
+    /// Every step also adds the light that shooters alone make these points reflect: the paper's
+    /// accumulation texture. Call before the first step.
     void accumulate_at(std::span<const EyePoint> points);
     std::uint32_t batch() const { return batch_; }  ///< K
-    /// [P] reflected by the lobes toward the eye [cd/m²]; empty without an eye. Waits for the
-    /// device.
+    /// [P] radiance reflected by the lobes toward the eye [cd/m²]; empty without an eye. Waits for
+    /// the device.
     std::vector<glm::vec3> eye_radiance();
 
 private:
@@ -95,9 +94,9 @@ private:
         gpu::Kernel<shaders::GlossyEvaluate> evaluate;
     };
 
-    /// Where frames begin: what an iteration takes from the one before, and mean B, in proportion
-    /// to which frames draw their shooters. Drawn by the last iteration's B, two frames would soon
-    /// have nothing in common.
+    /// Common start of frames: state of an iteration, and mean B, by which frames draw their
+    /// shooters. Drawn by the last iteration's B, two frames would soon differ in all random
+    /// choices.
     struct Held {
         gpu::Array<glm::vec3> emission, exitance, diffuse, near, last;
         gpu::Array<Eye> eyes;
@@ -126,7 +125,7 @@ private:
     float near_radius_;
     float reflecting_area_;  ///< Σ A of lumels with albedo > 0 [m²]
     double emitted_power_;   ///< Σ A 𝓛(E) [lm]
-    double known_sum_;       ///< of light beside what is found here [lx]
+    double known_sum_;       ///< given light [lx]
 
     const gpu::Device* device_;
     const World* world_;
@@ -134,34 +133,34 @@ private:
     const LobeParticles* particles_;  ///< null: shooters send lobes
     Kernels kernels_;
     EyeViews views_;
-    gpu::Array<Eye> eyes_[2];  ///< this iteration's and the one's before, by turns
+    gpu::Array<Eye> eyes_[2];  ///< this iteration's and the previous one's, alternating
     gpu::Array<GlossyShot> shots_;
-    gpu::Array<GlossyLobe> lobes_;    ///< [K][kMaxLobes]
-    gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
-    gpu::Array<Gloss> gloss_;         ///< [N]
-    gpu::Array<float> albedo_table_;  ///< phong_albedo_table
-    gpu::Array<glm::vec3> emission_;  ///< E
-    gpu::Array<glm::vec3> exitance_;  ///< [N] B of the last iteration
-    gpu::Array<glm::vec3> diffuse_;   ///< [N] the part of it that is the same in all directions
-    gpu::Array<glm::vec3> near_;      ///< [N] near light of the B before it
-    gpu::Array<glm::vec3> last_;      ///< [K][N] actual irradiance of the last iteration
-    CarriedLight carried_;            ///< by particles
+    gpu::Array<GlossyLobe> lobes_;           ///< [K][kMaxLobes]
+    gpu::Array<glm::vec4> surface_;          ///< ρ, A; A = 0 for buried lumels
+    gpu::Array<Gloss> gloss_;                ///< [N]
+    gpu::Array<float> albedo_table_;         ///< phong_albedo_table
+    gpu::Array<glm::vec3> emission_;         ///< E
+    gpu::Array<glm::vec3> exitance_;         ///< [N] B of the last iteration
+    gpu::Array<glm::vec3> diffuse_;          ///< [N] its part that is equal in all directions
+    gpu::Array<glm::vec3> near_;             ///< [N] near light of the previous B
+    gpu::Array<glm::vec3> last_;             ///< [K][N] actual irradiance of the last iteration
+    CarriedLight carried_;                   ///< by particles
     gpu::Array<glm::vec3> sums_, absorbed_;  ///< [2][N] since the last restart
     gpu::Array<glm::vec3> irradiance_;
     LumelSums figures_;
     std::optional<EyeImage> eye_;
-    std::optional<Held> held_;  ///< from the first frame on
+    std::optional<Held> held_;  ///< since the first frame
     NearRows near_rows_;
     PowerPyramid power_;
     PowerPyramid area_power_;  ///< used with two choices only
-    gpu::Pacer pacer_;         ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;         ///< last member: its destructor waits for work that uses others
 
     SolverState state_;
-    bool has_before_ = false;  ///< last_ holds the light of eyes_ of an iteration before
-    bool goes_on_ = false;     ///< from a frame before: light has spread already
-    std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< place in the random sequences
+    bool has_before_ = false;  ///< last_ holds the light of an earlier iteration's eyes_
+    bool goes_on_ = false;     ///< continues from an earlier frame: light has spread already
+    std::uint32_t iteration_ = 0, next_shot_ = 0;  ///< positions in the random sequences
     std::array<float, 2> batches_{};               ///< iterations in sums, per half
-    std::uint64_t averaged_ = 0;                   ///< of them, those of this frame
+    std::uint64_t averaged_ = 0;                   ///< iterations in the average of this frame
 };
 
 }  // namespace lumel

@@ -10,17 +10,17 @@
 #include "raster/near/near_pairs.glsl"
 #include "raster/near/near_factor.glsl"
 
-// Every lumel takes its share of all K shots ([BSS05] Eq. (4)), keeps the actual irradiance of each
+// Every lumel receives from all K shots ([BSS05] Eq. (4)), stores the actual irradiance from each
 // for the next iteration's reflections, and adds it to the running average:
 //
 //     I_k = L_j(ω) V cosθ_i cosθ_j / r² · A_j / (p_j K),
-//     B_i = E_i + Σ_k I_k a_i(ω_k) + near light, the power that the next selection draws from.
+//     B_i = E_i + Σ_k I_k a_i(ω_k) + near light, by whose power the next shooters are drawn.
 //
-// Near pairs exchange diffuse light in the near field; only lobes are shot at them, through the
-// same form factors. Scheme::paper has no near field and takes r² + A_j/π for r², Eq. (8).
+// Near pairs exchange diffuse light in the near field; shots at them have lobes only, with the same
+// form factors. Scheme::paper has no near field and takes r² + A_j/π for r², Eq. (8).
 //
-// Where particles carry what lobes send on (lobe_particles.cpp), shooters send none, and B_i lacks
-// it: it is counted as not absorbed, and arrives elsewhere with the particles.
+// If particles carry the light of lobes (lobe_particles.cpp), shooters send none, and B_i lacks it:
+// it counts as not absorbed, and arrives elsewhere with the particles.
 
 layout(local_size_x = kGlossyReceiveGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };
@@ -35,18 +35,18 @@ layout(scalar) writeonly buffer Exitance { vec3 exitance[]; };  // [N] B
 layout(scalar) buffer Absorbed { vec3 absorbed[]; };  // [2][N] sums
 layout(scalar) writeonly buffer Diffuse { vec3 diffuse_exitance[]; };  // [N]
 layout(scalar) readonly buffer Carried { vec3 carried[]; };  // [N] by particles
-layout(scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, by lobes
+layout(scalar) readonly buffer Passed { vec3 passed_on[]; };  // [N] of that, reflected by lobes
 
 // Between near lumels a narrower lobe would be hit or missed by chance.
 const float kMaxNearShininess = 100.0;
 
-// The lobes as a whole lumel sees those of a whole lumel. Squares of side s at distance r spread
-// the directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that
-// the mean over both is about a lobe of
+// Lobes averaged over sending and receiving lumel. Squares of side s at distance r spread the
+// directions between them by a variance of s² / 6r²; a lobe of exponent n has 2 / n, so that the
+// mean over both is about a lobe of
 //
 //     1 / n' = 1 / n + (s_i² + s_j²) / 12 r²,
 //
-// scaled by the albedos of both exponents: in even light, what leaves is the same.
+// scaled by the albedos of both exponents, which preserves the light reflected of uniform light.
 vec3 mean_lobes(uint k, GlossyShot shot, Eye eye, Lumel lumel, vec3 way, float r2)
 {
     if (shot.lobes == 0u)
@@ -76,7 +76,7 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
     const float r2 = dot(d, d);
     const vec3 way = d * inversesqrt(r2);
     cos_in = -dot(way, x.normal);
-    if (is_close)  // π F_ij stands for the geometry and the visibility of all points
+    if (is_close)  // π F_ij replaces the geometry and visibility of all points
         return lobes_toward(k, shot, eye, way, min(shot.shininess, kMaxNearShininess)) *
                near_factor(i, shot.lumel) / shot.disc;
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);

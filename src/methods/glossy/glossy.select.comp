@@ -10,14 +10,14 @@
 #include "raster/world/channel.glsl"
 
 // Draws the shooters of one iteration in proportion to their power ([BSS05] section 4.1) and
-// prepares what they send ([BSS05] Eq. (7)): their emission and diffuse light whole, and lobes of
-// the earlier shooters that lit them.
+// prepares their light ([BSS05] Eq. (7)): emission and diffuse light as one value, and lobes of the
+// earlier shooters that lit them.
 //
-// Scheme::paper may draw some by area alone. A shooter that either choice may draw is weighted
-// by the balance heuristic [VG95], which is to divide by the mean of both probabilities.
+// Scheme::paper can draw some by area alone. A shooter that either technique can draw is weighted
+// by the balance heuristic [VG95]: division by the mean of both probabilities.
 //
-// Merged ([BSS05] section 5), the texels of a square shoot as one from their common centre: the
-// mean of their radiance times their area, which is drawn with the sum of their probabilities.
+// Merged ([BSS05] section 5), the texels of a square shoot as one from their common centre, with
+// their mean radiance times their area, drawn with the sum of their probabilities.
 
 layout(local_size_x = kGlossySelectGroup) in;
 layout(push_constant, scalar) uniform Params { GlossySelectParams p; };
@@ -31,15 +31,15 @@ layout(scalar) writeonly buffer Eyes { Eye eyes[]; };
 layout(scalar) writeonly buffer Shots { GlossyShot shots[]; };
 layout(scalar) writeonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][most]
 
-// What a shooter sends, and where it stands.
+// Position and probability of a shooter.
 struct Sender {
     uint lumel;
     vec3 position, normal;
     float area;         // [m²]
-    float probability;  // with which it is drawn
+    float probability;  // probability of drawing it
 };
 
-// Σ_m A_m B_m of what is sent equally in all directions.
+// Σ_m A_m B_m of light that is equal in all directions.
 vec3 diffuse_power(uint j)
 {
     vec3 sum = vec3(0.0);
@@ -50,7 +50,7 @@ vec3 diffuse_power(uint j)
     return sum;
 }
 
-// Σ_m A_m ρ_s I_m,k: what earlier shooter k brought the lobes.
+// Σ_m A_m ρ_s I_m,k: light of earlier shooter k on the lobes.
 vec3 light_on_lobes(uint j, uint k)
 {
     vec3 sum = vec3(0.0);
@@ -92,7 +92,7 @@ Sender draw(vec3 u, bool by_area)
     return sender;
 }
 
-// What shooter k's light gives the lobe: the luminance of ρ_s I_k a(ω_k) A.
+// Weight of a lobe: the luminance of ρ_s I_k a(ω_k) A.
 float lobe_power(Sender y, uint k)
 {
     const vec3 toward = normalize(before[k].position - y.position);
@@ -100,12 +100,12 @@ float lobe_power(Sender y, uint k)
            phong_albedo(dot(toward, y.normal), gloss[y.lumel].shininess);
 }
 
-// As many lobes, drawn by what they reflect: one from each part of their sum.
+// `count` lobes, drawn by reflected light: one from each part of their sum.
 void send_lobes(uint k, Sender y, vec3 scale, uint count, float lobes, uint random)
 {
     const float part = lobes / float(max(count, 1u));
     const float start = unit_float(hash(random)) * part;
-    float below = 0.0;  // Σ of what the lobes before this one reflect
+    float below = 0.0;  // Σ of the light reflected by earlier lobes
     uint l = 0u;
     for (uint earlier = 0u; earlier < p.before; ++earlier) {
         const float mine = lobe_power(y, earlier);
@@ -115,7 +115,7 @@ void send_lobes(uint k, Sender y, vec3 scale, uint count, float lobes, uint rand
         for (; l < count && start + float(l) * part < below; ++l)
             lobes_sent[k * kMaxLobes + l] = GlossyLobe(light * (scale * part / mine), toward);
     }
-    // Rounding may have left the last one out.
+    // Rounding can leave out the last ones.
     for (; l < count; ++l)
         lobes_sent[k * kMaxLobes + l] = GlossyLobe(vec3(0.0), y.normal);
 }
@@ -126,7 +126,7 @@ void main()
     if (k >= p.shots)
         return;
     const uint index = p.index + k;
-    // Iterations must be independent of each other: each has a sequence of its own.
+    // Iterations must be independent: each has its own sequence.
     const Sender y = draw(draw_point(k, hash(p.index), p.seed, p.random != 0u),
                           k < p.area_shots);
     const Gloss g = gloss[y.lumel];

@@ -15,16 +15,16 @@ struct GlossySelectParams {
     PyramidLayout pyramid;
     uint count;   ///< N
     uint shots;   ///< K
-    uint before;  ///< K of the iteration before, 0: none
+    uint before;  ///< K of the previous iteration, 0: none
     uint index;   ///< shooters before this iteration
     uint seed;
     uint random;       ///< 1: independent random numbers
     uint channels;     ///< 1: shooters take the colour channels in turn
-    uint centre;       ///< 1: shooters stand at the centres of squares
-    uint merge;        ///< of 2^merge texels a side, with `centre`
-    uint width;        ///< of the atlas [texels]
+    uint centre;       ///< 1: shooters are at the centres of squares
+    uint merge;        ///< squares have 2^merge texels a side, with `centre`
+    uint width;        ///< width of the atlas [texels]
     uint area_shots;   ///< the first of them are drawn by area alone
-    float area_share;  ///< how many that is on average, as a part of all
+    float area_share;  ///< mean fraction drawn by area
 };
 
 /// Push constants of glossy.receive.comp.
@@ -38,14 +38,14 @@ struct GlossyReceiveParams {
     uint iteration;
     uint seed;
     uint centre;        ///< 1: receive at the centroid
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
-    uint particles;     ///< 1: particles carry what lobes send on, 0: shooters
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
+    uint particles;     ///< 1: particles carry the light of lobes, 0: shooters
 };
 
 /// Push constants of glossy.evaluate.comp.
 struct GlossyEvaluateParams {
     uint count;        ///< N
-    float batches[2];  ///< in sums[h]
+    float batches[2];  ///< iterations in sums[h]
 };
 
 LUMEL_SHARED_END

@@ -1,5 +1,4 @@
-// Frames that have something in common: of another eye, of other light, of a scene in which things
-// have moved.
+// Frames that share part of their work: with a new eye, changed light, or moved objects.
 //
 //   [BSS05] Section 6: the same random numbers in all frames, and the previous solution as a good
 //           guess to start the iteration from.
@@ -12,7 +11,7 @@
 namespace lumel {
 namespace {
 
-/// Share of a frame's shooters spread by area: light may reach what was dark before.
+/// Fraction of a frame's shooters drawn by area: light can reach lumels that were dark before.
 constexpr float kFrameByArea = 0.1f;
 
 }  // namespace
@@ -85,7 +84,7 @@ std::vector<glm::vec3> GlossyIllumination::mean_exitance()
 {
     const std::vector<glm::vec3> arriving = irradiance();
     std::vector<glm::vec3> exitance = emission_.download();
-    // The lobes' albedo counts as 1: what is drawn by need not be exact.
+    // The lobes' albedo counts as 1: drawing weights need not be exact.
     for (std::size_t i = 0; i < count_; ++i) {
         const Gloss& gloss = lumels_->gloss[i];
         exitance[i] += (particles_ ? gloss.diffuse : gloss.diffuse + gloss.specular) * arriving[i];
@@ -137,7 +136,7 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
     const std::vector<glm::vec3> emission = emission_.download();
     std::vector<glm::vec3> exitance = emission, diffuse = emission;
     if (paper_) {
-        // As published: the iteration goes on, with the light of its last shooters.
+        // As published: the iteration continues, with the light of its last shooters.
         const std::vector<glm::vec3> emitted = before.emission_.download();
         const std::vector<glm::vec3> all = before.exitance_.download();
         const std::vector<glm::vec3> matte = before.diffuse_.download();
@@ -148,7 +147,8 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
         last_.upload(before.last_.download());
         eyes_[1].upload(before.eyes_[(before.state_.iterations + 1) % 2].download());
     } else {
-        // The mean is less noisy than any iteration. Without particles lobes wait for the next one.
+        // The mean is less noisy than any iteration. Without particles, lobes follow in the next
+        // one.
         for (std::size_t i = 0; i < count_; ++i)
             diffuse[i] += lumels_->gloss[i].diffuse * mean[i];
         exitance = diffuse;
@@ -161,7 +161,7 @@ void GlossyIllumination::go_on_from(GlossyIllumination& before, float kept)
     draw_in_proportion_to(exitance_, 0.0f);
 }
 
-/// Scales what the halves of the frame before have found to a number of iterations.
+/// Scales the sums of the previous frame's halves to a number of iterations.
 void GlossyIllumination::keep_average_of(const GlossyIllumination& before, float kept)
 {
     if (!(kept > 0.0f) || std::min(before.batches_[0], before.batches_[1]) <= 0.0f)

@@ -1,15 +1,16 @@
-// A lobe of exponent n sends all its power into about 2π / n sr: what one shooter's lobes bring to
+// A lobe of exponent n sends all its power into about 2π / n sr: light from one shooter's lobes to
 // a receiver, Eq. (4) of [BSS05], has a variance in proportion to n / r², without bound where both
-// are close, for p_j includes the power that a shooter sends but not its direction. A particle
+// are close, since p_j includes the power that a shooter sends but not its direction. A particle
 // instead draws ω from the lobe: with the density q of phong_density,
 //
 //     f_r cosθ' / q = ρ_s cosθ' / max(cosθ, cosθ') ≤ 1,
 //
-// so that each brings the same power, wherever it lands, and no lumel more than its share of them.
+// so that all particles have the same power, wherever they arrive, and no lumel receives more than
+// its share of them.
 //
-// Light of the sky and of lamps starts at the lumels that it meets, for most of it meets no lobe.
-// Of the light that each of them sends there along one drawn direction one is chosen by its
-// luminance, and a ray finds out whether it arrives.
+// Light of the sky and of lamps starts at the lumels that it reaches, since most of it hits no
+// lobe. Of the light from each of them along one drawn direction one is chosen by luminance, and a
+// shadow ray tests it.
 //
 //   [BSS05] A. Barsi, L. Szirmay-Kalos, G. Szijártó. Stochastic Glossy Global Illumination on the
 //           GPU. 2005.
@@ -30,17 +31,16 @@
 namespace lumel {
 namespace {
 
-/// Particles worth a task.
 constexpr std::size_t kParticlesPerTask = 512;
-/// Lobes that one particle follows at most: mirrors that face each other would hold it for ever.
+/// Maximum lobes per particle: facing mirrors would reflect it forever.
 constexpr std::uint32_t kMaxLobes = 256;
-/// Lobes whose directions are stratified; later ones add too little for it to pay.
+/// Lobes with stratified directions; later ones contribute too little.
 constexpr std::uint32_t kStratifiedLobes = 1;
 
 /// Dimension pairs of a particle's random numbers.
 constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kOffsetPair = 2, kChoicePair = 3,
                         kFirstLobePair = 4, kPairsPerLobe = 2;
-/// Tells the random numbers of light that arrives from those of light that leaves.
+/// Separates the random numbers of arriving light from those of leaving light.
 constexpr std::uint32_t kArrivingStream = 0x5bf03635u;
 
 bool has_lobes(const Lumels& lumels)
@@ -49,7 +49,7 @@ bool has_lobes(const Lumels& lumels)
                        [](const Gloss& gloss) { return gloss.specular != glm::vec3(0.0f); });
 }
 
-/// A 𝓛(B) [lm], 0 where buried.
+/// A 𝓛(B) [lm], 0 for buried lumels.
 double power_of(const Lumel& lumel, const glm::vec3& exitance)
 {
     const bool counts = (lumel.flags & kLumelBuried) == 0;
@@ -58,7 +58,7 @@ double power_of(const Lumel& lumel, const glm::vec3& exitance)
 
 }  // namespace
 
-/// Power that arrives at a lumel, and how much of it a lobe reflects.
+/// Power that arrives at a lumel, and its part reflected by the lobe.
 struct LobeParticles::Landing {
     std::uint32_t lumel;
     glm::vec3 power, reflected;  ///< [lm]
@@ -66,22 +66,21 @@ struct LobeParticles::Landing {
 
 struct LobeParticles::Start {
     std::uint32_t lumel;
-    /// [lm]; of light that arrives, for each lux at the lumel.
+    /// [lm]; for arriving light, per lux at the lumel.
     glm::vec3 power;
     double whole;  ///< power of all particles [lm]
     bool arrives;  ///< true: from sky and lamps; false: leaves the lumel
     PathSamples samples;
 };
 
-/// Where a particle meets a lumel.
 struct LobeParticles::PathHit {
     std::uint32_t lumel;
-    glm::vec3 position, direction;  ///< unit, that it came along
+    glm::vec3 position, direction;  ///< direction: unit, along its path
     glm::vec3 normal, geometric;
     glm::vec3 power;  ///< [lm]
 };
 
-/// Light of one of the sources, for all of them.
+/// Light of one source, weighted to represent all.
 struct LobeParticles::Sought {
     glm::vec3 toward{0.0f};      ///< unit
     glm::vec3 irradiance{0.0f};  ///< [lx]
@@ -125,11 +124,12 @@ LobeParticles::Sought LobeParticles::seek_light(const LumelPoint& y,
         offer(lamps_.sample(lamp, position, disc));
     if (choice.empty())
         return {};
-    return {choice.lamp().direction, choice.light() * passing(*rays_, position, choice.lamp(), 0.0f,
-                                                              samples.bits(kChoicePair))};
+    return {choice.lamp().direction,
+            choice.light() *
+                transmittance(*rays_, position, choice.lamp(), 0.0f, samples.bits(kChoicePair))};
 }
 
-/// To what a particle meets next.
+/// Traces a particle to its next hit; false if none.
 bool LobeParticles::fly(const glm::vec3& position, const glm::vec3& direction,
                         const glm::vec3& power, std::uint32_t bits, PathHit& arrival) const
 {
@@ -149,13 +149,13 @@ bool LobeParticles::fly(const glm::vec3& position, const glm::vec3& direction,
     return true;
 }
 
-/// To the first lobe.
+/// Traces a particle to its first lobe; false if none.
 bool LobeParticles::arrive(const Start& start, PathHit& arrival) const
 {
     const PathSamples& samples = start.samples;
     const LumelPoint y = world_.point_on(start.lumel, samples.stratified(kPointPair));
     if (!start.arrives)
-        // A lobe of exponent 1 about the normal is what a diffuse surface sends.
+        // A lobe of exponent 1 about the normal is diffuse emission.
         return fly(y.position + rays_->ray_offset() * y.normal,
                    phong_direction(y.normal, 1.0f, samples.stratified(kDirectionPair)), start.power,
                    samples.bits(kFirstLobePair), arrival);
@@ -198,9 +198,9 @@ void LobeParticles::follow(const Start& start, std::vector<Landing>& landings) c
     }
 }
 
-/// Each lumel sends as many as its power is worth, rounded up or down by a number of its own:
-/// what one sends does not depend on the others', so that a little more light changes little. The
-/// numbers of neighbours are spread evenly.
+/// Each lumel sends a number of particles in proportion to its power, rounded up or down by its own
+/// random number: it does not depend on other lumels, so that small changes of light have small
+/// effects. The numbers of neighbours are stratified.
 std::vector<LobeParticles::Start> LobeParticles::starts_of(std::span<const glm::vec3> exitance,
                                                            std::span<const glm::vec3> direct,
                                                            std::size_t particles,
@@ -250,7 +250,7 @@ LobeParticles::Carried LobeParticles::carry(std::span<const glm::vec3> exitance,
     Carried carried{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
                     std::vector<glm::vec3>(count, glm::vec3(0.0f))};
     const std::vector<Start> starts = starts_of(exitance, direct, particles, seed);
-    // Tasks keep their landings apart, so that sums do not depend on which is first.
+    // Tasks collect landings separately, so that sums do not depend on their order.
     const std::size_t tasks = (starts.size() + kParticlesPerTask - 1) / kParticlesPerTask;
     std::vector<std::vector<Landing>> landings(tasks);
     const auto follow_some = [&](std::size_t task) {

@@ -1,5 +1,5 @@
 #pragma once
-// What lobes send on, carried from lumel to lumel along rays.
+// Light of glossy lobes, carried from lumel to lumel by particles.
 
 #include <cstdint>
 #include <optional>
@@ -15,26 +15,26 @@
 
 namespace lumel {
 
-/// Particles of equal power. They start where light leaves surfaces equally in all directions, or
-/// where that of the sky and of lamps arrives, and go on along lobes alone: what lumels send
-/// diffusely, and what sky and lamps send, is the caller's to bring to the first ones.
+/// Particles of equal power. They start from diffuse exitance, or from sky and lamp light that
+/// arrives, and continue along lobes only: the caller adds diffuse light and light of sky and lamps
+/// at the first hits.
 class LobeParticles {
 public:
-    /// All that is given must outlive this, unmoved; of the lumels, gloss and areas count.
+    /// All arguments must outlive this, unmoved; uses gloss and areas of the lumels.
     LobeParticles(const Scene& scene, const Atlas& atlas, const RayScene& rays,
                   const Lumels& lumels);
 
     /// False if no lumel has a lobe.
     bool any() const { return any_; }
 
-    /// An unbiased estimate.
+    /// Unbiased estimate of lobe light.
     struct Carried {
-        std::vector<glm::vec3> irradiance;  ///< [N] [lx] that arrives from lobes
-        std::vector<glm::vec3> reflected;   ///< [N] [lm/m²] that lobes reflect of it
+        std::vector<glm::vec3> irradiance;  ///< [N] [lx] irradiance from lobes
+        std::vector<glm::vec3> reflected;   ///< [N] [lm/m²] its part reflected by lobes
     };
-    /// exitance: [N] [lm/m²] that lumels send diffusely. direct: [N] [lx] that sky and lamps bring
-    /// them, about; or empty, if there are none. About as many particles as requested. The same
-    /// seed and light give the same bytes.
+    /// exitance: [N] [lm/m²] diffuse exitance of lumels. direct: [N] [lx] approximate irradiance by
+    /// sky and lamps, or empty without these. particles: approximate number. Equal seed and light
+    /// give equal bytes.
     Carried carry(std::span<const glm::vec3> exitance, std::span<const glm::vec3> direct,
                   std::size_t particles, std::uint32_t seed) const;
 

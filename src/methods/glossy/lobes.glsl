@@ -1,15 +1,15 @@
 #ifndef LUMEL_LOBES_LOBES_GLSL
 #define LUMEL_LOBES_LOBES_GLSL
 
-// The lobes of shooters. Declares `lobes_sent`.
+// Lobes of shooters. Declares `lobes_sent`.
 
 #include "methods/glossy/lobes.shared.h"
 #include "methods/glossy/phong.lobe.glsl"
 
 layout(scalar) readonly buffer Lobes { GlossyLobe lobes_sent[]; };  // [K][kMaxLobes]
 
-// What the lobes of shooter k, taken for as wide as that shininess, send along a unit direction:
-// radiance × A_j / (p_j K).
+// Light of shooter k's lobes, with this shininess, along a unit direction: radiance × A_j / (p_j
+// K).
 vec3 lobes_toward(uint k, GlossyShot shot, Eye eye, vec3 direction, float shininess)
 {
     vec3 sum = vec3(0.0);

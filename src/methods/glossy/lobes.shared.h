@@ -5,17 +5,17 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kMaxGlossyBatch = 128u;  ///< K; eyes and shots fit 16 KiB uniform blocks
 
-LUMEL_CONST uint kMaxLobes = 64u;  ///< that a shooter sends
-/// Lobes of less shininess are wide: one of them is enough.
+LUMEL_CONST uint kMaxLobes = 64u;  ///< per shooter
+/// Lobes of less shininess are wide: one of them represents all.
 LUMEL_CONST float kNarrowLobe = 32.0f;
 
-/// What a shooter sends: radiance × A_j / (p_j K), in a diffuse part and lobes.
+/// Light of a shooter: radiance × A_j / (p_j K), as a diffuse part and lobes.
 struct GlossyShot {
-    vec3 diffuse;     ///< the same in all directions
-    vec3 centre;      ///< of the lumel [m], world
-    float size;       ///< of the lumel [m]
-    uint lobes;       ///< how many
-    float shininess;  ///< of all of them
+    vec3 diffuse;     ///< equal in all directions
+    vec3 centre;      ///< centre of the lumel [m], world space
+    float size;       ///< size of the lumel [m]
+    uint lobes;       ///< number of lobes
+    float shininess;  ///< shininess of all of them
     float disc;       ///< A_j / π [m²] added to r² where needed, [BSS05] Eq. (8)
     uint lumel;       ///< j
 };

@@ -33,7 +33,7 @@ float phong_lobe(float cos_in, float cos_out, float mirrored, float shininess)
 
 float phong_albedo(float cos_in, float shininess)
 {
-    // Directions drawn from the lobe itself, whose density cancels all but cosθ' / max(…).
+    // Directions are drawn from the lobe, whose density cancels all but cosθ' / max(…).
     constexpr int kRings = 64, kSectors = 64;
     const double cos_mirror = std::max(double(cos_in), 0.0);
     const double sin_mirror = std::sqrt(std::max(0.0, 1.0 - cos_mirror * cos_mirror));

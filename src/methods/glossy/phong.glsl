@@ -1,7 +1,7 @@
 #ifndef LUMEL_LOBES_PHONG_GLSL
 #define LUMEL_LOBES_PHONG_GLSL
 
-// The stretched Phong model [NNS99] with its albedo; see phong.h. Declares `albedo_table`.
+// Stretched Phong model [NNS99] with its albedo; see phong.h. Declares `albedo_table`.
 
 #include "methods/glossy/phong.lobe.glsl"
 #include "methods/glossy/phong.shared.h"
@@ -25,7 +25,7 @@ float albedo_between(float row, float column)
     return mix(low, high, row - float(r));
 }
 
-// a(ω) of the lobe for light from cosθ, ρ_s = 1 [BSS05] section 4.1, tabulated.
+// a(ω) of the lobe for light from cosθ, ρ_s = 1 [BSS05] section 4.1, from the table.
 float phong_albedo(float cos_in, float shininess)
 {
     return albedo_between(albedo_row(shininess),

@@ -1,7 +1,7 @@
 #ifndef LUMEL_LOBES_PHONG_LOBE_GLSL
 #define LUMEL_LOBES_PHONG_LOBE_GLSL
 
-// The stretched Phong model [NNS99]; see phong.h.
+// Stretched Phong model [NNS99]; see phong.h.
 
 #include "solve/shooting/radiosity.glsl"
 

@@ -2,9 +2,9 @@
 #include "methods/matrix/last_bounce.shared.h"
 #include "solve/transport/lumel_rows.shared.h"
 
-// The last bounce of light, from patches to lumels: H_i = Σ_p F_ip color_p (x_p + y_p), x what
-// arrived at the patches straight from the sources and y what was reflected before. One
-// invocation has one lumel in all states, so that its row is read once.
+// Last bounce, from patches to lumels: H_i = Σ_p F_ip color_p (x_p + y_p), x the direct and y the
+// reflected light of the patches. One invocation processes a lumel in all states, so that its row
+// is read once.
 
 layout(local_size_x = kLastBounceGroup) in;
 layout(push_constant, scalar) uniform Params { LastBounceParams p; };

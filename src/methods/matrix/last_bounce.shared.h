@@ -4,7 +4,7 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLastBounceGroup = 64u;   ///< threads per workgroup of last_bounce.comp
-LUMEL_CONST uint kLastBounceStates = 16u;  ///< at once, at most
+LUMEL_CONST uint kLastBounceStates = 16u;  ///< maximum per dispatch
 
 /// Push constants of last_bounce.comp.
 struct LastBounceParams {

@@ -3,19 +3,19 @@
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
 //
 //     cut the scene into patches                                 voxel_patches, section 3.2
-//     F_ij, what of j's light arrives at i                       form_factors, Eq. (3)
+//     F_ij, fraction of j's light that arrives at i              form_factors, Eq. (3)
 //     F^c_ij = F_ij color_j                                      Eq. (5)
 //     M = Σ_{h ≥ 1} (F^c)^h                                      Eq. (8), solve/matrix/bounces.h
 //     and then for any light:
-//         what arrives straight from it, at every lumel
+//         direct light, at every lumel
 //         M × its mean over patches                              Eq. (8)
-//         the last bounce, at the row of each lumel              lumel_rows, section 3.6
+//         the last bounce, by the row of each lumel              lumel_rows, section 3.6
 //
 // Differs from the paper:
-// - h = 0, light that was not reflected yet, never goes through patches: lumels have it as it is.
+// - h = 0, direct light, does not go through patches: lumels store it.
 // - All reflections at once, (I - F^c)^-1 - I, instead of the first k.
 // - Reciprocity and row sums are enforced.
-// - Emissive surfaces are direct light like all other. Rays to points on the sources find it.
+// - Emissive surfaces are direct light like all others, by shadow rays.
 
 #include "methods/matrix/matrix.h"
 

@@ -12,16 +12,15 @@
 
 namespace lumel {
 
-/// Direct light by rays to its sources, at full resolution; reflections by the matrix.
+/// Direct light by shadow rays, at full resolution; reflections by the matrix.
 class MatrixRadiosity final : public Solver {
 public:
-    /// What is given must outlive it. target_error: of direct light. known: as make_solver takes
-    /// it.
+    /// All arguments must outlive this. target_error: of direct light. known: SolverInputs::known.
     MatrixRadiosity(const gpu::Device& device, const World& world, const HostScene& host,
                     const Lumels& lumels, const NearField& near, const MatrixOptions& options,
                     double target_error, std::span<const glm::vec3> known);
 
-    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
 
     void step() override;

@@ -4,9 +4,9 @@
 //     8 bytes   version
 //     8 bytes   bytes of the contents
 //     8 bytes   their Fingerprint
-//     contents  in the order of contents(), by StateWriter
+//     contents  in the order of contents(), as StateWriter writes them
 //
-// Contents that the fingerprint vouches for are checked again before anything is indexed by them.
+// Contents with a valid fingerprint are still checked before they are used as indices.
 
 #include "methods/matrix/matrix_file.h"
 
@@ -47,14 +47,14 @@ std::uint64_t fingerprint_of(const void* bytes, std::size_t count)
     return fingerprint.value();
 }
 
-/// Numbers of a colour, one after the other.
+/// Components of colours, one after the other.
 std::span<const float> numbers_of(const std::vector<glm::vec3>& colors)
 {
     static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
     return {colors.empty() ? nullptr : &colors.front().x, 3 * colors.size()};
 }
 
-/// Colours as one unit, then half floats in it.
+/// The scale of all halves, then the numbers.
 template <class Archive, class Colors>
 void halves(Archive& archive, Colors& colors)
 {
@@ -92,8 +92,8 @@ void each(Archive& archive, List& list, const Fields& fields)
     }
 }
 
-/// All of the contents, in order, read from or written to `archive`. matrix: its bytes, none if
-/// there are no patches.
+/// All contents, in order, read from or written to `archive`. matrix: its bytes, empty without
+/// patches.
 template <class Archive, class Light, class Matrix>
 void contents(Archive& archive, Light& light, Matrix& matrix)
 {
@@ -165,8 +165,7 @@ bool is_sound(const LumelRows& rows, std::size_t lumels, std::size_t patches)
            });
 }
 
-/// Everything fits together, and every index has something behind it; the matrix is sound in
-/// itself.
+/// True if sizes are consistent and indices in range; the matrix checks itself.
 bool is_sound(const Relightable& light)
 {
     const std::size_t lumels = light.size(), patches = light.patches.size();
@@ -190,15 +189,14 @@ bool is_sound(const Relightable& light)
            is_sound(light.rows, lumels, patches) && size_of(light.matrix) == patches;
 }
 
-/// Throws unless the head shows that the contents are ours and complete.
+/// Throws unless the header shows that the file is of this format and complete.
 void check_head(const std::string& path, const Bytes& bytes)
 {
     Head head;
     if (bytes.size() >= sizeof head)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
-        throw Error(ErrorKind::input, path,
-                    "is not a matrix that lumel bake --solver matrix wrote");
+        throw Error(ErrorKind::input, path, "is not a matrix file of lumel bake --solver matrix");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

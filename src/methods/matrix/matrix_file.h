@@ -1,5 +1,5 @@
 #pragma once
-// scene.lumelmat: a Relightable on the disk. See matrix_file.cpp.
+// scene.lumelmat: a Relightable on disk. See matrix_file.cpp.
 
 #include <string>
 
@@ -9,10 +9,10 @@ namespace lumel {
 
 inline constexpr const char* kMatrixFile = "scene.lumelmat";
 
-/// Direct light is written as half floats, all else as it is. Throws Error{output}.
+/// Direct light is stored as half floats, everything else in full. Throws Error{output}.
 void write_relightable(const std::string& path, const Relightable& light);
 
-/// Reads it whole. Throws Error{input} if it is missing, damaged, or of another version.
+/// Reads the whole file. Throws Error{input} if it is missing, damaged, or of another version.
 Relightable read_relightable(const std::string& path);
 
 }  // namespace lumel

@@ -1,9 +1,10 @@
-// With D_s the direct light of source s, f_s its factor, P the mean of what patches reflect:
+// With D_s the direct light of source s, f_s its factor, P the mean of the light that patches
+// reflect:
 //
 //     H = Σ_s f_s (D_s + S_s) + R color (x + M x),     x = Σ_s f_s (P D_s),
 //
-// R the rows of the lumels. Sources whose reflected light S_s was stored have no part in x. All but
-// the first sum is done on the device.
+// R the rows of the lumels. Sources with stored reflected light S_s are left out of x. All but the
+// first sum is computed on the device.
 
 #include "methods/matrix/relight_session.h"
 
@@ -19,9 +20,8 @@
 namespace lumel {
 namespace {
 
-/// That share what is read of the matrix.
+/// States per product, which share a read of the matrix.
 constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
-/// Lumels worth a task of their own.
 constexpr std::size_t kLumelsPerTask = 4096;
 
 SourceNames names_of(const Relightable& light)
@@ -32,7 +32,7 @@ SourceNames names_of(const Relightable& light)
     return SourceNames(std::move(sources));
 }
 
-/// Adds a source's light, but for what the matrix has, to lumels [first, last).
+/// Adds a source's light, without its part by the matrix, to lumels [first, last).
 void add_scaled(std::vector<glm::vec3>& light, const SourceLight& source, const glm::vec3& factor,
                 std::size_t first, std::size_t last)
 {
@@ -83,7 +83,7 @@ void RelightSession::set_light(const std::string& name, const glm::vec3& factor)
         now_.factors[s] = factor;
 }
 
-/// The lamp of a source, elsewhere. Throws if it cannot be there.
+/// A source's lamp at another place. Throws if it cannot be there.
 PunctualLight RelightSession::lamp_at(std::size_t source, const LampPlace& place) const
 {
     const SourceLight& of = light_.sources[source];
@@ -93,19 +93,19 @@ PunctualLight RelightSession::lamp_at(std::size_t source, const LampPlace& place
     if (!world_)
         refuse("cannot be moved without the scene that was baked");
     if (place.turn)
-        refuse("can be turned over kept links alone; bake the scene with --keep-links");
+        refuse("can only be turned with stored links; bake the scene with --keep-links");
     if (of.lights.size() != 1)
         refuse(of.lights.empty()
-                   ? "is no lamp: only point, spot and directional lights can be moved"
-                   : "is the name of several lamps: give each a name of its own to move it");
+                   ? "is not a lamp: only point, spot and directional lights can be moved"
+                   : "is the name of several lamps: give each its own name to move it");
     if (!of.reflected.empty())
-        refuse("is the name of a lamp and of surfaces: give the lamp a name of its own to move it");
+        refuse("is the name of a lamp and of surfaces: give the lamp its own name to move it");
     PunctualLight lamp = of.lights.front();
     lamp.name = of.name;
     return placed(std::move(lamp), place, light_.origin);
 }
 
-/// The source that a lamp of this name is, if it can be there.
+/// The source of a lamp of this name. Throws if it cannot be at the place.
 std::size_t RelightSession::lamp_of(const std::string& name, const LampPlace& place) const
 {
     const std::size_t source = names_.of(name).front();
@@ -181,7 +181,7 @@ std::vector<std::vector<glm::vec3>> RelightSession::irradiance_of(std::span<cons
     return maps;
 }
 
-/// Null if the source's lamp is where it was baked.
+/// Null if the source's lamp has its baked place.
 const RelightSession::Moved* RelightSession::moved_of(const State& state, std::size_t source)
 {
     for (const Moved& moved : state.moved)

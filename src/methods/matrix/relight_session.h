@@ -21,51 +21,50 @@ namespace lumel {
 /// A scene on the device, in which lamps may move.
 struct LitWorld {
     const World& world;
-    const Lumels& lumels;               ///< of the world
-    std::vector<std::uint32_t> number;  ///< of each among those of the matrix, or kNoLumel
+    const Lumels& lumels;               ///< lumels of `world`
+    std::vector<std::uint32_t> number;  ///< index of each in the matrix, or kNoLumel
     DirectLightOptions options;
 };
 
-/// Holds the matrix on the device. All factors are 1 at first. For one thread at a time.
+/// Keeps the matrix on the device. All factors are 1 at first. Not thread-safe.
 class RelightSession {
 public:
     /// The device must outlive this. Throws Error{device} if there is no room.
     RelightSession(const gpu::Device& device, Relightable light);
-    /// Reads scene.lumelmat first; nothing is computed anew. Throws Error{input} too, see
-    /// read_relightable().
+    /// Reads scene.lumelmat; recomputes nothing. Throws Error{input} too, see read_relightable().
     RelightSession(const gpu::Device& device, const std::string& path);
 
-    /// Lamps may move from now on: what is given must outlive this.
+    /// Lets lamps move; the members of `world` must outlive this.
     void set_world(LitWorld world) { world_.emplace(std::move(world)); }
 
     const Relightable& light() const { return light_; }
     std::size_t size() const { return light_.size(); }                 ///< N
-    std::vector<std::string> names() const { return names_.names(); }  ///< of the sources
+    std::vector<std::string> names() const { return names_.names(); }  ///< names of the sources
 
-    /// Multiplies what a source, or all that a material makes shine, sends; factors may be
-    /// anything from 0. Throws Error{input}, with the names that there are, for another name, and
-    /// for factors that are negative or no numbers.
+    /// Scales the light of a source, or of all surfaces of an emissive material. Throws
+    /// Error{input}, with the existing names, for another name, and for factors that are negative
+    /// or not finite.
     void set_light(const std::string& name, const glm::vec3& factor);
 
-    /// Moves or turns a lamp. Its shadow maps are drawn at the next irradiance(). Throws
-    /// Error{input} for what is no single lamp, for positions of directional lights, directions
-    /// that are none, and without a world.
+    /// Moves or turns a lamp. Its shadow maps are rendered by the next irradiance(). Throws
+    /// Error{input} unless the name is of a single lamp, for positions of directional lights,
+    /// invalid directions, and without a world.
     void move_light(const std::string& name, const LampPlace& place);
 
     /// Throws Error{input} as irradiance(states) would for this state.
     void check(const LightState& state) const;
 
-    /// H [N] [lx] of the factors and places set: by shadow maps of lamps that moved and one
-    /// multiply on the device.
+    /// H [N] [lx] for the current factors and places: shadow maps of moved lamps, and one product
+    /// on the device.
     std::vector<glm::vec3> irradiance();
-    /// H [states][N] [lx], whatever is set. Throws as set_light does, and where two names of one
-    /// state mean the same source.
+    /// H [states][N] [lx], independent of the current factors. Throws as set_light does, and if two
+    /// names of a state are the same source.
     std::vector<std::vector<glm::vec3>> irradiance(std::span<const LightState> states);
 
 private:
     using Factors = std::vector<glm::vec3>;  // [sources]
 
-    /// Of a source whose lamp is not where it was baked.
+    /// Light of a source whose lamp has moved.
     struct Moved {
         std::size_t source;
         std::vector<glm::vec3> direct;  ///< [N] lx
@@ -92,10 +91,10 @@ private:
     std::vector<std::vector<glm::vec3>> means_;  ///< [sources][n] reflected_means() [lx]
     std::optional<LitWorld> world_;
     State now_;
-    std::map<std::size_t, LampPlace> to_move_;  ///< lamps whose light is to be found, by source
-    std::optional<Multiply> multiply_;          ///< none where nothing reflects
+    std::map<std::size_t, LampPlace> to_move_;  ///< lamps to recompute, by source
+    std::optional<Multiply> multiply_;          ///< empty if nothing reflects
     std::optional<gpu::Kernel<shaders::LastBounce>> last_bounce_;
-    std::optional<gpu::Array<std::uint32_t>> first_;  ///< of the rows
+    std::optional<gpu::Array<std::uint32_t>> first_;  ///< starts of rows
     std::optional<gpu::Array<RowEntry>> entries_;
     std::optional<gpu::Array<glm::vec3>> color_;               ///< [n]
     std::optional<gpu::Array<glm::vec3>> direct_, reflected_;  ///< [kStatesAtOnce][n]

@@ -1,9 +1,9 @@
-// Radiosity by a matrix of all reflections, its sources apart.
+// Radiosity by a matrix of all reflections, with separate sources.
 //
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017.
 //
-// As methods/matrix/matrix.cpp, but with the direct light of each source by itself: surfaces that
-// shine by rays in a scene where no others do, sky and lamps as given.
+// As methods/matrix/matrix.cpp, but with separate direct light of each source: emissive surfaces by
+// rays in a scene where no others emit, sky and lamps as given.
 
 #include "methods/matrix/relight_solver.h"
 
@@ -16,8 +16,8 @@
 namespace lumel {
 namespace {
 
-/// Of indirect light from the stored matrix: far below that of form factors, and still a tenth of
-/// their bytes.
+/// Error of the stored matrix's indirect light: far below that of form factors, at a tenth of their
+/// bytes.
 constexpr float kTileError = 0.002f;
 
 /// Mean over lumels and channels [lx].
@@ -93,7 +93,7 @@ void RelightSolver::finish_builder()
     begin_source();
 }
 
-/// The next source that has surfaces; none if all are done.
+/// Starts the next source that has surfaces, if any.
 void RelightSolver::begin_source()
 {
     emitter_.reset();
@@ -106,7 +106,7 @@ void RelightSolver::begin_source()
     emitter_->seconds = std::max(left, 0.0) / double(emitters_from(next_));
 }
 
-/// Sources with surfaces, from this one on.
+/// Number of sources with surfaces, from this one on.
 std::size_t RelightSolver::emitters_from(std::size_t first) const
 {
     return std::size_t(
@@ -127,7 +127,7 @@ bool RelightSolver::is_enough() const
            state.full;
 }
 
-/// Goes on to what the surfaces' light does where it was reflected.
+/// Continues with the reflections of the surfaces' light.
 void RelightSolver::end_direct()
 {
     const SolverState state = emitter_->solver.state();
@@ -160,7 +160,7 @@ void RelightSolver::add_times(const gpu::StageTimes& times)
 
 double RelightSolver::fraction() const
 {
-    const double parts = double(sources_.size()) + 1.0;  // the matrix is one
+    const double parts = double(sources_.size()) + 1.0;  // the matrix counts as one
     return (builder_ ? builder_->fraction() : 1.0 + double(next_)) / parts;
 }
 
@@ -182,7 +182,7 @@ SolverState RelightSolver::state() const
 std::vector<glm::vec3> RelightSolver::irradiance()
 {
     const std::size_t count = lumels_->lumels.size();
-    // Light whose reflections are found by patches up to the last bounce, and what more rays found.
+    // Light whose last bounce is by patches, and reflected light by rays.
     std::vector<glm::vec3> direct(count, glm::vec3(0.0f)), by_patches = direct, reflected = direct;
     for (std::size_t s = 0; s < sources_.size(); ++s) {
         add_light(direct, sources_[s].direct);

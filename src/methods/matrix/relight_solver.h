@@ -1,5 +1,5 @@
 #pragma once
-// A solution that keeps the light of every source apart. See relight_solver.cpp.
+// A solution with separate light of every source. See relight_solver.cpp.
 
 #include <optional>
 #include <vector>
@@ -11,32 +11,31 @@
 
 namespace lumel {
 
-/// A source with what its lamps and sky send straight to the lumels.
+/// A source with the direct light of its lamps and sky.
 struct KnownSource {
     LightSource source;
     std::vector<glm::vec3> direct;  ///< [N] lx, or empty: none
 };
 
-/// Finds a Transport, then the direct light of each source's surfaces, one after the other. Ends by
-/// itself: the options' error holds for each of these sources, their shots and time are shared.
+/// Computes a Transport, then the direct light of each source's surfaces in turn. Ends by itself:
+/// the options' error is for each of these sources; they share shots and time.
 class RelightSolver final : public Solver {
 public:
-    /// All but the sources must outlive this. parts: of the light
-    /// that irradiance() has.
+    /// All but the sources must outlive this. irradiance() returns `parts` of the light.
     RelightSolver(const gpu::Device& device, const World& world, const HostScene& host,
                   const Lumels& lumels, const NearField& near, const MatrixOptions& options,
                   const SolveLimits& limits, std::vector<KnownSource> sources, Parts parts);
 
-    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const MatrixOptions& options);
 
     void step() override;
     bool done() const { return !builder_ && next_ == sources_.size(); }
-    double fraction() const;  ///< of the work, roughly, 0…1
+    double fraction() const;  ///< approximate progress, 0…1
 
-    /// The error is that of direct light, once all of it is found.
+    /// The error is that of direct light, once all of it is known.
     SolverState state() const override;
-    /// What is missing before done() is left out.
+    /// Before done(), without the light not computed yet.
     std::vector<glm::vec3> irradiance() override;
     const gpu::StageTimes& times() const override { return times_; }
     double longest_submission() const override { return longest_; }
@@ -49,15 +48,15 @@ public:
     Relightable relightable(const std::string& hash) const;
 
 private:
-    /// The source at work.
+    /// The current source.
     struct Emitter {
         Emitter(Scene only_shining, const RelightSolver& of);
 
-        Scene scene;  ///< in which only the source's surfaces shine
+        Scene scene;  ///< only the source's surfaces emit
         HostScene host;
         DirectRays solver;
-        std::optional<FinalGather> last;  ///< once direct light is found
-        double start, seconds;  ///< when it began and what it may take, if there is a limit [s]
+        std::optional<FinalGather> last;  ///< once direct light is known
+        double start, seconds;            ///< start, and time limit if any [s]
     };
 
     void begin_source();
@@ -78,9 +77,9 @@ private:
     std::optional<Transport> transport_;
     std::vector<KnownSource> sources_;
     std::vector<std::vector<glm::vec3>> surfaces_, reflected_;  ///< [sources][N], or empty
-    std::size_t next_ = 0;  ///< source whose surfaces are at work
+    std::size_t next_ = 0;                                      ///< current source
     std::optional<Emitter> emitter_;
-    std::uint64_t shots_ = 0, iterations_ = 0;  ///< of sources that are done
+    std::uint64_t shots_ = 0, iterations_ = 0;  ///< totals of finished sources
     double square_error_ = 0.0;                 ///< Σ (error × mean H)² of these [lx²]
     gpu::StageTimes times_;
     double longest_ = 0.0;

@@ -6,30 +6,28 @@
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Sections 2.2.4 and 4.3.
 //
-// Solves  B = E + ρ T B  by shooting what was not shot yet, [Hoef13] Algorithm 4.2:
+// Solves  B = E + ρ T B  by shooting unshot light, [Hoef13] Algorithm 4.2:
 //
 //     repeat
 //         find the chart with the most unshot light             power, select
-//         divide it into patches; what each sends               take
+//         divide it into patches, with their light              take
 //         see the world from each of them                       look_from
 //         for all lumels i:                                     receive
 //             H_i += Σ_k B_k^u A_k V cosθ cosθ / (π r²)         Eq. (2.2.8)
 //         B_k^s += B_k^u                                        settle
 //
-// What is kept is B^s, the light shot, and H = T B^s. All else follows: B = E + ρH, and
-// B^u = B - B^s. Changed emission or reflectance, Eqs. (2.2.9) and (2.2.10), needs no more than
-// the new E or ρ.
+// Stores B^s, the light shot, and H = T B^s. All else follows: B = E + ρH, and B^u = B - B^s. After
+// a change of emission or reflectance, Eqs. (2.2.9) and (2.2.10), only E or ρ is replaced.
 //
-// T never changes: patches shoot from fixed points with fixed hemicubes to fixed points. Light
-// that was shot can be taken back exactly.
+// T never changes: patches shoot from fixed points with fixed hemicubes to fixed points. Shot light
+// can be taken back exactly.
 //
 // Differs from the thesis:
-// - Patches shoot in batches, across charts; the GPU chooses them, and nothing is read back.
-// - Depth and the receiver's plane decide visibility, where the thesis draws ids and reads the four
-//   nearest pixels: one chart may then hide itself, and surfaces need not be quads.
-// - Patches also send at once the light that they will reflect of light still to be shot [FP92]. If
-// that
-//   was too much, their unshot light becomes negative and is shot in turn.
+// - Patches shoot in batches, across charts; the GPU chooses them without readback.
+// - Depth and the receiver's plane decide visibility, where the thesis draws ids and reads the
+//   four nearest pixels: one chart can occlude itself, and surfaces need not be quads.
+// - Patches also send at once their reflection of light still to be shot [FP92]. If that was too
+//   much, their unshot light becomes negative and is shot in turn.
 // - Pairs of close lumels are left out and solved exactly (the near field).
 
 #include "methods/progressive/progressive.h"
@@ -42,19 +40,19 @@
 namespace lumel {
 namespace {
 
-/// A patch sends at most this part of all light: shadows of that many points look soft.
+/// Maximum part of all light per patch: shadows from 512 points look soft.
 constexpr float kPatchShare = 1.0f / 512.0f;
-/// Weight of missing light, which is missing everywhere, compared with noise.
+/// Weight of missing light, a bias of all lumels, relative to noise.
 constexpr double kMissing = 4.0;
-/// Where lamps go out, what is missing is a part of no less than this much of the most light that
-/// there was: of nothing at all it would stay a large part for ever.
+/// When lamps go out, the residual is relative to at least this fraction of the maximum light so
+/// far; relative to nothing it would stay large.
 constexpr double kDark = 0.01;
-/// A scene in which nothing arrives after this number of batches receives no light.
+/// A scene without any light received after this number of batches is unlit.
 constexpr std::uint64_t kSilent = 16;
-/// Batches between two sums of the near field, which costs about as much as one batch's receiving.
+/// Batches between near-field sums, each of which costs about one batch's receiving.
 constexpr std::uint64_t kNearEvery = 4;
 
-/// The finest level whose points of one lumel fit a batch.
+/// The finest level at which all points of a lumel fit a batch.
 std::uint32_t finest_level(std::uint32_t batch)
 {
     std::uint32_t level = kLumelLevel;
@@ -71,12 +69,12 @@ float area_of(const Lumels& lumels)
     return float(sum);
 }
 
-/// Light not shot yet, with all that is sent on of it, as a part of all that arrives in the end.
+/// Unshot light and its future bounces, relative to all light in the end.
 double missing_part(const Terms& terms, double least = 0.0)
 {
     const double unshot = terms.column[0].x, arrived = terms.column[0].y,
                  reflected = terms.column[0].z;
-    constexpr double kMinLost = 1e-3;  // of what arrives: 1 / it stays finite
+    constexpr double kMinLost = 1e-3;  // fraction lost per bounce: 1 / it stays finite
     const double onward = arrived > 0.0 ? reflected / arrived : 0.0;
     const double remaining = unshot / std::max(1.0 - onward, kMinLost);
     return remaining > 0.0 ? remaining / (std::max(arrived, least) + remaining) : 0.0;

@@ -15,13 +15,13 @@
 
 namespace lumel {
 
-/// The patches with the most unshot light shoot first.
+/// Shoots from the patches with the most unshot light first.
 class ProgressiveRadiosity final : public Solver {
 public:
     ProgressiveRadiosity(const gpu::Device& device, const World& world, const Lumels& lumels,
                          const NearField& near, const ProgressiveOptions& options);
 
-    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const ProgressiveOptions& options);
 
     void step() override;
@@ -30,20 +30,20 @@ public:
     const gpu::StageTimes& times() const override { return pacer_.times(); }
     double longest_submission() const override { return pacer_.longest_ms(); }
 
-    /// Light still to be shot and what will come of it, as a part of all that arrives (of a
-    /// scene that has gone dark: of a hundredth of what once arrived). Waits for the device.
+    /// Unshot light with its future bounces, relative to the arrived light (in a scene gone dark:
+    /// to 1 % of its peak). Waits for the device.
     double residual();
 
-    // What redistribution works on.
+    // For redistribution.
     ShotLight& light() { return light_; }
     PatchShots& shots() { return shots_; }
     gpu::Pacer& pacer() { return pacer_; }
     float near_radius() const { return near_radius_; }
-    /// Lumels take what the batch in shots(), taken and looked from, sends.
+    /// Adds the light of the batch in shots() to lumels. Requires that it is taken and rendered.
     void receive();
-    /// What that batch sent counts as shot from now on.
+    /// Marks the light of that batch as shot.
     void settle();
-    /// Puts another near field, of the same radius, in the place of the former.
+    /// Replaces the near field by one of the same radius.
     void set_near_field(const NearField& near);
 
 private:
@@ -58,7 +58,7 @@ private:
     float near_radius_;
     double emitted_power_;       ///< Σ A 𝓛(E) [lm]
     float area_;                 ///< Σ A [m²]
-    double most_arrived_ = 0.0;  ///< so far, as residual() saw it [lm]
+    double most_arrived_ = 0.0;  ///< maximum of arrived light in residual() [lm]
 
     gpu::Kernel<shaders::ProgressivePower> power_;
     gpu::Kernel<shaders::ProgressiveSelect> select_;
@@ -73,7 +73,7 @@ private:
     NearRows near_rows_;
     LumelSums figures_;
     SolverState state_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;  ///< last member: its destructor waits for work that uses others
 };
 
 }  // namespace lumel

@@ -3,7 +3,7 @@
 #include "solve/shooting/radiosity.glsl"
 #include "solve/transport/foreseen.glsl"
 
-// Light of each chart [Hoef13] 4.3.2, FindShootingQuad. A workgroup a chart.
+// Light of each chart, one workgroup per chart [Hoef13] 4.3.2, FindShootingQuad.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };

@@ -8,13 +8,11 @@
 #include "raster/eyes/sees.glsl"
 #include "solve/transport/patch_light.glsl"
 
-// Every lumel takes its share of what the patches of a batch send [Hoef13] 4.3.2,
-// ReconstructionShader, for all of them at once:
+// Every lumel receives from all patches of a batch at once, [Hoef13] 4.3.2, ReconstructionShader:
 //
 //     H_i += Σ_k B_k A_k · V · cosθ_i cosθ_k / (π r²)                             Eq. (2.2.8)
 //
-// The receiving point is the same each time for a patch and a lumel, and another for the next
-// patch.
+// The receiving point is fixed for a patch and a lumel, and different for the next patch.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { PatchReceiveParams p; };

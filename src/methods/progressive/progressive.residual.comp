@@ -5,7 +5,7 @@
 #include "solve/shooting/radiosity.glsl"
 #include "solve/transport/unshot.glsl"
 
-// Sums of light: what is still to be shot, what arrived, and what reflects it.
+// Sums of unshot light, arrived light, and light reflected.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { ResidualParams p; };

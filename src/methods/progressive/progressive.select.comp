@@ -3,17 +3,17 @@
 #include "solve/shooting/radiosity.glsl"
 #include "solve/transport/patches.glsl"
 
-// Chooses the patches of a batch [Hoef13] Algorithm 4.2: those of the chart with the most unshot
-// power for each of its patches, one after another, then those of the next such chart. Where the
-// cursor stands is kept from batch to batch, so that nothing is read back.
+// Chooses the patches of a batch, [Hoef13] Algorithm 4.2: those of the chart with the most unshot
+// power per patch, one after another, then those of the next such chart. The cursor persists
+// between batches, without readback.
 //
-// Dynamic shooter subdivision, section 4.3.3: a chart is shot at the coarsest level at which no
-// patch sends more than a set part of all light. It keeps its level, so that what it shot can be
-// taken back exactly. When it becomes too bright for its level, all it shot is taken back and shot
-// anew at a finer one.
+// Dynamic shooter subdivision, section 4.3.3: a chart shoots at the coarsest level at which no
+// patch sends more than a set part of all light. It keeps its level, so that its light can be taken
+// back exactly. When it becomes too bright for its level, all its light is taken back and shot
+// again at a finer one.
 //
-// The light that is still to arrive, spread evenly, is the ambient term of [CCWG88] section 4; how
-// much of what is shot arrives, and is reflected, is taken from what was shot so far.
+// Uniformly distributed light still to arrive is the ambient term of [CCWG88] section 4; its
+// arriving and reflected fractions are those of the light shot so far.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ChooseParams p; };
@@ -29,7 +29,7 @@ layout(scalar) writeonly buffer Ambient { vec3 ambient; };
 // Refine a chart when a patch exceeds its power limit by this factor.
 const float kTooBright = 8.0;
 
-// Of shot light no more than this is taken to be reflected: 1 / (1 - it) stays finite.
+// Maximum assumed fraction of shot light that is reflected: 1 / (1 - it) stays finite.
 const float kMaxReflected = 0.98;
 
 vec3 ambient_of(ChartLight sum)
@@ -41,7 +41,7 @@ vec3 ambient_of(ChartLight sum)
 }
 
 shared Cursor cursor;
-shared float patch_power;  // a patch is to send no more than this [lm]
+shared float patch_power;  // limit of a patch's power [lm]
 shared float best_gain[kPatchGroup];
 shared uint best_chart[kPatchGroup];
 
@@ -101,7 +101,7 @@ void begin_chart(uint c)
     cursor.count = patches_of(chart, cursor.level);
     if (cursor.send == kSendBack)
         levels[c] = wanted;
-    lights[c].power = 0.0;  // not again in this batch
+    lights[c].power = 0.0;  // only once per batch
 }
 
 // All points of a lumel shoot in one batch.

@@ -1,7 +1,7 @@
 #version 460
 #include "methods/progressive/progressive.shared.h"
 
-// What a batch sent now counts as shot.
+// Marks the light of a batch as shot.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { TakeParams p; };
@@ -16,7 +16,7 @@ void main()
     if (k >= p.batch || chosen[k].chart == kNoPatch)
         return;
     const PatchShot s = shots[k];
-    if (chosen[k].index % s.parts != 0u)  // the first point of a lumel counts for all
+    if (chosen[k].index % s.parts != 0u)  // the first point of a lumel represents all
         return;
     for (uint j = s.first; j < s.first + s.count; ++j)
         shot[j] = chosen[k].send == kSendBack ? vec3(0.0) : shot[j] + sending[j] * float(s.parts);

@@ -3,20 +3,20 @@
 #include "solve/transport/patch_shots.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kNoLevel = 0xffffffffu;  ///< of a chart that never shot
+LUMEL_CONST uint kNoLevel = 0xffffffffu;  ///< chart that never shot
 
-/// Where shooting goes on: patch `next` of a chart.
+/// Next patch to shoot: patch `next` of a chart.
 struct Cursor {
     uint chart;
     uint level;
     uint next;
-    uint count;  ///< patches of the chart at that level; next == count: it is done
+    uint count;  ///< patches of the chart at that level; next == count: finished
     uint send;   ///< kSendUnshot or kSendBack
 };
 
 /// Light of a chart, or of all of them [lm].
 struct ChartLight {
-    float power;     ///< Σ A |𝓛| of what is sent next
+    float power;     ///< Σ A |𝓛| of the light sent next
     vec3 unshot;     ///< Σ A B^u
     vec3 shot;       ///< Σ A B^s
     vec3 arrived;    ///< Σ A H
@@ -27,8 +27,8 @@ struct ChartLight {
 struct ChooseParams {
     uint charts;
     uint batch;         ///< K
-    uint finest;        ///< level at most
-    float patch_share;  ///< a patch is to send no more than this part of all light
+    uint finest;        ///< finest allowed level
+    float patch_share;  ///< limit of a patch's light, relative to all light
     float area;         ///< Σ A [m²]
 };
 
@@ -38,7 +38,7 @@ struct PatchReceiveParams {
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint shots;         ///< K
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 /// Push constants of progressive.residual.comp.

@@ -1,7 +1,7 @@
 #ifndef LUMEL_LIVE_CROSS_BACK_GLSL
 #define LUMEL_LIVE_CROSS_BACK_GLSL
 
-// Where the pixels of back hemicubes lie.
+// Pixel addresses of back hemicubes.
 
 #include "methods/redistribution/cross.shared.h"
 
@@ -19,7 +19,7 @@ uint back_start(BackLayout b, uint hemicube, uint level)
     return start;
 }
 
-// Of the pixels of a tile: 2 side wide, 3/2 side high.
+// Pixel of a tile that is 2 side wide and 3/2 side high.
 uint back_pixel(BackLayout b, uint hemicube, uint level, uvec2 pixel)
 {
     return back_start(b, hemicube, level) + pixel.y * 2u * back_side(b, level) + pixel.x;

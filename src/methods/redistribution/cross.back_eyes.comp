@@ -1,7 +1,7 @@
 #version 460
 #include "methods/redistribution/cross.shared.h"
 
-// Eyes at the backs of patches: they look where the patches do not.
+// Eyes on the backs of patches, opposite to their fronts.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { BackEyesParams p; };

@@ -3,30 +3,31 @@
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Sections 3.3 and 4.5.
 //
-// C is what stays, M what may move. The progressive solver shoots C's light among C alone, as if M
-// were not there: H = T_CC B^s. What M does to C is kept apart, and found anew whenever something
-// moved or more was shot: lamps shoot past M (lamp_shadows.h), then for each patch j of M
-// (Algorithm 4.4):
+// C are the static lumels, M the movable ones. The progressive solver shoots C's light among C
+// alone, as if M did not exist: H = T_CC B^s. The effect of M on C is stored separately, and
+// recomputed whenever objects moved or more was shot: lamps shoot past M (lamp_shadows.h), then for
+// each patch j of M (Algorithm 4.4):
 //
-//     see the world from the front of j                     look_from
-//     gather what arrives at its lumels                     gather    R_g(C, M), R(M, M)
-//     send all they have                                    send
-//     see C's light, but for lamps, from the back of j      look_from in colour, resolve
+//     render the world from the front of j                  look_from
+//     gather the light that arrives at its lumels           gather    R_g(C, M), R(M, M)
+//     send all their light                                  send
+//     render C's light, without lamps, from the back of j   look_from in colour, resolve
 //     for all lumels i of C:                                receive
 //         ΔH_i += F_ij (B_j - P(C, j, i))                   R_p(M, C), R_x(C, C): Eq. (3.3.1)
-//     ΔH takes the place of the former ΔH                   settle
+//     replace the previous ΔH                               settle
 //
 // Differs from the thesis:
-// - The solution without M is what is kept. Nothing that was done for an old place need be undone,
-//   so there are 2 |M| hemicubes instead of 4 |M|, errors cannot add up, and M need not be removed
-//   before C shoots (section 4.5.2, Error analysis).
+// - The solution without M is stored. No light of an old position is taken back, so there are 2
+//   |M| hemicubes instead of 4 |M|, errors cannot accumulate, and M need not be removed before C
+//   shoots (section 4.5.2, Error analysis).
 // - Lamps are not crossed. The thesis names undersampling of small lamps as its main artefact.
 // - Patches are blocks of lumels on any triangles; rays go through the lumels, where the thesis
 //   divides a quad into a grid.
-// - Back hemicubes have mipmaps; the level follows from how wide the bundle of rays through a lumel
-//   is where it ends.
-// - Form factors of close pairs are the near field's: no halos where things touch.
+// - Back hemicubes have mipmaps; the level follows from the width of the bundle of rays through a
+//   lumel where it ends.
+// - Close pairs use form factors of the near field: no halos where objects touch.
 // - M's lumels gather from C's by the depth hemicube of their patch, where the thesis multiplies
+//   a hemicube of radiosity by delta form factors.
 //   a hemicube of radiosity by delta form factors.
 
 #include "methods/redistribution/cross.h"
@@ -38,8 +39,8 @@
 namespace lumel {
 namespace {
 
-/// Of a back hemicube's front face [pixels]: the thesis goes as low as 16. Divisible by
-/// 2^kBackLevels, so that faces stay apart in all levels.
+/// Side of a back hemicube's front face [pixels]; the thesis goes down to 16. Divisible by
+/// 2^kBackLevels, so that faces stay separate in all levels.
 constexpr std::uint32_t kBackSide = 32;
 
 std::uint32_t pixels_of_levels(std::uint32_t side)
@@ -50,7 +51,7 @@ std::uint32_t pixels_of_levels(std::uint32_t side)
     return sum;
 }
 
-/// Rows of lumels that stay, with columns that move.
+/// Rows of static lumels, with columns of movable ones.
 NearField rows_of_still(const NearField& near, const Lumels& lumels)
 {
     const auto moves = [&](std::uint32_t i) {
@@ -69,7 +70,7 @@ NearField rows_of_still(const NearField& near, const Lumels& lumels)
     return rows;
 }
 
-/// Fronts of all moving patches, and backs of those of open meshes.
+/// Fronts of all movable patches, and backs of those of open meshes.
 std::vector<ChosenPatch> moving_patches(const Patches& layout, const Lumels& lumels,
                                         const std::vector<char>& open)
 {

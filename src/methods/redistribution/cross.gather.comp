@@ -6,12 +6,12 @@
 #include "raster/eyes/sees.glsl"
 #include "raster/near/near_pairs.glsl"
 
-// What arrives at the lumels of moving patches, R_g(C, M) and R(M, M) of [Hoef13] 4.5.1:
+// Light that arrives at the lumels of movable patches, R_g(C, M) and R(M, M) of [Hoef13] 4.5.1:
 //
 //     H_m = Σ_i B_i^s A_i · V · cosθ_m cosθ_i / (π r²)
 //
-// over all lumels i that the patch's hemicube sees, and what lamps shot at them. A workgroup a
-// patch.
+// over all lumels i that the patch's hemicube sees, plus the light that lamps shot at them. One
+// workgroup per patch.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossGatherParams p; };
@@ -19,7 +19,7 @@ layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Crossed { vec3 crossed[]; };
-layout(scalar) readonly buffer Fresh { vec3 fresh[]; };  // of moving lumels: from lamps
+layout(scalar) readonly buffer Fresh { vec3 fresh[]; };  // light of lamps on movable lumels
 layout(scalar) buffer Far { vec3 far[]; };
 
 vec3 plus(vec3 a, vec3 b)

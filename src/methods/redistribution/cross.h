@@ -1,6 +1,6 @@
 #pragma once
-// Cross-redistribution radiosity [Hoef13] 4.5: what moves is lit, sends light and hides light, at
-// the cost of hemicubes on what moves alone. See cross.cpp.
+// Cross-redistribution radiosity [Hoef13] 4.5: movable objects receive, send and occlude light, at
+// the cost of hemicubes on these alone. See cross.cpp.
 
 #include "methods/progressive/progressive.h"
 #include "methods/redistribution/cross.back_eyes.comp.h"
@@ -16,26 +16,27 @@
 
 namespace lumel {
 
-/// Redistributes what was shot among what stays, batch by batch.
+/// Redistributes light shot among static lumels, batch by batch.
 class CrossRedistribution {
 public:
     /// world: the solver's, made with movers, whose lumels are kLumelMoving. open [instances]: 1
-    /// of meshes that show backs without lumels to what is outside. movers [instances]: 1 if it may
-    /// move. most_bytes: VisibilityRows. All but the last three must outlive this.
+    /// for meshes whose backs without lumels are visible from outside. movers [instances]: 1 if
+    /// movable. most_bytes: VisibilityRows. All but the last three must outlive this.
     CrossRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
                         ProgressiveRadiosity& solver, const std::vector<char>& movers,
                         const std::vector<char>& open, std::uint64_t most_bytes);
 
-    /// Pairs with a moving lumel, with instances where they are next. Nothing may be under way.
+    /// Sets pairs with a movable lumel, for the next positions of instances. Requires
+    /// !is_under_way().
     void set_near_field(const NearField& near);
-    /// Begins to find anew what moving patches do where they now are in the world, inside `boxes`.
-    /// has_moved: since this was last begun. Of the lamps' light no more than `tolerance` may
-    /// change unnoticed. Nothing may be under way.
+    /// Starts to recompute the effect of movable patches at their positions in the world, inside
+    /// `boxes`. has_moved: since the last begin(). Ignores changes of the lamps' light up to
+    /// `tolerance`. Requires !is_under_way().
     void begin(const std::vector<MovedBox>& boxes, bool has_moved, double tolerance);
-    /// One batch. Returns false once nothing is left to do.
+    /// Runs one batch. Returns false when finished.
     bool step();
     bool is_under_way() const { return under_way_; }
-    /// So far: fronts and backs, and of lamps.
+    /// Total of fronts, backs and lamps.
     std::uint64_t hemicubes() const { return hemicubes_ + lamps_.hemicubes(); }
 
 private:
@@ -61,16 +62,16 @@ private:
     LitViews back_views_;
     std::uint32_t batch_;  ///< K
     BackLayout back_layout_;
-    std::vector<ChosenPatch> patches_;                    ///< M: all that move
-    gpu::Array<ChosenPatch> list_;                        ///< of them, in whole batches
+    std::vector<ChosenPatch> patches_;                    ///< M: all movable ones
+    gpu::Array<ChosenPatch> list_;                        ///< patches_ in whole batches
     gpu::Array<Eye> back_eyes_;                           ///< [K]
     gpu::Array<BackPixel> back_;                          ///< [K][pixels of all levels]
     gpu::Array<std::uint32_t> lumel_of_;                  ///< [texels][2]
-    gpu::Array<std::uint32_t> near_first_, near_column_;  ///< rows of still lumels, moving columns
+    gpu::Array<std::uint32_t> near_first_, near_column_;  ///< static rows, movable columns
     gpu::Array<float> near_factor_;
     gpu::Array<glm::vec3> crossed_;           ///< [N] B^s without the lamps'
-    gpu::Array<glm::vec3> fresh_, crossing_;  ///< [N] what moving patches do: being found, in force
-    std::uint32_t next_ = 0;                  ///< of the list
+    gpu::Array<glm::vec3> fresh_, crossing_;  ///< [N] effect of movable patches: new, current
+    std::uint32_t next_ = 0;                  ///< next entry of the list
     bool under_way_ = false;
     std::uint64_t hemicubes_ = 0;
 };

@@ -1,8 +1,7 @@
 #version 460
 #include "methods/redistribution/cross.shared.h"
 
-// The light that is crossed: all that was shot, but for that of lamps, which is shot past what
-// moves.
+// Light that is crossed: all shot light except that of lamps, which is shot past movable objects.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossPartParams p; };

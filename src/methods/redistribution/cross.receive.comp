@@ -10,14 +10,14 @@
 #include "raster/near/near_factor.glsl"
 #include "solve/shooting/receiver.glsl"
 
-// What the patches j of what moves do to the lumels i of what stays [Hoef13] Eq. (3.3.1):
+// Effect of movable patches j on static lumels i, [Hoef13] Eq. (3.3.1):
 //
 //     ΔH_i = Σ_j F_ij (B_j - P(C, j, i))
 //
-// They send their own light, R_p(M, C), and hide the light that would pass through them,
-// R_x(C, C): P is the mean of the light behind j that rays from i through the lumels of j meet, as
-// the hemicube on the back of j shows it. F_ij of close pairs is the near field's. Where a mesh is
-// open, the backs of its patches hide light as well; they send none.
+// They send their own light, R_p(M, C), and occlude light that would pass through them, R_x(C, C):
+// P is the mean of the light behind j hit by rays from i through the lumels of j, from the hemicube
+// on the back of j. F_ij of close pairs is the near field's. Backs of patches of open meshes
+// occlude light as well; they send none.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossReceiveParams p; };
@@ -27,14 +27,14 @@ layout(scalar) readonly buffer Sent { vec3 shot[]; };
 layout(scalar) readonly buffer Back { BackPixel back[]; };
 layout(scalar) buffer Fresh { vec3 fresh[]; };
 
-// Rays through a lumel, along each of its sides, for each radian that it measures from the
-// receiver; and at most.
+// Rays through a lumel, along each of its sides, per radian that it subtends at the receiver; and
+// the maximum.
 const float kRaysPerRadian = 4.0;
 const float kMaxRays = 3.0;
 
-// r² in the weight of a ray is larger by this part of the lumel's area: finite where they touch.
+// Added to r² in the weight of a ray, relative to the lumel's area: finite where they touch.
 const float kTouching = 0.01;
-// Distances at which angles are taken are no less [m].
+// Minimum distance for angles [m].
 const float kMinDistance = 1e-6;
 
 ViewPoint point_in(uint side, vec3 direction)
@@ -42,16 +42,15 @@ ViewPoint point_in(uint side, vec3 direction)
     return project_to_hemicube(EyeViewLayout(side, 1u, 1.0), direction);
 }
 
-// 1 / distance at the pixel of a back hemicube in direction `direction` (t, b, n of the back eye;
-// n ≥ 0).
+// 1 / distance at the pixel of a back hemicube in a direction (t, b, n of the back eye; n ≥ 0).
 float inverse_behind(uint k, vec3 direction)
 {
     const ViewPoint f = point_in(p.back.side, direction);
     return back[back_pixel(p.back, k, 0u, uvec2(face_corner(p.back.side, f) + f.pixel))].inverse;
 }
 
-// Light in that direction, filtered over the four nearest pixels of a level. Faces end at their
-// edges: nothing is mixed across them [Hoef13] 4.5.2.
+// Light in that direction, filtered over the four nearest pixels of a level, but not across the
+// edges of faces [Hoef13] 4.5.2.
 vec3 level_behind(uint k, uint level, vec3 direction)
 {
     const uint side = back_side(p.back, level);
@@ -69,7 +68,7 @@ vec3 level_behind(uint k, uint level, vec3 direction)
     return sum;
 }
 
-// The same between two levels.
+// Light in that direction, interpolated between two levels.
 vec3 behind(uint k, float level, vec3 direction)
 {
     const uint fine = uint(level);
@@ -78,9 +77,9 @@ vec3 behind(uint k, float level, vec3 direction)
     return part > 0.0 ? mix(light, level_behind(k, fine + 1u, direction), part) : light;
 }
 
-// Light that a ray from x through the point y of a patch meets behind it, if it stands for a bundle
-// `width` wide at y [m]. The depth in the ray's own direction guesses where it ends; the back eye
-// looks there [Hoef13] 4.5.2, Reproject.
+// Light behind a patch along the ray from x through y, for a bundle of width `width` at y [m]. The
+// depth in the ray's own direction predicts where it ends; the back eye looks up that point
+// [Hoef13] 4.5.2, Reproject.
 vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
 {
     const vec3 ray = y - x;
@@ -92,7 +91,7 @@ vec3 light_along(uint k, mat3 frame, vec3 x, vec3 y, float width)
     if (inverse <= 0.0)
         return vec3(0.0);
     const vec3 toward = (y - eyes[k].position) * frame + direction / inverse;
-    // As wide is its end as seen from the back eye [rad], and in pixels.
+    // Width of its end, seen from the back eye [rad], in pixels.
     const float pixels = width * (inverse + 1.0 / r) * 0.5 * float(p.back.side);
     const float level = clamp(log2(max(pixels, 1.0)), 0.0, float(kBackLevels - 1u));
     return toward.z > 0.0 ? behind(k, level, toward) : vec3(0.0);
@@ -122,7 +121,7 @@ vec3 light_behind(uint k, Receiver r, Lumel m, bool is_asked)
     return weights > 0.0 ? sum / weights : vec3(0.0);
 }
 
-// F_ij for the lumel j of patch k, of which the receiver sees the patch's eye or not.
+// F_ij for the lumel j of patch k, given visibility of the patch's eye.
 float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
 {
     const Lumel from = lumels[j];
@@ -137,7 +136,7 @@ float factor_of(Receiver r, uint k, uint j, bool is_eye_seen)
            point_factor(r.x - from.position, shots[k].facing * from.normal, r.normal, disc);
 }
 
-// Of all lumels of patch k.
+// Effect of all lumels of patch k.
 vec3 crossing_light(Receiver r, uint k)
 {
     const PatchShot s = shots[k];
@@ -159,7 +158,7 @@ void main()
     const Lumel lumel = lumels[i];
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
-    // From one point, so that what the patches hide fits together.
+    // From one point, so that the light occluded by adjacent patches is consistent.
     const Receiver r =
         receiver_at(LumelPoint(lumel.position, lumel.normal, lumel.normal, 0u), lumel, i);
     vec3 sum = vec3(0.0);

@@ -4,7 +4,7 @@
 #include "methods/redistribution/cross.back.glsl"
 
 // Back hemicubes with their mipmaps, [Hoef13] 4.5.2: level 0 is the mean of each pixel's samples,
-// the others that of four pixels. Faces lie at even pixels: no pixel mixes two of them.
+// other levels that of four pixels. Faces start at even pixels: no pixel mixes two of them.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ResolveParams p; };
@@ -18,7 +18,7 @@ BackPixel drawn_at(uint k, uvec2 pixel)
     vec4 sum = vec4(0.0);
     for (int s = 0; s < int(p.samples); ++s)
         sum += texelFetch(views, at, s);
-    // Stored is near / distance along the face's axis.
+    // The image stores near / distance along the face's axis.
     const float along_axis = p.views.near * length(ray_to(p.views.side, pixel));
     return BackPixel(sum.rgb / float(p.samples), sum.a / (float(p.samples) * along_axis));
 }

@@ -1,7 +1,7 @@
 #version 460
 #include "methods/redistribution/cross.shared.h"
 
-// Lumels of moving patches send all that they have [Hoef13] 4.5.1: B = E + ρH.
+// Lumels of movable patches send all their light [Hoef13] 4.5.1: B = E + ρH.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { BackEyesParams p; };

@@ -2,8 +2,7 @@
 #include "methods/redistribution/cross.shared.h"
 #include "atlas/packing/lumel.shared.h"
 
-// What moving patches send and hide takes the place of what they did before. Nothing adds up over
-// many moves.
+// Replaces the previous effect of movable patches. Nothing accumulates over moves.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { CrossSettleParams p; };

@@ -3,18 +3,17 @@
 #include "solve/transport/patch_shots.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kMaxBlock = 16u;   ///< lumels of a patch at most: the cells of its grid
-LUMEL_CONST uint kBackLevels = 4u;  ///< of the mipmaps of back hemicubes
+LUMEL_CONST uint kMaxBlock = 16u;   ///< maximum lumels per patch: the cells of its grid
+LUMEL_CONST uint kBackLevels = 4u;  ///< mipmap levels of back hemicubes
 
-/// What a back hemicube shows at a pixel.
 struct BackPixel {
-    vec3 shot;      ///< B^s of what is seen [lm/m²]
-    float inverse;  ///< 1 / distance [1/m], 0: nothing is seen
+    vec3 shot;      ///< B^s of the surface seen [lm/m²]
+    float inverse;  ///< 1 / distance [1/m], 0: no surface
 };
 
-/// The mipmaps of back hemicubes, one after another: of each hemicube all levels.
+/// Mipmaps of back hemicubes: all levels of one hemicube, then of the next.
 struct BackLayout {
-    uint side;          ///< of the front face at level 0 [pixels]
+    uint side;          ///< side of the front face at level 0 [pixels]
     uint per_hemicube;  ///< pixels of all levels
 };
 
@@ -29,7 +28,7 @@ struct ResolveParams {
     BackLayout back;
     uint level;
     uint batch;    ///< K
-    uint samples;  ///< of a pixel of the image
+    uint samples;  ///< samples per pixel of the image
 };
 
 /// Push constants of cross.gather.comp.
@@ -37,7 +36,7 @@ struct CrossGatherParams {
     EyeViewLayout views;
     uint count;         ///< N lumels
     uint batch;         ///< K
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 /// Push constants of cross.receive.comp.
@@ -47,7 +46,7 @@ struct CrossReceiveParams {
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint shots;         ///< K
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 /// Push constants of cross.part.comp.

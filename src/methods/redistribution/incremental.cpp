@@ -3,30 +3,31 @@
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Sections 3.1, 3.2 and 4.4.
 //
-// What is kept is H = T B^s (progressive.cpp). After a move T is T', and
+// Stores H = T B^s (progressive.cpp). After a move T is T', and
 //
 //     H' = H - T B^s + T' B^s                                              Eq. (3.2.1)
 //
-// restricted to the pairs that differ: those that moved, and those that what moved came between or
-// left. [Hoef13] section 3.1 names them by who shoots and who receives, C still and M moved:
+// restricted to the pairs that differ: those that moved, and those that moved objects came between
+// or left. [Hoef13] section 3.1 names them by shooter and receiver, C static and M moved:
 //
-//     R(M, C)   the light of M is taken back from where it was, and sent from where it is
-//     R(C, M)   M forgets what arrived, and all is shot to it anew (reshooting, Eq. (4.4.1))
-//     R(M, M)   the same
-//     R(C, C)   taken back with the views of before, sent with those of after: the four cases of
+//     R(M, C)   the light of M is taken back from its old position, and sent from the new one
+//     R(C, M)   M discards the light that arrived, and all is shot to it again (reshooting, Eq.
+//               (4.4.1))
+//     R(M, M)   as R(C, M)
+//     R(C, C)   taken back with the old views, sent with the new ones: the four cases of
 //               section 4.4.1 with the visibility of each
 //
 // T never changes, so errors do not accumulate over many moves.
 //
 // Differs from the thesis:
-// - What a patch sees is kept, a bit for each lumel (visibility_rows.h). The thesis renders two
-//   hemicubes for each patch; here the one of before is needed only where nothing is kept yet, and
-//   light is found only where a bit changes.
-// - Light not shot yet is not sent along. It is shot afterwards over the bits kept, without further
+// - Visibility of patches is stored, one bit per lumel (visibility_rows.h). The thesis renders
+//   two hemicubes for each patch; here the old one is needed only where nothing is stored yet, and
+//   light is computed only where a bit changes.
+// - Unshot light is not sent along. It is shot afterwards over the stored bits, without further
 //   hemicubes (remaining_light.h).
-// - Pairs whose line of sight stays clear of what moved are not looked up.
+// - Pairs whose line of sight does not cross moved objects are skipped.
 //
-// Patches without rows, and all where none may be kept, have the thesis' two hemicubes.
+// Patches without rows, and all if no memory is allowed for them, use the thesis' two hemicubes.
 
 #include "methods/redistribution/incremental.h"
 
@@ -37,11 +38,10 @@
 namespace lumel {
 namespace {
 
-/// Pixels by which an edge may seem to stand out: the test of visibility reads pixels around a
-/// point.
+/// Pixels by which an edge can seem to protrude: the visibility test reads pixels around a point.
 constexpr float kEdgePixels = 3.0f;
 
-/// Do all corners of the box lie behind the plane through x?
+/// True if all corners of the box are behind the plane through x.
 bool is_behind(const MovedBox& box, const glm::vec3& x, const glm::vec3& normal, float slack)
 {
     const glm::vec3 highest = glm::mix(box.low, box.high, glm::greaterThan(normal, glm::vec3(0)));
@@ -151,7 +151,7 @@ const ShotList& IncrementalRedistribution::list() const
                                    : after_list_;
 }
 
-/// Skips phases that have nothing to do.
+/// Starts a phase, or the next one that has work.
 void IncrementalRedistribution::go_to(Phase phase)
 {
     phase_ = phase;

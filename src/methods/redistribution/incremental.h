@@ -1,6 +1,6 @@
 #pragma once
-// Incremental radiosity [Hoef13] 4.4: a progressive solution is corrected, not solved again, when
-// something moves. See incremental.cpp.
+// Incremental radiosity [Hoef13] 4.4: corrects a progressive solution when objects move. See
+// incremental.cpp.
 
 #include <functional>
 
@@ -12,44 +12,45 @@
 
 namespace lumel {
 
-/// A move of some instances.
 struct Move {
     std::vector<std::uint32_t> moved;   ///< [instances] 1: it moves
-    std::vector<glm::mat4> transforms;  ///< [instances] where all are after it
-    std::vector<MovedBox> boxes;        ///< what moves, before and after
+    std::vector<glm::mat4> transforms;  ///< [instances] transforms after the move
+    std::vector<MovedBox> boxes;        ///< bounds of moved instances, before and after
 };
 
-/// The angle [rad] by which views may show an edge to stand out.
+/// Angle [rad] by which an edge can seem to protrude in the views.
 float edge_slack(const EyeViewLayout& views);
 
-/// May the patch see what moves, before or after? Where instances stood before: `places`.
+/// True if the patch can see moved instances, before or after. places: transforms of instances
+/// before.
 bool may_see(const Move& move, const Lumels& lumels, const std::vector<glm::mat4>& places,
              const Patch& patch, float slack);
 
-/// Redistributes what was shot, batch by batch.
+/// Redistributes shot light, batch by batch.
 class IncrementalRedistribution {
 public:
-    /// world: the solver's, made with movers. rows: of what is in the world. All must outlive it.
+    /// world: the solver's, made with movers. rows: for the geometry in the world. All must outlive
+    /// this.
     IncrementalRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
                               ProgressiveRadiosity& solver, VisibilityRows& rows,
                               Projection projection);
 
-    /// Begins to correct the solution for a move. Nothing may be under way. False if that is all:
-    /// nothing was shot yet.
+    /// Starts to correct the solution for a move. Requires !is_under_way(). Returns false if there
+    /// is no work: no light was shot yet.
     bool begin(Move move);
-    /// One batch. Returns false once nothing is left to do; then the world is as after the move,
-    /// and the solver may go on (the light of close pairs is for the caller: set_near_field()).
+    /// Runs one batch. Returns false when finished: the world is then as after the move, and the
+    /// solver can continue once the caller has set the near field: set_near_field().
     bool step();
     bool is_under_way() const { return phase_ != Phase::none; }
-    std::uint64_t hemicubes() const { return hemicubes_; }  ///< of all moves so far
+    std::uint64_t hemicubes() const { return hemicubes_; }  ///< total over all moves
 
 private:
-    /// What is done, in this order, to one list of patches after the other.
+    /// Phases, each over a list of patches, in this order.
     enum class Phase {
         none,
-        before,  ///< those of which it is not known see the world as it was
-        back,    ///< those that move take their light back
-        after,   ///< all see the world as it is, and redistribute
+        before,  ///< patches of unknown visibility see the world before the move
+        back,    ///< moving patches take their light back
+        after,   ///< all see the world after the move, and redistribute
     };
     struct Patches3 {
         std::vector<ChosenPatch> unknown, moving, all;
@@ -72,8 +73,8 @@ private:
     gpu::Array<MovedBox> boxes_;
     ShotList before_list_, back_list_, after_list_;
     Move move_;
-    std::vector<glm::mat4> before_;  ///< [instances] where all were
-    std::uint32_t next_ = 0;         ///< of the list
+    std::vector<glm::mat4> before_;  ///< [instances] transforms before the move
+    std::uint32_t next_ = 0;         ///< next entry of the list
     Phase phase_ = Phase::none;
     std::uint64_t hemicubes_ = 0;
 };

@@ -9,15 +9,15 @@
 #include "solve/transport/patch_light.glsl"
 #include "methods/redistribution/visibility_rows.glsl"
 
-// Redistributes what the patches of a batch have shot [Hoef13] 4.4, Eq. (3.2.1):
+// Redistributes the shot light of a batch of patches, [Hoef13] 4.4, Eq. (3.2.1):
 //
 //     H_i += Σ_k B_k^s A_k · (V' - V) · cosθ_i cosθ_k / (π r²)
 //
-// Only pairs are looked at that moved themselves, R(C,M), R(M,C), R(M,M), or whose line of sight
-// meets what moved, R(C,C); where nothing moved, V' is V. Of patches with rows V is what was kept,
-// so that light is found only where V' differs: the four cases of section 4.4.1. Those without rows
-// are sent with - and the views of before, then with + and those of after. What pairs that moved
-// had is taken away before: to them all is sent anew.
+// Processes only pairs that moved, R(C,M), R(M,C), R(M,M), or whose line of sight crosses a moved
+// object, R(C,C); elsewhere V' is V. For patches with rows V is stored, and light is computed only
+// where V' differs: the four cases of section 4.4.1. Patches without rows send with - and the old
+// views, then with + and the new ones. The light of pairs that moved is taken away before: all is
+// sent to them again.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { RedistributeParams p; };
@@ -26,11 +26,10 @@ layout(scalar) readonly buffer Moved { uint moved[]; };  // [instances]
 layout(scalar) readonly buffer Boxes { MovedBox boxes[]; };  // [p.boxes]
 
 const uint kWordBits = 32u;
-// No point of a lumel is farther from its position than this many times its size (lumel.shared.h).
+// Bounding radius of a lumel about its position, in sizes (lumel.shared.h).
 const float kReach = 1.4143;
 
-// Does the segment, so wide where it ends, meet the box, made larger by what a view's pixels may
-// add to it?
+// True if the segment, of this width at its end, hits the box, enlarged by the views' pixel error.
 bool meets(MovedBox box, vec3 from, vec3 direction, float width)
 {
     const vec3 reach = max(abs(box.low - from), abs(box.high - from));
@@ -43,7 +42,7 @@ bool meets(MovedBox box, vec3 from, vec3 direction, float width)
            min(min(leave.x, leave.y), min(leave.z, 1.0));
 }
 
-// Can a line of sight from a point to anywhere on the lumel meet what moved?
+// True if a line of sight from a point to any point of the lumel can hit moved objects.
 bool is_affected(vec3 from, Lumel to)
 {
     bool any = false;
@@ -57,7 +56,7 @@ bool has_moved(uint k)
     return moved[lumels[shots[k].first].instance] != 0u;
 }
 
-// Of the shots from `first` on, as many as a word has bits: those that matter.
+// Bits of the next kWordBits shots from `first` on that can have changed.
 uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
 {
     uint found = 0u;
@@ -68,7 +67,7 @@ uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
     return found;
 }
 
-// What a shot changes at the lumel: what it sends now, less what it sent before.
+// Change by a shot at the lumel: its light now minus its light before.
 vec3 change_of(uint k, Lumel lumel, uint i, bool lumel_moved)
 {
     const uint row = row_of[p.first_place + k];
@@ -92,7 +91,8 @@ void main()
     const bool i_moved = moved[lumel.instance] != 0u;
     if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.sign_factor < 0.0))
         return;
-    // First which, then their light: a group takes as many rounds as one lumel of it has shots.
+    // First selects shots, then adds their light: a group takes as many rounds as its lumel with
+    // most shots.
     vec3 sum = vec3(0.0);
     for (uint first = 0u; first < p.shots; first += kWordBits)
         for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)

@@ -2,7 +2,7 @@
 #include "methods/redistribution/incremental.shared.h"
 #include "atlas/packing/lumel.shared.h"
 
-// What arrived at moved lumels is forgotten: they are shot anew [Hoef13] 4.4.1.
+// Clears the light of moved lumels: it is shot again [Hoef13] 4.4.1.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { ResetParams p; };

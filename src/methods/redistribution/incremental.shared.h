@@ -11,12 +11,12 @@ struct RedistributeParams {
     uint last;
     uint count;         ///< N lumels
     uint shots;         ///< K
-    uint first_place;   ///< of the batch in its list
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
-    uint boxes;         ///< of what moved, before and after
-    float slack;        ///< angle [rad] by which views may show them larger
-    float sign_factor;  ///< -1: takes light of patches without rows back, 1: sends all anew
-    uint keeps;         ///< 1: rows are to hold what is seen now
+    uint first_place;   ///< index of the batch in its list
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
+    uint boxes;         ///< boxes of moved instances, before and after
+    float slack;        ///< angle [rad] by which they can seem larger in views
+    float sign_factor;  ///< -1: takes light of patches without rows back, 1: sends all
+    uint keeps;         ///< 1: stores the current visibility in rows
 };
 
 /// Push constants of incremental.reset.comp.

@@ -1,15 +1,15 @@
-// Lamps shot past what moves.
+// Shoots light of lamps past movable objects.
 //
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Sections 3.2, 4.4 and 4.5.2.
 //
 // Cross projection sees a lamp through a small hemicube on the back of each moving patch, and the
 // thesis names the undersampling of small lamps as its main artefact (sections 4.5.2, 5.2.1). Here
-// the patches of lamps send their light past what moves, as in incremental radiosity: R(C, M), and
-// R(C, C) of lamps alone. The rest, which is spread evenly, is crossed.
+// the patches of lamps send their light past movable objects, as in incremental radiosity: R(C, M),
+// and R(C, C) for lamps alone. The rest, which is distributed smoothly, is crossed.
 //
-// Without movers a lamp sees the same for ever: its rows are kept. Where movers stand still and
-// lamps hardly change, what was found is used again.
+// Without movable objects a lamp's views never change: its rows are stored. While objects rest and
+// lamps hardly change, earlier results are reused.
 
 #include "methods/redistribution/lamp_shadows.h"
 
@@ -21,7 +21,7 @@
 namespace lumel {
 namespace {
 
-/// A lamp throws the shadows of what moves from so many points at least, if it has shot from as
+/// Minimum number of points that a lamp casts the objects' shadows from, if it has shot from as
 /// many.
 constexpr std::uint32_t kMinPoints = 64;
 
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> words_of(const std::vector<char>& flags)
     return {flags.begin(), flags.end()};
 }
 
-/// How much the lamps' light differs, as a part of it.
+/// Relative change of the lamps' light.
 double change(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& now,
               const std::vector<std::uint32_t>& is_lamp)
 {
@@ -95,8 +95,8 @@ void LampShadows::begin(const std::vector<MovedBox>& boxes, bool has_moved, doub
         list_.reset();
 }
 
-/// [C] at which lamps shoot here; kNoLevel: no lamp's. As what is found does not add up over moves,
-/// it need not be what they shot at before.
+/// [C] Level at which each lamp's chart shoots here; kNoLevel: not a lamp. It can differ from the
+/// level shot at before, as results do not accumulate over moves.
 std::vector<std::uint32_t> LampShadows::levels() const
 {
     const Patches& layout = solver_->shots().layout();

@@ -1,6 +1,6 @@
 #pragma once
-// What moves in the light of lamps, for cross redistribution: found by views from the lamps, where
-// the backs of what moves would show a small lamp as a few pixels. See lamp_shadows.cpp.
+// Movable objects in the light of lamps, for cross redistribution: rendered from the lamps, since
+// backs of objects would show a small lamp as a few pixels. See lamp_shadows.cpp.
 
 #include <optional>
 #include <vector>
@@ -9,27 +9,27 @@
 
 namespace lumel {
 
-/// Lamps are charts of which a lumel shines by itself, and that do not move.
+/// Lamps are static charts with an emissive lumel.
 class LampShadows {
 public:
-    /// movers [instances]: 1 if it may move. most_bytes: VisibilityRows. All must outlive it.
+    /// movers [instances]: 1 if movable. most_bytes: VisibilityRows. All must outlive this.
     LampShadows(const gpu::Device& device, World& world, const Lumels& lumels,
                 ProgressiveRadiosity& solver, std::vector<char> movers, std::uint64_t most_bytes);
 
-    /// [N] 1: a lamp's.
+    /// [N] 1: lumel of a lamp.
     const gpu::Array<std::uint32_t>& lamps() const { return is_lamp_; }
 
-    /// Begins to find anew what arrives where movers are now in the world: at most `tolerance` of
-    /// the lamps' light may have changed for what was found before to hold. boxes: around movers.
+    /// Starts to recompute the light for the current positions of objects, unless nothing has moved
+    /// and the lamps' light has changed by at most `tolerance`. boxes: bounds of movable objects.
     void begin(const std::vector<MovedBox>& boxes, bool has_moved, double tolerance);
-    /// One batch. False once nothing is left to do.
+    /// Runs one batch. Returns false when finished.
     bool step();
     bool is_under_way() const { return list_.has_value(); }
 
-    /// [N] light of the lamps [lx]: what moving lumels receive; what movers keep from the others,
-    /// as a negative number.
+    /// [N] light of the lamps [lx]: received by movable lumels; for others, the light that objects
+    /// occlude, negative.
     const gpu::Array<glm::vec3>& light() const { return light_; }
-    std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far
+    std::uint64_t hemicubes() const { return hemicubes_; }  ///< total
 
 private:
     std::vector<std::uint32_t> levels() const;
@@ -41,15 +41,15 @@ private:
     World* world_;
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
-    VisibilityRows rows_;  ///< of the world without movers
+    VisibilityRows rows_;  ///< for the world without movable objects
     std::vector<char> movers_;
     std::vector<std::uint32_t> lamp_of_;  ///< [N]
     gpu::Kernel<shaders::IncrementalReceive> receive_;
     gpu::Array<std::uint32_t> is_lamp_, moved_;
     gpu::Array<MovedBox> boxes_;
     gpu::Array<glm::vec3> light_;
-    std::vector<glm::vec3> shot_;   ///< [N] B^s of the lamps that light_ is of
-    std::optional<ShotList> list_;  ///< under way
+    std::vector<glm::vec3> shot_;   ///< [N] B^s of the lamps when light_ was computed
+    std::optional<ShotList> list_;  ///< present while in progress
     std::uint32_t next_ = 0;
     std::uint64_t hemicubes_ = 0;
 };

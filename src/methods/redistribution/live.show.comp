@@ -2,7 +2,7 @@
 #include "methods/redistribution/live.shared.h"
 #include "atlas/packing/lumel.shared.h"
 
-// Irradiance of the lumels, and the same as texels of the atlas. Backs of double-sided surfaces
+// Writes the irradiance of lumels, and texels of the atlas from it. Backs of double-sided surfaces
 // share their texels with the fronts, which are shown.
 
 layout(local_size_x = kShowGroup) in;

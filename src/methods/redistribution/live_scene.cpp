@@ -18,14 +18,14 @@ gpu::Target image_of(const gpu::Device& device, const Atlas& atlas)
     return {device, gpu::Pixel::rgba32, std::uint32_t(atlas.width), std::uint32_t(atlas.height)};
 }
 
-/// Batches between two looks at how much light is still to be shot: looking costs a wait.
+/// Batches between readbacks of the residual, each of which waits for the device.
 constexpr int kBatchesALook = 8;
 
-/// Where no more than this part of all light is still to be shot, the patches that have most of it
-/// shoot it one by one; else charts do, and choose how finely.
+/// Below this relative residual, the patches with most unshot light shoot one by one; above it,
+/// charts do, and choose their level.
 constexpr double kMaxToCorrect = 0.1;
-/// Of the light that may stay unshot, this part is left outside the patches chosen: theirs is
-/// reflected in turn.
+/// Fraction of the allowed residual left outside the chosen patches: their light is reflected in
+/// turn.
 constexpr double kLeftOutside = 0.5;
 
 std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
@@ -36,7 +36,7 @@ std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
     for (const std::uint32_t instance : options.movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, "instance " + std::to_string(instance),
-                        "is to move, but the scene has only " + std::to_string(flags.size()));
+                        "cannot move: the scene has only " + std::to_string(flags.size()));
         flags[instance] = 1;
     }
     return flags;
@@ -47,7 +47,7 @@ Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<c
 {
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     mark_buried_by_still(scene, movers, lumels);
     if (redistribution == Redistribution::cross)
         for (Lumel& lumel : lumels.lumels)
@@ -62,7 +62,7 @@ NearFieldOptions near_field_options(const LiveOptions& options)
         SolverOptions{.method = options.solver, .target_error = options.target_error});
 }
 
-/// Of the area of all surfaces.
+/// Area of movers relative to all surfaces.
 double share_of(const std::vector<char>& movers, const Lumels& lumels)
 {
     double moving = 0.0, all = 0.0;
@@ -81,7 +81,7 @@ std::vector<char> open_meshes(const Scene& scene)
     return open;
 }
 
-/// With cross redistribution: of pairs that stay, as if nothing else were there.
+/// With cross redistribution: near field of static pairs, as if there were no movers.
 NearField near_field_of_still(const Scene& scene, const Lumels& lumels,
                               const std::vector<char>& movers, const LiveOptions& options)
 {
@@ -95,18 +95,18 @@ NearField near_field_of_still(const Scene& scene, const Lumels& lumels,
                                   near_field_options(options));
 }
 
-/// Of all pairs; with cross redistribution of those that move.
+/// Near field of all pairs; with cross redistribution, of pairs with movers.
 MovingNearField near_field_of_moving(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                                      const std::vector<char>& movers, const LiveOptions& options)
 {
     NearFieldOptions near = near_field_options(options);
     if (options.redistribution == Redistribution::incremental)
         return {scene, rays, lumels, near, movers, NearPairsOf::all};
-    near.most_pairs = std::numeric_limits<std::size_t>::max();  // as with those that stay
+    near.most_pairs = std::numeric_limits<std::size_t>::max();  // as for static pairs
     return {scene, rays, lumels, near, movers, NearPairsOf::movers};
 }
 
-/// Rows of lumels that stay from the one, rows of those that move from the other.
+/// Rows of static lumels from `still`, rows of movers from `moving`.
 NearField joined(const NearField& still, const NearField& moving, const Lumels& lumels)
 {
     NearField rows;
@@ -174,9 +174,9 @@ void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
     const std::string name = "instance " + std::to_string(instance);
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not one of those that may move");
+        throw Error(ErrorKind::input, name, "is not movable");
     if (!is_rigid(scene_.instances[instance].transform, transform))
-        throw Error(ErrorKind::input, name, "may be turned and moved, but not stretched");
+        throw Error(ErrorKind::input, name, "can be rotated and moved, but not stretched");
     requested_[instance] = transform;
 }
 
@@ -211,7 +211,7 @@ void LiveScene::set_sky(const glm::vec3& factor)
     light_changes();
 }
 
-/// To find what lamps send with things where they are now.
+/// Starts to compute the lamps' light for the current positions.
 void LiveScene::begin_lamps()
 {
     if (lamps_.empty())
@@ -271,8 +271,8 @@ bool LiveScene::is_at_rest() const
            (!cross_ || is_crossed());
 }
 
-/// Movers meet their share of what is shot, and change as much by what they hide as by what they
-/// send on: so much of it is less than what may be left to be shot.
+/// True if the effect of movers is accurate enough. Movers receive their share of unshot light, and
+/// occlude about as much as they send on: both are below the allowed residual.
 bool LiveScene::is_crossed() const
 {
     return crossed_ && 2.0 * moving_share_ * uncrossed_ <= options_.residual;
@@ -317,7 +317,7 @@ void LiveScene::begin_move()
     cross_->begin(boxes, !move_.boxes.empty(), options_.residual);
 }
 
-/// Rays and close pairs, at the cost of what has moved.
+/// Updates rays and near pairs, at the cost of the moved instances.
 void LiveScene::follow_move()
 {
     std::vector<std::uint32_t> moved;
@@ -346,7 +346,7 @@ void LiveScene::end_move()
         settle_move();
 }
 
-/// What is left to be shot once lamps are known.
+/// Reads the residual once the lamps' light is known.
 void LiveScene::settle_move()
 {
     state_.residual = solver_.residual();
@@ -368,7 +368,7 @@ void LiveScene::work()
     } else if (is_move_requested() ||
                (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
         if (unseen_)
-            show();  // what never stops is seen all the same
+            show();  // also shows objects in constant motion
         begin_move();
     } else {
         shoot();
@@ -392,7 +392,7 @@ void LiveScene::shoot()
     if (!remaining_.is_under_way()) {
         const double before = state_.residual;
         state_.residual = solver_.residual();
-        uncrossed_ += before;  // all of it, as a part may since have been reflected
+        uncrossed_ += before;  // all of it, as a part can have been reflected since
     }
 }
 

@@ -1,4 +1,4 @@
-// The patches that shoot after a redistribution.
+// Patches that shoot after a redistribution.
 //
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
 //            Utrecht University, 2013. Sections 3.2 and 4.4.1.
@@ -7,7 +7,7 @@
 // - Patches are chosen one by one, by their own light, where the progressive pass shoots whole
 //   charts: a move changes the light of a few.
 // - The thesis merges this pass with the redistribution, so that a patch renders once for both.
-//   Here what it saw is kept (visibility_rows.h), and this pass renders nothing.
+//   Here visibility is stored (visibility_rows.h), and this pass renders nothing.
 
 #include "methods/redistribution/remaining_light.h"
 
@@ -20,7 +20,7 @@
 namespace lumel {
 namespace {
 
-/// Patches that must shoot in one batch: all points of a lumel, or one block.
+/// Patches that must shoot in the same batch: all points of a lumel, or one block.
 struct Unit {
     ChosenPatch first;
     std::uint32_t patches;
@@ -29,8 +29,8 @@ struct Unit {
 
 struct Choice {
     std::vector<Unit> units;
-    double total = 0.0;        ///< of all
-    double unreachable = 0.0;  ///< of charts without a level
+    double total = 0.0;        ///< [lm]
+    double unreachable = 0.0;  ///< light of charts without a level [lm]
 };
 
 /// A |𝓛(B^u)| of each lumel [lm].
@@ -77,7 +77,7 @@ Choice all_units(const Patches& layout, const std::vector<std::uint32_t>& levels
     return all;
 }
 
-/// Those with the most light for each hemicube, until no more than `left` [lm] is outside them.
+/// Units with the most light per hemicube, until at most `left` [lm] is outside them.
 std::vector<Unit> brightest(Choice all, double left)
 {
     std::vector<Unit>& units = all.units;
@@ -92,7 +92,7 @@ std::vector<Unit> brightest(Choice all, double left)
     return std::move(units);
 }
 
-/// One after another, none across the end of a batch.
+/// Concatenates units, none of them across the end of a batch.
 std::vector<ChosenPatch> in_batches(std::vector<Unit> units, std::uint32_t batch)
 {
     std::stable_sort(units.begin(), units.end(),
@@ -129,7 +129,7 @@ bool RemainingLight::begin(double left)
     const double allowed = left * all.total;
     if (all.unreachable > allowed)
         return false;
-    std::array<std::vector<Unit>, 3> parts;  // known, to be known, without rows
+    std::array<std::vector<Unit>, 3> parts;  // visibility stored, to be stored, without rows
     for (const Unit& unit : brightest(std::move(all), allowed)) {
         bool known = true;
         ChosenPatch patch = unit.first;

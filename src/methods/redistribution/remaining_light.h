@@ -1,5 +1,5 @@
 #pragma once
-// What redistribution leaves to be shot: few patches have most of it, and they shoot it first.
+// Shoots the light that a redistribution leaves, from the few patches that have most of it.
 
 #include <vector>
 
@@ -11,27 +11,27 @@ namespace lumel {
 /// Shoots from the patches with the most light left, in rounds.
 class RemainingLight {
 public:
-    /// rows: of what is in the world when step() is called. All must outlive it.
+    /// rows: for the geometry in the world during step(). All must outlive this.
     RemainingLight(ProgressiveRadiosity& solver, VisibilityRows& rows);
 
-    /// Chooses patches, so that of the light still to be shot no more than `left` of it is outside
-    /// them. False, and nothing is chosen, where charts have more that never shot: the solver has
-    /// not chosen how finely yet. Waits for the device.
+    /// Chooses patches, so that at most the fraction `left` of the unshot light is outside them.
+    /// Returns false, and chooses none, if charts that never shot have more: they have no level
+    /// yet. Waits for the device.
     bool begin(double left);
     bool is_under_way() const { return at_ < lists_.size(); }
-    /// One batch of what was chosen.
+    /// Shoots one batch of the chosen patches.
     void step();
-    /// What is chosen is not shot.
+    /// Discards the chosen patches.
     void drop() { lists_.clear(); }
 
-    std::uint64_t hemicubes() const { return hemicubes_; }  ///< so far
+    std::uint64_t hemicubes() const { return hemicubes_; }  ///< total
 
 private:
     ProgressiveRadiosity* solver_;
     VisibilityRows* rows_;
-    std::vector<ShotList> lists_;  ///< of patches whose views are kept, are to be, and cannot be
-    std::size_t at_ = 0;           ///< of them
-    std::uint32_t next_ = 0;       ///< of its patches
+    std::vector<ShotList> lists_;  ///< visibility stored, to be stored, without rows
+    std::size_t at_ = 0;           ///< current list
+    std::uint32_t next_ = 0;       ///< next patch of the list
     std::uint64_t hemicubes_ = 0;
 };
 

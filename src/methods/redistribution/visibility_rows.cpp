@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-/// Rows are made room for in so many words of each lumel at a time.
+/// Storage grows by this number of words per lumel.
 constexpr std::uint32_t kWordsAtATime = 16;
 
 }  // namespace
@@ -42,7 +42,7 @@ void VisibilityRows::follow(std::span<const std::uint32_t> levels)
     make_room(rows_);
 }
 
-/// Of a lumel, in all its rows.
+/// Maximum words per lumel, for all its rows.
 std::uint32_t VisibilityRows::most_words() const
 {
     const std::uint64_t words = most_bytes_ / (std::uint64_t(count_) * sizeof(std::uint32_t));
@@ -113,7 +113,7 @@ RowsParams VisibilityRows::params(std::uint32_t first, std::uint32_t last,
 void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("keep what is seen", count_, kProbeLumels,
+    solver_->pacer().work("record visibility", count_, kProbeLumels,
                           [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
                               commands.dispatch(
                                   record_,
@@ -135,7 +135,7 @@ void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 void VisibilityRows::shoot(const ShotList& list, std::uint32_t first, float sign)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("shoot what is seen", count_, kProbeLumels,
+    solver_->pacer().work("shoot by visibility", count_, kProbeLumels,
                           [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
                               RowsParams given = params(from, to, first);
                               given.sign_factor = sign;

@@ -1,9 +1,9 @@
 #ifndef LUMEL_LIVE_VISIBILITY_ROWS_GLSL
 #define LUMEL_LIVE_VISIBILITY_ROWS_GLSL
 
-// V of patches and lumels, as it was when the patch last looked: a bit for each pair. 32 patches
-// share the word of a lumel, and only the lumel's own invocation writes it. Declares the rows of a
-// list of patches and the bits.
+// V of patches and lumels when the patch last rendered its view: one bit per pair. 32 patches share
+// a word of a lumel, which only the lumel's own invocation writes. Declares the rows of a list of
+// patches and the bits.
 
 #include "methods/redistribution/visibility_rows.shared.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-// What patches see, kept: V of each patch and lumel, a bit a pair. What is kept needs no hemicube
-// when light is shot again or taken back.
+// Stored visibility V of each patch and lumel, one bit per pair: light can be shot again or taken
+// back without hemicubes.
 
 #include <span>
 #include <vector>
@@ -12,38 +12,39 @@
 
 namespace lumel {
 
-/// Patches that shoot one after another, with their rows, on the device.
+/// Patches that shoot in order, with their rows, on the device.
 struct ShotList {
     std::vector<ChosenPatch> patches;  ///< in whole batches
-    gpu::Array<ChosenPatch> chosen;    ///< the same
-    gpu::Array<std::uint32_t> rows;    ///< of each, or kNoRow
+    gpu::Array<ChosenPatch> chosen;    ///< patches on the device
+    gpu::Array<std::uint32_t> rows;    ///< row of each, or kNoRow
     bool empty() const { return patches.empty(); }
 };
 
 class VisibilityRows {
 public:
-    /// Keeps no more than `most_bytes`, nor than one array of the device holds; patches beyond them
-    /// have no rows. While it grows there are two arrays. All must outlive it.
+    /// Stores at most `most_bytes`, or one array of the device; patches beyond them have no rows.
+    /// There are two arrays while it grows. All must outlive this.
     VisibilityRows(const gpu::Device& device, const World& world, ProgressiveRadiosity& solver,
                    Projection projection, std::uint64_t most_bytes);
 
-    /// Makes room for the patches of charts at the levels [C] at which they shoot. Nothing may be
-    /// at work on it.
+    /// Allocates rows for patches of charts at their shooting levels [C]. Requires that no work is
+    /// using the rows.
     void follow(std::span<const std::uint32_t> levels);
 
     /// kNoRow if there is none.
     std::uint32_t row_of(const ChosenPatch& patch) const;
-    /// Is what it sees kept?
+    /// True if its visibility is stored.
     bool knows(const ChosenPatch& patch) const;
     void forget(const ChosenPatch& patch);
 
-    /// In whole batches; patches without rows have kNoRow. Empty if there are none.
+    /// In whole batches; patches without rows have kNoRow. Empty if there are no patches.
     ShotList list_of(std::vector<ChosenPatch> patches) const;
 
-    /// Keeps what the batch that begins at `first` of the list, taken and looked from, sees.
+    /// Stores the visibility of the batch at `first` of the list. Requires that it is taken and
+    /// rendered.
     void record(const ShotList& list, std::uint32_t first);
-    /// What that batch, taken, sends arrives × sign at all lumels that it saw. Those that are
-    /// kLumelMoving receive nothing.
+    /// Adds light of that batch × sign to all lumels that it saw, except kLumelMoving ones.
+    /// Requires that it is taken.
     void shoot(const ShotList& list, std::uint32_t first, float sign);
 
     gpu::Array<std::uint32_t>& seen() { return seen_; }  ///< visibility_rows.glsl

@@ -9,7 +9,7 @@
 #include "solve/transport/patch_light.glsl"
 #include "methods/redistribution/visibility_rows.glsl"
 
-// Keeps V of all lumels as the patches of a batch see them.
+// Stores V of all lumels for the patches of a batch.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { RowsParams p; };

@@ -4,7 +4,7 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kRowsInAWord = 32u;
-LUMEL_CONST uint kNoRow = 0xffffffffu;  ///< of a patch that has none
+LUMEL_CONST uint kNoRow = 0xffffffffu;  ///< patch without a row
 
 /// Push constants of visibility_rows.record.comp and visibility_rows.shoot.comp.
 struct RowsParams {
@@ -13,8 +13,8 @@ struct RowsParams {
     uint last;
     uint count;         ///< N lumels
     uint shots;         ///< K
-    uint first_place;   ///< of the batch in its list
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    uint first_place;   ///< index of the batch in its list
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
     float sign_factor;  ///< -1: takes light back, 1: sends it
 };
 

@@ -9,7 +9,7 @@
 #include "solve/transport/patch_light.glsl"
 #include "methods/redistribution/visibility_rows.glsl"
 
-// The same light as progressive.receive.comp, with V as it is kept: no views are needed.
+// Light as in progressive.receive.comp, with stored V: needs no views.
 
 layout(local_size_x = kPatchGroup) in;
 layout(push_constant, scalar) uniform Params { RowsParams p; };

@@ -5,7 +5,7 @@
 //           the GPU. 2005.
 //
 // Solves  B = E + ρ T B  by stochastic iteration: T is replaced by a random T* with E[T* B] = T B
-// that lets a few points shoot at all that they see, and the iterated values are averaged:
+// in which a few points shoot at all that they see, and the iterated values are averaged:
 //
 //     repeat
 //         draw shooters y_k on lumels j_k with p_j ∝ 𝓛(X_j) A_j          select
@@ -16,12 +16,12 @@
 //
 // Cost of a step: K views of the occluders, and N × K point pairs.
 //
-// `Scheme::paper` with K = 1 is the papers' iteration, but for three things: points move over
-// receivers and shooters instead of standing at their centres, the running average is kept in two
+// `Scheme::paper` with K = 1 is the papers' iteration, with three exceptions: points move over
+// receivers and shooters instead of staying at their centres, the running average is kept in two
 // halves for the error estimate, and T* acts on the average as in [BJ04] Eq. (2), not on the last
 // value as in [BSS05].
 //
-// Differs from the papers else:
+// Other differences from the papers:
 // - K shooters per iteration, drawn by an Owen-scrambled Sobol sequence.
 // - The iteration is in phases (iteration.cpp); a share of the shooters is drawn from E alone.
 // - Pairs of close lumels are taken out of the sampling and solved exactly (the near field).
@@ -36,7 +36,7 @@
 namespace lumel {
 namespace {
 
-/// Shooters drawn from E, as a part of E's share of the power, and its bounds.
+/// Fraction of shooters drawn from E, relative to E's fraction of the power, and its bounds.
 constexpr double kEmissionShooters = 0.5, kMinEmission = 1.0 / 16.0, kMaxEmission = 0.5;
 
 }  // namespace

@@ -21,7 +21,7 @@ public:
                         const NearField& near, const StochasticOptions& options,
                         std::span<const glm::vec3> known = {});
 
-    /// Bytes on the device at most, on one whose images may be as large as is wanted.
+    /// Upper bound on GPU memory [bytes], if the device does not limit images.
     static std::uint64_t device_bytes(const SolveSize& size, const StochasticOptions& options);
 
     void step() override;
@@ -51,7 +51,7 @@ private:
     gpu::Array<Shot> shots_;
     Iteration iteration_;
     PowerPyramid emission_power_pyramid_, source_power_pyramid_;
-    gpu::Pacer pacer_;            ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;            ///< last member: its destructor waits for work that uses others
     double emission_owed_ = 0.0;  ///< fraction of a shooter carried to the next batch
 };
 

@@ -8,8 +8,8 @@
 #include "raster/eyes/sees.glsl"
 #include "solve/shooting/shot.glsl"
 
-// Every lumel i takes its share of all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with
-// the disc of Eq. (8)):
+// Every lumel i receives from all K shots of a batch ([BJ04] Eq. (3); [BSS05] Eq. (2) with the
+// disc of Eq. (8)):
 //
 //     H_i += Σ_k  X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π),       j = j(k).
 //

@@ -12,12 +12,12 @@ struct ReceiveParams {
     uint last;
     uint count;           ///< N
     uint shots;           ///< K
-    uint emission_shots;  ///< the first of them
+    uint emission_shots;  ///< the first of these are from E
     uint half_index;      ///< 0 or 1: which half-solution takes this batch
-    uint iteration;       ///< numbers the batches
+    uint iteration;       ///< index of the batch
     uint seed;
     uint centre;        ///< 1: receive at the centroid
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 LUMEL_SHARED_END

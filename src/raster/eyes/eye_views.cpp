@@ -8,11 +8,11 @@
 namespace lumel {
 namespace {
 
-/// Near distance as a part of the scene's diagonal: closer surfaces are lumels' own neighbours,
-/// whose exchange the near field holds.
+/// Near distance relative to the scene's diagonal. Closer surfaces are neighbours, whose exchange
+/// the near field has.
 constexpr float kNear = 1e-5f;
-/// How far a chord may leave the arc it stands for [pixels]. Pieces inside a triangle are a little
-/// longer than those at its edges: with 0.3, nothing drawn is off by more than half a pixel.
+/// Maximum distance of a chord from its arc [pixels]. Pieces inside a triangle are a little longer
+/// than at its edges: with 0.3, the error stays below half a pixel.
 constexpr double kMaxDeviation = 0.3;
 
 Tiles tiles_of(Projection projection, const EyeViewLayout& layout)
@@ -29,7 +29,7 @@ EyeViewLayout make_layout(const gpu::Device& device, const World& world, Project
         throw Error(ErrorKind::device, device.info().name,
                     "has no tessellation shaders, which --projection hemisphere needs; leave it at "
                     "hemicube");
-    const std::uint32_t fit = fitting_hemicubes(device, side);  // tiles of both are alike wide
+    const std::uint32_t fit = fitting_hemicubes(device, side);  // both have equal width
     return {hemisphere ? 2 * side : side, tile_columns(capacity, fit),
             std::max(world.diagonal() * kNear, 1e-30f)};
 }

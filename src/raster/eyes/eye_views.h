@@ -1,5 +1,5 @@
 #pragma once
-// look_from: what eyes on surfaces see, as depth, by one of two projections of the hemisphere.
+// Depth images of the hemisphere above surface points: hemicubes or hemispherical projections.
 //
 //   [CG85] Cohen, Greenberg. The Hemi-Cube: A Radiosity Solution for Complex Environments. 1985.
 //   [BJ04] Barsi, Jakab. Stream Processing in Global Illumination. 2004, section 3.2.
@@ -18,29 +18,28 @@
 namespace lumel {
 
 enum class Projection : std::uint32_t {
-    hemicube = kHemicube,      ///< five faces, each drawn for itself
-    hemisphere = kHemisphere,  ///< one disc, drawn once with edges cut to their curves
+    hemicube = kHemicube,      ///< five faces, each rasterised separately
+    hemisphere = kHemisphere,  ///< one disc, with edges subdivided to follow their curves
 };
 
-/// Pixels that a view of resolution `side` takes in the image.
+/// Pixels of a view of resolution `side` in the image.
 std::uint64_t view_pixels(Projection projection, std::uint32_t side);
 
-/// The longest arc [rad] that one straight line may stand for on a disc of that radius [pixels].
+/// Maximum arc [rad] that a straight line may replace on a disc of this radius [pixels].
 float longest_chord(float radius);
 
-/// Depth images of what `capacity` eyes see, side by side in one image. A kernel reads them through
-/// raster/eyes/sees.glsl, with image() bound, layout() given, and projection() as its variant.
+/// Depth images of `capacity` eyes, tiled in one image. Kernels read them through
+/// raster/eyes/sees.glsl, with image() bound, layout() as argument, and projection() as variant.
 class EyeViews {
 public:
-    /// side: pixels of a hemicube's front face, even. A hemisphere's disc measures twice that: then
-    /// its area is π side², a hemicube's 3 side². The capacity given is what fits the device's
-    /// images and is at most the one requested.
-    /// Throws Error{input} if the side cannot be used, Error{device} if the device cannot
-    /// tessellate, which hemispheres need.
+    /// side: of a hemicube's front face [pixels], even. The diameter of a hemisphere's disc is
+    /// twice that: the area is then π side², and that of a hemicube 3 side². `capacity` is an upper
+    /// limit; it is reduced to fit the device's images. Throws Error{input} for an invalid side,
+    /// Error{device} if the device lacks tessellation, which hemispheres need.
     EyeViews(const gpu::Device& device, const World& world, Projection projection,
              std::uint32_t side, std::uint32_t capacity);
 
-    /// Bytes on a device whose images may be as large as is wanted.
+    /// GPU memory for images of any size [bytes].
     static std::uint64_t device_bytes(Projection projection, std::uint32_t side,
                                       std::uint32_t capacity);
 
@@ -49,16 +48,16 @@ public:
     const EyeViewLayout& layout() const { return layout_; }
     const gpu::Target& image() const { return image_; }
     const gpu::Sampler& sampler() const { return sampler_; }
-    std::uint32_t faces_per_eye() const;  ///< 5 of a hemicube, 1 of a hemisphere
+    std::uint32_t faces_per_eye() const;  ///< 5 for a hemicube, 1 for a hemisphere
 
-    /// Draws what eyes [0, count) see, in one pass. eyes: on the device, at least `count`.
+    /// Renders the views of eyes [0, count) in one pass. eyes: on the GPU, at least `count`.
     void look_from(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t count);
 
-    /// The same in parts: face = faces_per_eye() × eye + side, faces [first, last).
+    /// Renders faces [first, last), where face = faces_per_eye() × eye + side.
     void look_from_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                          std::uint32_t last);
 
-    /// The same, face by face where one submission should not hold them all.
+    /// Renders the views of eyes [0, count), split by faces into submissions.
     void look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, std::uint32_t count);
 
 private:
@@ -71,7 +70,7 @@ private:
     LookParams begin_face(gpu::Commands& commands, std::uint32_t eye, std::uint32_t face) const;
     void draw_hemicubes(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                         std::uint32_t last);
-    std::uint32_t faces_at_once() const;  ///< what one pass can hold
+    std::uint32_t faces_at_once() const;  ///< maximum per pass
     void draw_faces(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
                     std::uint32_t last);
     LookParams look_params(std::uint32_t eye, std::uint32_t face) const;
@@ -81,7 +80,7 @@ private:
     Projection projection_;
     EyeViewLayout layout_;
     std::uint32_t capacity_;
-    float radius_;  ///< of a hemisphere's disc [pixels]
+    float radius_;  ///< hemisphere's disc radius [pixels]
     float chord_;   ///< longest_chord(radius_) [rad]
     gpu::Target image_;
     gpu::Sampler sampler_;

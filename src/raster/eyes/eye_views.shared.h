@@ -8,39 +8,38 @@ LUMEL_CONST uint kHemisphere = 1u;
 
 LUMEL_CONST uint kHemicubeFaces = 5u;  ///< front, then the half faces +t, -t, +b, -b
 
-/// From where is looked: a point and an orthonormal frame, in the world.
+/// Viewpoint: position and orthonormal frame, world space.
 struct Eye {
     vec3 position;   ///< [m]
     vec3 tangent;    ///< t
     vec3 bitangent;  ///< b
     vec3 normal;     ///< n, the axis of the hemisphere
-    uint random;     ///< seeds the chance by which surfaces with alpha block
-    uint channel;    ///< that is looked in, see passage.shared.h
+    uint random;     ///< seed for the random opacity of surfaces with alpha
+    uint channel;    ///< channel of the view, see passage.shared.h
 };
 
-/// How views lie in the depth image, one tile an eye.
-/// A hemicube is a tile of 2 side × 3/2 side pixels: the front face in its top left corner, +t and
-/// -t right of it one above the other, +b and -b below. Stored: near / distance along the axis.
-/// A hemisphere is a tile of side × side pixels, filled by a disc: a direction (t, b, n) of length
-/// 1 is found at ((t, b) + 1) side / 2. Stored: near / distance.
+/// Layout of views in the depth image, one tile per eye. A hemicube is a tile of 2 side × 3/2 side
+/// pixels: the front face at the top left, +t and -t to its right, one above the other, +b and -b
+/// below. Stored: near / distance along the axis. A hemisphere is a tile of side × side pixels with
+/// a disc: the unit direction (t, b, n) is at ((t, b) + 1) side / 2. Stored: near / distance.
 struct EyeViewLayout {
-    uint side;     ///< of the front face, or of the disc [pixels]
-    uint columns;  ///< tiles in a row of the image
-    float near;    ///< nearer surfaces are not seen [m]
+    uint side;     ///< side of the front face, or diameter of the disc [pixels]
+    uint columns;  ///< tiles per row of the image
+    float near;    ///< minimum distance of visible surfaces [m]
 };
 
-/// Push constants of the shaders that draw views.
+/// Push constants of the shaders that render views.
 struct LookParams {
     uint eye;          ///< index into the eyes
-    uint face;         ///< of a hemicube, 0…4
+    uint face;         ///< hemicube face, 0…4
     float near;        ///< [m]
-    Passage passage;   ///< of cut-outs
-    uint first_index;  ///< of the indices drawn
-    // Of a hemisphere:
-    uvec2 corner;      ///< of the tile [pixels]
-    float radius;      ///< of the disc [pixels]
-    uint first_block;  ///< of the range's triangles, see hemisphere.shared.h
-    uint blocks;       ///< of the range
+    Passage passage;   ///< for cut-outs
+    uint first_index;  ///< first index to draw
+    // Hemisphere only:
+    uvec2 corner;      ///< tile corner [pixels]
+    float radius;      ///< disc radius [pixels]
+    uint first_block;  ///< first block of the range's triangles, see hemisphere.shared.h
+    uint blocks;       ///< number of blocks of the range
 };
 
 LUMEL_SHARED_END

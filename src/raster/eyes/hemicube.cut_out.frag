@@ -3,7 +3,7 @@
 #include "base/core/hash.glsl"
 #include "raster/world/alpha.glsl"
 
-// A pixel of a surface with alpha, as a hemicube shows it.
+// Hemicube pixel of a surface with alpha.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

@@ -2,7 +2,7 @@
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemicube.glsl"
 
-// hemicube.vert for surfaces with alpha: also hands on where the texture is read.
+// hemicube.vert for surfaces with alpha: passes texture coordinates too.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

@@ -5,8 +5,8 @@
 
 #include "raster/eyes/eye_views.shared.h"
 
-// Frame of a face: `axis` looks at its centre, `right` and `up` span it. On side faces `up` is
-// the normal and only the half above the horizon exists.
+// Frame of a face: `axis` points to its centre, `right` and `up` span it. On side faces `up` is the
+// normal, and only the half above the horizon exists.
 struct Face {
     vec3 right;
     vec3 up;
@@ -24,19 +24,19 @@ Face hemicube_face(Eye eye, uint face)
     }
 }
 
-// Is what a face shows turned round, so that fronts go around clockwise?
+// True if the face's image is mirrored, so that fronts are clockwise.
 bool is_mirrored(uint face)
 {
     return face == 2u || face == 3u;
 }
 
-// The direction, of any length, to a pixel's centre in the eye's frame (t, b, n). `pixel`: in the
-// tile of a hemicube, as EyeViewLayout has it.
+// Direction, of any length, to a pixel's centre in the eye's frame (t, b, n). `pixel`: in the
+// hemicube's tile, see EyeViewLayout.
 vec3 ray_to(uint side, uvec2 pixel)
 {
     const bool right = pixel.x >= side, below = pixel.y >= side;
     const uint rows = below ? pixel.y - side : pixel.y;
-    const bool second = below ? right : 2u * rows >= side;  // of the two faces along an axis
+    const bool second = below ? right : 2u * rows >= side;  // second face of the axis
     const float s = (float(right ? pixel.x - side : pixel.x) + 0.5) * (2.0 / float(side)) - 1.0;
     const float up = (float(rows) + 0.5) * (2.0 / float(side));
     if (!right && !below)
@@ -45,8 +45,8 @@ vec3 ray_to(uint side, uvec2 pixel)
     return below ? vec3(s, axis, up) : vec3(axis, s, second ? up - 1.0 : up);
 }
 
-// A point as the eye sees it through one face: 90° frustum, reversed z, far at infinity. A side
-// face shows only 0 ≤ up / w ≤ 1.
+// Clip space of a face: 90° frustum, reversed z, infinite far plane. A side face has only 0 ≤ up /
+// w ≤ 1.
 vec4 through_face(Eye eye, uint index, float near, vec3 position)
 {
     const Face face = hemicube_face(eye, index);

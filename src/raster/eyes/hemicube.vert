@@ -2,7 +2,7 @@
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemicube.glsl"
 
-// One vertex as the eye sees it through one face.
+// A vertex projected to one face of an eye's hemicube.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

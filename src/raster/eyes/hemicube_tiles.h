@@ -1,5 +1,5 @@
 #pragma once
-// How the five faces of a hemicube lie in a tile of an image, see eye_views.shared.h.
+// Layout of the five faces of a hemicube in a tile of an image, see eye_views.shared.h.
 
 #include "base/core/error.h"
 #include "raster/world/tiles.h"
@@ -12,7 +12,7 @@ inline Tiles hemicube_tiles(std::uint32_t side, std::uint32_t columns)
     return {2 * side, 3 * side / 2, columns};
 }
 
-/// Where a face lies in the tile of its hemicube.
+/// Area of a face in its hemicube's tile.
 inline gpu::Area hemicube_face_area(const gpu::Area& tile, std::uint32_t side, std::uint32_t face)
 {
     const std::uint32_t half = side / 2;
@@ -30,8 +30,8 @@ inline gpu::Area hemicube_face_area(const gpu::Area& tile, std::uint32_t side, s
     }
 }
 
-/// Tiles, each twice as wide as `side`, that fit side by side. Throws Error{input} if the side will
-/// not do.
+/// Number of tiles, each 2 × `side` wide, that fit side by side. Throws Error{input} for an invalid
+/// side.
 inline std::uint32_t fitting_hemicubes(const gpu::Device& device, std::uint32_t side)
 {
     const std::uint32_t fit = side > 0 ? device.max_image_side() / (2 * side) : 0;

@@ -2,8 +2,8 @@
 #include "raster/eyes/hemisphere.shared.h"
 #include "raster/eyes/hemisphere.cut.glsl"
 
-// Counts the pieces and patches of each block of triangles: up to and with each triangle, and of
-// all.
+// Counts the pieces and patches of each block of triangles: running counts per triangle, and
+// totals.
 
 layout(local_size_x = kCutGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };

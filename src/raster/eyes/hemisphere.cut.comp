@@ -3,8 +3,8 @@
 #include "raster/eyes/hemisphere.shared.h"
 #include "raster/eyes/hemisphere.cut.glsl"
 
-// Decides for an eye into how many pieces each edge of a triangle is cut, and whether the triangle
-// is drawn as a strip. An edge's level depends on the edge alone, so that neighbours meet.
+// Chooses the subdivision of a triangle's edges for an eye, and whether it is drawn as a strip. An
+// edge's level depends on the edge alone, so that neighbours share vertices.
 
 layout(local_size_x = kCutGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };
@@ -13,27 +13,26 @@ layout(scalar) readonly buffer Vertices { vec3 vertices[]; };
 layout(scalar) readonly buffer Indices { uint indices[]; };
 layout(scalar) writeonly buffer Cuts { uint cuts[]; };  // [eye][slot]
 
-// A triangle nearer to the eye's own plane, or with its own plane nearer to the eye, than this
-// part of the near distance is the surface the eye lies on, or seen edge-on.
+// Triangles are dropped, as the eye's own surface or as edge-on, if they rise above the eye's
+// plane, or their plane is off the eye, by at most this fraction of the near distance.
 const float kEdgeOn = 1.0 / 16.0;
 
-// Every device's tessellator can cut an edge into two to the power of this. More would be needed
-// only by discs of a radius above 996 pixels: at 2048 a half circle is 0.62 pixels off.
+// Maximum level of edges; all devices' tessellators support 2^6 pieces. Only discs with a radius
+// above 996 pixels need more: at 2048 a half circle has an error of 0.62 pixels.
 const float kMaxLevel = 6.0;
 
-// A piece of a strip may be turned over by this much [pixels]: what it then covers outside the
-// outline is as far from it at most.
+// Maximum inversion of a strip's piece [pixels]; it bounds the coverage outside the outline.
 const float kMaxFold = 1.0 / 16.0;
 
-// A power of two: then the tessellator's rings fit one another, and inside no piece is much longer
-// than at the edges.
+// Levels are powers of two, so that the tessellator's rings match and inner pieces are hardly
+// longer than those at the edges.
 uint level_of(float angle)
 {
-    const float kSmallest = 1e-6;  // of an angle, as a part of the chord's
+    const float kSmallest = 1e-6;  // angle relative to the chord's
     return uint(clamp(ceil(log2(max(angle / p.chord, kSmallest))), 0.0, kMaxLevel));
 }
 
-// A point of the outline: its place on the disc of radius 1, and its direction's height.
+// A point of the outline: position on the unit disc and height of the direction.
 vec3 placed(vec3 ways[3], OutlinePoint at)
 {
     const float part = float(at.step) / float(at.steps);
@@ -41,7 +40,7 @@ vec3 placed(vec3 ways[3], OutlinePoint at)
     return vec3(on_disc(way), way.z);
 }
 
-// Does a piece lie the right side up, or beyond the rim? `facing`: 1 if it should go around
+// True if a piece has the right orientation or is beyond the rim. `facing`: 1 for
 // counter-clockwise, else -1.
 bool lies_well(vec3 a, vec3 b, vec3 c, float facing)
 {
@@ -85,7 +84,7 @@ bool lies_well(Strip s, vec3 ways[3], float facing)
     return well;
 }
 
-// The apex opposite the shortest edge is tried first: its strip has the shortest pieces.
+// Tries the apex opposite the shortest edge first: its strip has the shortest pieces.
 Cut strip_or_patch(vec3 ways[3], vec3 angles, uvec3 levels, float facing)
 {
     const uint shortest = angles.x < angles.y ? (angles.x < angles.z ? 0u : 2u)
@@ -106,7 +105,7 @@ Cut cut_of(Eye eye, vec3 world[3])
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);
     const vec3 a = (world[0] - eye.position) * frame, b = (world[1] - eye.position) * frame,
                c = (world[2] - eye.position) * frame;
-    // Of the world's positions, whose differences are exact: local ones would tilt a sliver.
+    // From world positions, whose differences are exact; local ones would tilt a sliver.
     const vec3 normal = cross(world[1] - world[0], world[2] - world[0]);
     const float height = dot(world[0] - eye.position, normal);
     const float least = kEdgeOn * p.near;

@@ -1,23 +1,23 @@
 #ifndef LUMEL_VISIBILITY_HEMISPHERE_CUT_GLSL
 #define LUMEL_VISIBILITY_HEMISPHERE_CUT_GLSL
 
-// How a triangle is cut for an eye, in one word, and the strip that it becomes.
+// Subdivision of a triangle for an eye, packed into one word, and the resulting strip.
 //
-// Straight lines need to follow the curves of a triangle's edges only: distances are exact in every
-// pixel. So no point is needed inside. A strip between two edges that meet in a corner, the apex,
-// and a fan over the chord of the third edge fill the outline with two pieces less than it has
-// pieces of edges, where the tessellator's rings need their square.
+// Only the edges of a triangle are curved: distances are exact per pixel, so no inner points are
+// needed. A strip between two edges from a corner, the apex, and a fan over the chord of the third
+// edge fill the outline with two pieces less than there are edge pieces; the tessellator's rings
+// take their square.
 
 #include "raster/eyes/hemisphere.glsl"
 
 const uint kDropped = 0u;  // below the horizon, edge-on, or too near
 const uint kStrip = 1u;    // whole triangles are strips of one piece
-const uint kPatch = 2u;    // a strip would fold: the tessellator cuts it
+const uint kPatch = 2u;    // strips would fold: tessellated
 
 struct Cut {
     uint kind;
-    uint apex;      // of a strip
-    uvec3 levels;   // binary logarithms of the pieces of the edges opposite each corner
+    uint apex;      // apex of a strip
+    uvec3 levels;   // log2 of the pieces of the edge opposite each corner
 };
 
 uint packed_cut(Cut cut)
@@ -30,7 +30,7 @@ Cut unpacked_cut(uint word)
     return Cut(word & 3u, word >> 2 & 3u, uvec3(word >> 4, word >> 7, word >> 10) & 7u);
 }
 
-// Two edges from the apex, the one in more pieces first, and the third.
+// The two edges from the apex, the one with more pieces first, and the third.
 struct Strip {
     uint apex, long_end, short_end;
     uint long_steps, short_steps, far_steps;
@@ -50,7 +50,7 @@ uint pieces_of(Strip s)
     return s.long_steps + s.short_steps + s.far_steps - 2u;
 }
 
-// Of an outline: `step` of `steps` steps from one corner to another.
+// A point of an outline: `step` of `steps` from one corner to another.
 struct OutlinePoint {
     uint from, to, step, steps;
 };
@@ -65,7 +65,7 @@ OutlinePoint on_short(Strip s, uint i)
     return OutlinePoint(s.apex, s.short_end, i, s.short_steps);
 }
 
-// The pieces of a strip: first those that stand on a step of the long edge,
+// Pieces of a strip, first those based on a step of the long edge,
 OutlinePoint corner_on_long(Strip s, uint step, uint corner)
 {
     const uint ratio = s.long_steps / s.short_steps;
@@ -73,7 +73,7 @@ OutlinePoint corner_on_long(Strip s, uint step, uint corner)
     return corner < 2u ? on_long(s, step + corner) : on_short(s, opposite);
 }
 
-// then on a step of the short edge, but for the apex,
+// then those based on a step of the short edge, except at the apex,
 OutlinePoint corner_on_short(Strip s, uint step, uint corner)
 {
     const uint ratio = s.long_steps / s.short_steps;

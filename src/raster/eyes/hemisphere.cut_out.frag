@@ -4,18 +4,18 @@
 #include "raster/world/alpha.glsl"
 #include "raster/eyes/hemisphere.glsl"
 
-// hemisphere.frag for surfaces with alpha: finds the point of the triangle that the ray meets.
+// hemisphere.frag for surfaces with alpha: interpolates at the ray's hit point.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 uniform sampler2D base_color;
 layout(scalar) readonly buffer Vertices { vec3 vertices[]; };
-layout(scalar) readonly buffer ShadowRays { vec3 looks[]; };  // u, v, alpha factor
+layout(scalar) readonly buffer Looks { vec3 looks[]; };  // u, v, alpha factor
 layout(scalar) readonly buffer Indices { uint indices[]; };
 layout(location = 0) flat in vec3 plane;
 layout(location = 1) flat in uint triangle;
 
-// Barycentric coordinates of a point of the plane; just outside the triangle, those at its edge.
+// Barycentric coordinates of a point of the plane, clamped to the triangle.
 vec3 barycentric(vec3 x, vec3 a, vec3 b, vec3 c)
 {
     const vec3 normal = cross(b - a, c - a);

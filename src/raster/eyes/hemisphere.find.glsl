@@ -1,8 +1,8 @@
 #ifndef LUMEL_VISIBILITY_HEMISPHERE_FIND_GLSL
 #define LUMEL_VISIBILITY_HEMISPHERE_FIND_GLSL
 
-// Which triangle the piece or patch of a number is of: a search in the running counts, so that no
-// list of them has to be kept. Declares the counts. Params must hold a LookParams p.
+// Finds the triangle of a piece or patch by a binary search in the running counts, so that no list
+// is needed. Declares the counts. Params must contain a LookParams p.
 
 #include "raster/eyes/hemisphere.shared.h"
 
@@ -10,8 +10,8 @@ layout(scalar) readonly buffer Counts { CutCount counts[]; };
 layout(scalar) readonly buffer BlockCounts { CutCount block_counts[]; };
 
 struct Found {
-    uint triangle;  // of the range
-    uint number;    // of the piece in its triangle
+    uint triangle;  // in the range
+    uint number;    // piece in its triangle
 };
 
 uint chosen(CutCount count, bool patches)
@@ -21,7 +21,7 @@ uint chosen(CutCount count, bool patches)
 
 Found find_triangle(uint number, bool patches)
 {
-    uint block = 0u;  // the last one that begins at `number` or before
+    uint block = 0u;  // the last block that begins at or before `number`
     for (uint end = p.blocks; block + 1u < end;) {
         const uint middle = (block + end) / 2u;
         if (chosen(block_counts[p.first_block + middle], patches) <= number)
@@ -31,7 +31,7 @@ Found find_triangle(uint number, bool patches)
     }
     number -= chosen(block_counts[p.first_block + block], patches);
     const uint slot = (p.first_block + block) * kCutBlock;
-    uint found = 0u;  // the first one that ends past `number`
+    uint found = 0u;  // the first triangle that ends after `number`
     for (uint step = kCutBlock / 2u; step > 0u; step /= 2u)
         if (chosen(counts[slot + found + step - 1u], patches) <= number)
             found += step;

@@ -2,8 +2,8 @@
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemisphere.glsl"
 
-// The distance of the triangle's plane along the ray through the pixel's centre: exact, while
-// between vertices no function of the distance is linear on the disc.
+// Exact distance of the triangle's plane along the ray through the pixel's centre; no function of
+// the distance is linear on the disc.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(location = 0) flat in vec3 plane;

@@ -1,7 +1,7 @@
 #version 460
 #include "raster/eyes/hemisphere.shared.h"
 
-// Replaces the count of each block by that of the blocks before it, and says how much is drawn.
+// Computes prefix sums of the block counts, and the arguments of the indirect draws.
 
 layout(local_size_x = kCutGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };

@@ -4,15 +4,15 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kCutGroup = 64u;   ///< threads per workgroup of hemisphere.*.comp
-LUMEL_CONST uint kCutBlock = 256u;  ///< triangles that one thread of hemisphere.count.comp counts
+LUMEL_CONST uint kCutBlock = 256u;  ///< triangles per thread of hemisphere.count.comp
 
-/// Of the triangles before: how many pieces of strips they are, and how many patches.
+/// Numbers of strip pieces and of patches in the triangles before.
 struct CutCount {
-    uint pieces;   ///< of triangles that are cut into strips, or whole
-    uint patches;  ///< triangles that the tessellator cuts
+    uint pieces;   ///< pieces of strips and whole triangles
+    uint patches;  ///< triangles to tessellate
 };
 
-/// Arguments of an indirect draw, as Vulkan has them.
+/// Arguments of an indirect draw, as defined by Vulkan.
 struct DrawnVertices {
     uint vertices;
     uint instances;
@@ -21,21 +21,21 @@ struct DrawnVertices {
 };
 
 /// Push constants of hemisphere.cut.comp, hemisphere.count.comp and hemisphere.place.comp, which
-/// cut the triangles of one range for some eyes. Slots, one for each triangle, come in whole
-/// blocks.
+/// subdivide the triangles of one range for some eyes. There is one slot per triangle, rounded up
+/// to whole blocks.
 struct CutParams {
     uint first_eye;
     uint eyes;
-    uint first_index;  ///< of the indices drawn
+    uint first_index;  ///< first index to draw
     uint triangles;
-    uint first_block;  ///< of the range's slots, of the first eye
-    uint blocks;       ///< of the range
-    uint eye_blocks;   ///< from one eye to the next
-    uint first_draw;   ///< of the first eye; two for each range: strips, patches
-    uint eye_draws;    ///< from one eye to the next
+    uint first_block;  ///< first block of the range, for the first eye
+    uint blocks;       ///< number of blocks of the range
+    uint eye_blocks;   ///< stride per eye
+    uint first_draw;   ///< first draw of the first eye; two per range: strips, patches
+    uint eye_draws;    ///< stride per eye
     float near;        ///< [m]
-    float radius;      ///< of the disc [pixels]
-    float chord;       ///< the longest arc that one straight line stands for [rad]
+    float radius;      ///< disc radius [pixels]
+    float chord;       ///< longest arc that a straight line may replace [rad]
 };
 
 LUMEL_SHARED_END

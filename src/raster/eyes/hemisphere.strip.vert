@@ -2,7 +2,7 @@
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemisphere.cut.glsl"
 
-// A corner of a piece of a triangle that is drawn as a strip.
+// A corner of a piece of a strip.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
@@ -11,7 +11,7 @@ layout(scalar) readonly buffer Indices { uint indices[]; };
 layout(scalar) readonly buffer Cuts { uint cuts[]; };
 #include "raster/eyes/hemisphere.find.glsl"
 
-layout(location = 0) flat out vec3 plane;  // plane · x = 1 for the points x of the triangle
+layout(location = 0) flat out vec3 plane;  // plane · x = 1 for points x of the triangle
 layout(location = 1) flat out uint triangle;
 
 void main()

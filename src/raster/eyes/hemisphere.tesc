@@ -3,7 +3,7 @@
 #include "raster/eyes/hemisphere.shared.h"
 #include "raster/eyes/hemisphere.cut.glsl"
 
-// A triangle that hemisphere.cut.comp leaves to the tessellator.
+// Triangles that hemisphere.cut.comp leaves to the tessellator.
 
 layout(vertices = 1) out;
 layout(push_constant, scalar) uniform Params { LookParams p; };
@@ -11,15 +11,15 @@ layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Cuts { uint cuts[]; };
 layout(location = 0) in vec3 world[];
 layout(location = 1) in vec3 local[];
-layout(location = 2) in uint number[];  // of the triangle
+layout(location = 2) in uint number[];  // triangle index
 layout(location = 0) patch out vec3 corners[3];
-layout(location = 3) patch out vec3 plane;  // plane · x = 1 for the points x of the triangle
+layout(location = 3) patch out vec3 plane;  // plane · x = 1 for points x of the triangle
 layout(location = 4) patch out vec3 pole;
 layout(location = 5) patch out uint apex;  // opposite the shortest edge
 layout(location = 6) patch out uint triangle;
 
-// The pole of the edges' planes if they agree on one, as about an eye close to the triangle's
-// plane; else (0, 0, 0).
+// Common pole of the edges' planes, which exists for eyes close to the triangle's plane; else (0,
+// 0, 0).
 vec3 common_pole(vec3 a, vec3 b, vec3 c)
 {
     const vec3 ab = normalize(cross(a, b)), bc = normalize(cross(b, c)),
@@ -31,7 +31,7 @@ vec3 common_pole(vec3 a, vec3 b, vec3 c)
 void main()
 {
     const vec3 a = local[0], b = local[1], c = local[2];
-    // Of the world's positions, whose differences are exact: local ones would tilt a sliver.
+    // From world positions, whose differences are exact; local ones would tilt a sliver.
     const Eye eye = eyes[p.eye];
     const vec3 normal = cross(world[1] - world[0], world[2] - world[0]);
     const float height = dot(world[0] - eye.position, normal);

@@ -2,8 +2,7 @@
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemisphere.glsl"
 
-// Places a piece's vertex on the disc. All that the fragments need is the same for the whole
-// triangle.
+// Projects a piece's vertex to the disc. The outputs for fragments are constant over the triangle.
 
 layout(triangles, equal_spacing) in;
 layout(location = 0) patch in vec3 corners[3];
@@ -14,7 +13,7 @@ layout(location = 6) patch in uint triangle;
 layout(location = 0) flat out vec3 plane_out;
 layout(location = 1) flat out uint triangle_out;
 
-// On an edge, where one part is 0: cut evenly by angle.
+// On an edge, where one coordinate is 0: uniform in angle.
 vec3 on_edge(vec3 part)
 {
     const vec3 a = normalize(corners[0]), b = normalize(corners[1]), c = normalize(corners[2]);
@@ -25,7 +24,7 @@ vec3 on_edge(vec3 part)
     return on_arc(a, b, part.x, part.y);
 }
 
-// Inside, about an eye close to the triangle's plane: on geodesics from the pole to the edges.
+// Inside, for an eye close to the triangle's plane: on geodesics from the pole to the edges.
 vec3 on_spoke(vec3 part)
 {
     const float least = min(part.x, min(part.y, part.z));
@@ -36,7 +35,7 @@ vec3 on_spoke(vec3 part)
     return on_arc(on_edge((part - least) / outward), pole, outward, 1.0 - outward);
 }
 
-// Inside, else: on geodesics between the two longer edges.
+// Inside, otherwise: on geodesics between the two longer edges.
 vec3 on_rung(vec3 part)
 {
     const uint i = apex, j = (apex + 1u) % 3u, k = (apex + 2u) % 3u;

@@ -1,7 +1,7 @@
 #version 460
 #include "raster/eyes/eye_views.shared.h"
 
-// A corner of a triangle for the tessellator, in the world and in the eye's frame.
+// A triangle's corner for the tessellator, in world space and in the eye's frame.
 
 layout(push_constant, scalar) uniform Params { LookParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
@@ -11,7 +11,7 @@ layout(scalar) readonly buffer Indices { uint indices[]; };
 
 layout(location = 0) out vec3 world;
 layout(location = 1) out vec3 local;
-layout(location = 2) out uint number;  // of the triangle
+layout(location = 2) out uint number;  // triangle index
 
 void main()
 {

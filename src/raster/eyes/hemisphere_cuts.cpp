@@ -5,10 +5,10 @@
 namespace lumel {
 namespace {
 
-/// Slots of triangles that are kept for all eyes together, 3 MiB: more eyes at once save little.
+/// Triangle slots for all eyes together, 3 MiB; more eyes at once save little.
 constexpr std::uint32_t kMaxSlots = 1u << 18;
 
-/// A part's draws for an eye.
+/// The two draws of a part for an eye.
 constexpr std::uint32_t kStrips = 0, kPatches = 1;
 
 std::uint32_t blocks_of(std::uint32_t indices)
@@ -16,7 +16,7 @@ std::uint32_t blocks_of(std::uint32_t indices)
     return (indices / 3 + kCutBlock - 1) / kCutBlock;
 }
 
-/// Of everything that may be drawn for one eye.
+/// Blocks of everything drawable for one eye.
 std::uint32_t most_blocks(const World& world)
 {
     std::uint32_t blocks = blocks_of(world.opaque().inner_count);

@@ -1,6 +1,6 @@
 #pragma once
-// What the eyes of hemispheres see: for each eye the device drops triangles that it does not see,
-// cuts the others into strips, and leaves to the tessellator those that no strip fills.
+// Culls and subdivides triangles on the GPU for hemispherical projection, per eye: into strips, or
+// by tessellation if no strip fits.
 
 #include <cstdint>
 #include <functional>
@@ -21,27 +21,27 @@ namespace lumel {
 
 class HemisphereCuts {
 public:
-    /// capacity: eyes that will be cut at once at most.
+    /// capacity: maximum eyes per cut().
     HemisphereCuts(const gpu::Device& device, const World& world, std::uint32_t capacity);
 
-    /// Bytes on the device, where the scene has no more triangles than are cut at once.
+    /// GPU memory [bytes] if the scene's triangles fit at once.
     static std::uint64_t device_bytes();
 
     std::uint32_t eyes_at_once() const { return eyes_at_once_; }
 
-    /// Cuts the world's triangles for eyes [first, first + count), outside of a pass. count: at
-    /// most eyes_at_once(). near [m], radius [pixels], chord [rad]: see LookParams and
+    /// Subdivides the world's triangles for eyes [first, first + count), outside of a pass. count:
+    /// at most eyes_at_once(). near [m], radius [pixels], chord [rad]: see LookParams and
     /// longest_chord().
     void cut(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
              std::uint32_t count, float near, float radius, float chord);
 
-    /// Draws them for eyes [first, last) of those, in a pass. begin_eye: turns to an eye's tile and
-    /// returns what its draws have in common.
+    /// Draws them for eyes [first, last) of those, inside a pass. begin_eye: sets an eye's viewport
+    /// and returns the common parameters of its draws.
     void draw(gpu::Commands& commands, const gpu::Array<Eye>& eyes, std::uint32_t first,
               std::uint32_t last, const std::function<LookParams(std::uint32_t)>& begin_eye) const;
 
 private:
-    /// Triangles that are drawn alike.
+    /// Triangles with one material state.
     struct Part {
         gpu::Range range;
         const CutOutDraw* cut_out;  ///< null: opaque
@@ -66,9 +66,9 @@ private:
 
     const World* world_;
     std::uint32_t eye_blocks_, eye_draws_, eyes_at_once_;
-    std::uint32_t first_eye_ = 0;        ///< of those last cut
+    std::uint32_t first_eye_ = 0;        ///< argument of the last cut()
     gpu::Array<std::uint32_t> cuts_;     ///< [eyes_at_once][slots]
-    gpu::Array<CutCount> counts_;        ///< the same
+    gpu::Array<CutCount> counts_;        ///< [eyes_at_once][slots]
     gpu::Array<CutCount> block_counts_;  ///< [eyes_at_once][eye_blocks]
     gpu::Array<DrawnVertices> draws_;    ///< [eyes_at_once][eye_draws]
     gpu::Kernel<shaders::HemisphereCut> cut_;

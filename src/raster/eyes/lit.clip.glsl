@@ -1,9 +1,9 @@
 #ifndef LUMEL_VISIBILITY_LIT_CLIP_GLSL
 #define LUMEL_VISIBILITY_LIT_CLIP_GLSL
 
-// Drivers clip at the near plane, and beyond the image's sides only what lies far out. Of a surface
-// that passes overhead, the clipped edge would then lie at the near distance, and depths between
-// there and what is in view are too far apart to be interpolated. Declares gl_ClipDistance.
+// Explicit clip distances. Drivers clip at the near plane, and at the image's sides only far
+// outside. A clipped edge of a surface overhead would have the near distance, and the depths from
+// there to the visible part span too large a range for interpolation. Declares gl_ClipDistance.
 
 out float gl_ClipDistance[4];
 

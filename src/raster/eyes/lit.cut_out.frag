@@ -6,7 +6,7 @@
 #include "raster/eyes/hemicube.glsl"
 #include "raster/eyes/lit.glsl"
 
-// lit.frag for surfaces with alpha. Glass that light ends in is black.
+// lit.frag for surfaces with alpha. Absorbing glass is black.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

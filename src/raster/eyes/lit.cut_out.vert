@@ -3,7 +3,7 @@
 #include "raster/eyes/hemicube.glsl"
 #include "raster/eyes/lit.clip.glsl"
 
-// lit.vert for surfaces with alpha: also hands on where the texture is read.
+// lit.vert for surfaces with alpha: passes texture coordinates too.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

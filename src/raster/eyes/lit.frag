@@ -4,7 +4,7 @@
 #include "raster/eyes/hemicube.glsl"
 #include "raster/eyes/lit.glsl"
 
-// A pixel shows the radiosity of the lumel under it, and its depth.
+// Radiosity of the lumel at a pixel, and its depth.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

@@ -1,7 +1,7 @@
 #ifndef LUMEL_VISIBILITY_LIT_GLSL
 #define LUMEL_VISIBILITY_LIT_GLSL
 
-// The radiosity that a fragment shows. Declares `lumel_of` and `radiosity`.
+// Radiosity of a fragment. Declares `lumel_of` and `radiosity`.
 
 #include "atlas/packing/lumel.shared.h"
 #include "raster/eyes/hemicube.glsl"
@@ -10,12 +10,11 @@
 layout(scalar) readonly buffer LumelOf { uint lumel_of[]; };  // by side and texel
 layout(scalar) readonly buffer Radiosity { vec3 radiosity[]; };
 
-// Charts may lie side by side: this much of their borders is left to neither [texels].
+// Margin inside chart borders, because charts may be adjacent [texels].
 const float kBorder = 1.0 / 1024.0;
 
-// B of the lumel at a place of the atlas [texels]; sides without lumels are black. A pixel of which
-// a surface covers only some samples refers to a place beyond the surface's edge: it gets the
-// nearest of its chart, whose rectangle has the corners (low, high).
+// B of the lumel at an atlas position [texels]; sides without lumels are black. Positions outside
+// the chart, from partially covered pixels, are clamped to its rectangle (low, high).
 vec3 radiosity_at(LitParams p, vec2 place, vec4 chart)
 {
     const vec2 inside = min(max(place, chart.xy), chart.zw - kBorder);

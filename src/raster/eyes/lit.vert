@@ -3,7 +3,7 @@
 #include "raster/eyes/hemicube.glsl"
 #include "raster/eyes/lit.clip.glsl"
 
-// One vertex as the eye sees it through one face of its hemicube, with its place in the atlas.
+// A vertex projected to one face of an eye's hemicube, with its atlas position.
 
 layout(push_constant, scalar) uniform Params { LitParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };

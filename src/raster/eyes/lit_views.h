@@ -1,5 +1,5 @@
 #pragma once
-// look_from in colour: the radiosity that eyes on surfaces see, on hemicubes.
+// Radiosity images of hemicubes at surface points.
 //
 //   [CG85]   Cohen, Greenberg. The Hemi-Cube: A Radiosity Solution for Complex Environments. 1985.
 //   [Hoef13] M. van de Hoef. Real-Time Dynamic Radiosity for High Quality Global Illumination.
@@ -16,26 +16,26 @@
 
 namespace lumel {
 
-/// The surfaces' light: what lit views show.
+/// Light of the surfaces, for lit views.
 struct SurfaceLight {
-    const gpu::Array<std::uint32_t>* lumel_of;  ///< [texels][2] of each side, or kNoLumel
+    const gpu::Array<std::uint32_t>* lumel_of;  ///< [texels][2] per side, or kNoLumel
     const gpu::Array<glm::vec3>* radiosity;     ///< B [N] [lm/m²]
-    std::uint32_t width, height;                ///< of the atlas [texels]
+    std::uint32_t width, height;                ///< atlas size [texels]
 };
 
-/// Images of what `capacity` eyes see, side by side, each pixel in kManySamples samples: radiosity,
-/// and near / distance along the face's axis, 0 where nothing is seen. A kernel reads those by
-/// texelFetch from a sampler2DMS, in tiles as EyeViewLayout has them for hemicubes.
+/// Images of `capacity` eyes, tiled in one image, with kManySamples samples per pixel: radiosity,
+/// and near / distance along the face's axis, 0 without a surface. Kernels read them by texelFetch
+/// from a sampler2DMS, in the hemicube tiles of EyeViewLayout.
 class LitViews {
 public:
-    /// side: pixels of a hemicube's front face, even. near: closer surfaces are not seen [m]. The
-    /// capacity given is what fits the device's images and is at most the one requested. `world`
-    /// must hold the atlas.
-    /// Throws Error{input} if the side will not do, Error{device} if the device cannot clip.
+    /// side: of a hemicube's front face [pixels], even. near: minimum distance of visible surfaces
+    /// [m]. `capacity` is an upper limit; it is reduced to fit the device's images. `world` must
+    /// have the atlas. Throws Error{input} for an invalid side, Error{device} if the device lacks
+    /// clip distances.
     LitViews(const gpu::Device& device, const World& world, std::uint32_t side, float near,
              std::uint32_t capacity);
 
-    /// Bytes on a device whose images may be as large as is wanted.
+    /// GPU memory for images of any size [bytes].
     static std::uint64_t device_bytes(std::uint32_t side, std::uint32_t capacity);
 
     std::uint32_t capacity() const { return capacity_; }
@@ -43,7 +43,8 @@ public:
     const gpu::Target& image() const { return image_; }
     const gpu::Sampler& sampler() const { return sampler_; }
 
-    /// Draws what eyes [0, count) see, hull and all. eyes: on the device, at least `count`.
+    /// Renders the views of eyes [0, count), including the hull. eyes: on the GPU, at least
+    /// `count`.
     void look_from(gpu::Pacer& pacer, const gpu::Array<Eye>& eyes, const SurfaceLight& light,
                    std::uint32_t count);
 

@@ -3,14 +3,14 @@
 #include "raster/eyes/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
-/// Push constants of the shaders that draw lit views.
+/// Push constants of the shaders that render lit views.
 struct LitParams {
     uint eye;    ///< index into the eyes
-    uint face;   ///< of its hemicube, 0…4
+    uint face;   ///< hemicube face, 0…4
     float near;  ///< [m]
-    uint width;  ///< of the atlas [texels]
+    uint width;  ///< atlas size [texels]
     uint height;
-    Passage passage;  ///< of cut-outs
+    Passage passage;  ///< for cut-outs
 };
 
 LUMEL_SHARED_END

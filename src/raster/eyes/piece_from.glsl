@@ -1,21 +1,21 @@
 #ifndef LUMEL_VISIBILITY_PIECE_FROM_GLSL
 #define LUMEL_VISIBILITY_PIECE_FROM_GLSL
 
-// Pieces of lumels as a hemicube's faces show them.
+// Pieces of lumels in a hemicube face.
 
 #include "atlas/packing/lumel.shared.h"
 #include "raster/world/first_met.glsl"
 #include "raster/eyes/pixels.glsl"
 
-// Rounding of stored depths, relative.
+// Relative rounding error of stored depths.
 const float kHemicubeRounding = 2e-5;
 
-// `f` is where a point of the piece falls, `frame` the eye's axes (t, b, n).
+// `f`: projection of a point of the piece. `frame`: the eye's axes (t, b, n).
 PieceInView piece_from(EyeViewLayout tiling, ViewPoint f, vec3 eye, mat3 frame, Piece piece)
 {
     const vec3 o = (piece.origin - eye) * frame, u = piece.edge_u * frame, v = piece.edge_v * frame;
-    // The ray t q meets the plane o + a u + b v where  a = q·(v×o) / q·(u×v),
-    // b = q·(o×u) / q·(u×v),  t = o·(u×v) / q·(u×v); and q is linear in the pixel's place.
+    // The ray t q intersects the plane o + a u + b v at  a = q·(v×o) / q·(u×v), b = q·(o×u) /
+    // q·(u×v),  t = o·(u×v) / q·(u×v). q is linear in the pixel position.
     const vec3 start = centre_ray(tiling, f, vec2(-0.5));
     const vec3 right = centre_ray(tiling, f, vec2(0.5, -0.5)) - start;
     const vec3 up = centre_ray(tiling, f, vec2(-0.5, 0.5)) - start;
@@ -29,7 +29,7 @@ PieceInView piece_from(EyeViewLayout tiling, ViewPoint f, vec3 eye, mat3 frame, 
     const vec3 p = vec3(f.at, 1.0);
     s.steepness = (abs(s.weight.x) + abs(s.weight.y)) / abs(dot(s.weight, p)) / length(right);
     s.rounding = kHemicubeRounding * dot(s.depth_form, p);
-    // The eye is in front: then normal·o < 0 and normal·q < 0. Positive weights mean so.
+    // Positive weights for an eye in front: then normal·o < 0 and normal·q < 0.
     if (dot(o, normal) < 0.0) {
         s.u_form = -s.u_form;
         s.v_form = -s.v_form;

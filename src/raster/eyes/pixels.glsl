@@ -1,8 +1,8 @@
 #ifndef LUMEL_VISIBILITY_PIXELS_GLSL
 #define LUMEL_VISIBILITY_PIXELS_GLSL
 
-// The pixels of an eye's view: which one holds a point, what it stores, where its ray goes.
-// Declares the image of all eyes, `views`. A Kernel's variant selects the projection.
+// Pixels of an eye's view: projection of points, stored depths, rays. Declares the image of all
+// eyes, `views`. The kernel's variant selects the projection.
 
 #include "raster/eyes/eye_views.shared.h"
 #include "raster/eyes/hemisphere.glsl"
@@ -11,12 +11,12 @@ uniform sampler2D views;
 
 layout(constant_id = 0) const uint kProjection = kHemicube;
 
-// Where a point falls in a view.
+// A point projected to a view.
 struct ViewPoint {
     vec2 at;     // in pixels, from the corner of the face or of the disc's tile
-    vec2 pixel;  // the pixel that answers for it
+    vec2 pixel;  // pixel to read
     float z;     // along the face's axis; in a hemisphere the distance
-    bool front, along_t, negative;  // which face of a hemicube
+    bool front, along_t, negative;  // face of a hemicube
 };
 
 ViewPoint project_to_hemicube(EyeViewLayout tiling, vec3 local)
@@ -38,13 +38,13 @@ ViewPoint project_to_hemicube(EyeViewLayout tiling, vec3 local)
     return f;
 }
 
-// The centre of a pixel that is read lies at least this far inside the disc's rim [pixels]: what
-// stands on the eye's plane ends at the rim, and its chords half a pixel before.
+// Minimum distance of pixel centres from the disc's rim [pixels]: surfaces on the eye's plane end
+// at the rim, and their chords half a pixel before.
 const float kRim = 0.5;
 
 ViewPoint project_to_hemisphere(EyeViewLayout tiling, vec3 local)
 {
-    const float kHalfDiagonal = 0.70711;  // of a pixel: its centre is that near to what it holds
+    const float kHalfDiagonal = 0.70711;  // distance from pixel centre to corner
     const float radius = 0.5 * float(tiling.side);
     ViewPoint f;
     f.front = true;
@@ -72,7 +72,7 @@ bool is_in_view(EyeViewLayout tiling, ViewPoint f, vec2 pixel)
     return all(greaterThanEqual(pixel, vec2(0.0))) && pixel.x < side && pixel.y < rows;
 }
 
-// Where the point's face begins in a hemicube's tile [pixels], see eye_views.shared.h.
+// Corner of the point's face in a hemicube's tile [pixels], see eye_views.shared.h.
 vec2 face_corner(uint side, ViewPoint f)
 {
     if (f.front)
@@ -91,7 +91,7 @@ float stored_depth(EyeViewLayout tiling, uint tile, ViewPoint f, vec2 pixel)
     return texelFetch(views, ivec2(origin) + ivec2(face_corner(side, f) + pixel), 0).r;
 }
 
-// The ray through a pixel's centre, to where the stored z is 1.
+// The ray through a pixel's centre, up to z = 1 in the stored measure.
 vec3 centre_ray(EyeViewLayout tiling, ViewPoint f, vec2 pixel)
 {
     if (kProjection == kHemisphere)
@@ -101,7 +101,7 @@ vec3 centre_ray(EyeViewLayout tiling, ViewPoint f, vec2 pixel)
     return f.front ? vec3(q, 1.0) : (f.along_t ? vec3(axis, q) : vec3(q.x, axis, q.y));
 }
 
-// Half a pixel's width as a part of z: on the disc pixels widen toward the horizon.
+// Half a pixel's width relative to z; on the disc pixels widen toward the horizon.
 float half_width(EyeViewLayout tiling, vec3 ray)
 {
     return 1.0 / (float(tiling.side) * (kProjection == kHemisphere ? ray.z : 1.0));

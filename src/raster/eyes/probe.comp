@@ -2,7 +2,7 @@
 #include "raster/eyes/probe.shared.h"
 #include "raster/eyes/sees.glsl"
 
-// Which of a list of points one eye sees.
+// Visibility of a list of points from one eye.
 
 layout(local_size_x = kProbeGroup) in;
 layout(push_constant, scalar) uniform Params { ProbeParams p; };

@@ -10,7 +10,7 @@ namespace {
 
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal)
 {
-    constexpr float kTurn = 0.3f;  // so that pixels do not run along the edges of a box
+    constexpr float kTurn = 0.3f;  // so that pixels are not aligned to the edges of a box
     const glm::mat3 frame = frame_about(normal);
     const glm::vec3 t = glm::normalize(frame[0] + kTurn * frame[1]);
     return {position, t, glm::cross(normal, t), normal, 1u};

@@ -1,5 +1,5 @@
 #pragma once
-// The visibility that eyes find, brought to the host: for tests and benchmarks.
+// Visibility between eyes and points, read back for tests and benchmarks.
 
 #include <vector>
 
@@ -8,11 +8,11 @@
 
 namespace lumel {
 
-/// An eye at a surface point, its frame at any angle about the normal (length 1).
+/// An eye at a surface point with an arbitrary rotation about the normal (length 1).
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal);
 
-/// Tests every point from every eye. Blocks.
-/// eyes: on the device, those that `views` last looked from. Returns [eyes][questions], 1: seen.
+/// Tests every point from every eye. Blocks. eyes: on the GPU, those of the last look_from() of
+/// `views`. Returns [eyes][questions], 1: visible.
 std::vector<std::vector<std::uint32_t>> ask(const gpu::Device& device, const EyeViews& views,
                                             const gpu::Array<Eye>& eyes,
                                             const gpu::Array<Question>& questions);

@@ -5,7 +5,7 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kProbeGroup = 64u;
 
-/// A point of a surface that an eye may see, in the world.
+/// A surface point to test, world space.
 struct Question {
     vec3 position;  ///< [m]
     vec3 facing;    ///< geometric normal, any length

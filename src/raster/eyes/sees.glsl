@@ -1,40 +1,41 @@
 #ifndef LUMEL_VISIBILITY_SEES_GLSL
 #define LUMEL_VISIBILITY_SEES_GLSL
 
-// Does an eye see a point?
+// Visibility of a point from an eye.
 
 #include "raster/eyes/pixels.glsl"
 
-// Relative slack of the depth comparison: stored depths are interpolated in float, and a
-// receiver's pieces approximate the drawn surface.
+// Relative tolerance of depth comparisons: stored depths are interpolated as floats, and a
+// receiver's pieces approximate the rendered surface.
 const float kDepthSlack = 2e-4;
-// A curved receiver's neighbouring facets fall behind its plane by this much at most, relative.
+// Maximum relative distance of a curved receiver's adjacent facets behind its plane.
 const float kPlaneSlack = 2e-3;
 // If a plane is nearer at the pixel's centre than at the point by more than half this number of
-// pixel widths, as a part of z, being on it there means little: a steep plane meets many others.
+// pixel widths, relative to z, a depth match is weak evidence: a steep plane intersects many
+// others.
 const float kSlope = 2.0;
-// And by more than this it means nothing.
+// Beyond this, it is no evidence.
 const float kMaxSlope = 8.0;
-// What is drawn may be off by this much [pixels]: corners are rounded to 1/256, and interpolation
-// adds its own.
+// Maximum error of rasterised positions [pixels]: corners are rounded to 1/256, and interpolation
+// adds an error.
 const float kRounding = 1.0 / 128.0;
 
-// The facet beyond a convex edge falls behind the receiver's plane by this much at most, relative.
+// Maximum relative distance of the facet beyond a convex edge behind the receiver's plane.
 const float kEdgeSlack = 0.016;
-// What pixels show counts as flat if its depth's steps agree to this part.
+// Pixels count as flat if their depth steps agree to this fraction.
 const float kFlatness = 0.1;
 
-// How far the receiver's plane runs behind what a pixel stores (in front of it: below 0), times
-// toward_point. Affine over the pixels of one flat surface; in a hemisphere nearly, but at its rim.
+// Distance of the receiver's plane behind a pixel's stored depth (negative if in front), times
+// toward_point. Affine over the pixels of one plane; in a hemisphere nearly so, except at its rim.
 float in_front_of_plane(EyeViewLayout tiling, ViewPoint f, vec2 pixel, float stored, vec3 facing,
                         float toward_point)
 {
     return stored * toward_point + dot(facing, centre_ray(tiling, f, pixel)) * tiling.near;
 }
 
-// The pixel's centre shows another surface, `in_front` of the receiver's `plane`, but the next
-// pixel toward the point may not: does the point lie on the next pixel's side of the line between
-// the two?
+// The pixel's centre has another surface, `in_front` of the receiver's `plane`, but the next pixel
+// toward the point may not. True if the point is on the next pixel's side of the line between the
+// two surfaces.
 bool is_past_edge(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, float toward_point,
                   float in_front, float plane)
 {
@@ -43,18 +44,18 @@ bool is_past_edge(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, flo
                                                    : vec2(0.0, sign(offset.y));
     if (!is_in_view(tiling, f, f.pixel + side) || !is_in_view(tiling, f, f.pixel - 2.0 * side))
         return false;
-    // The next pixel must show the receiver's own surface, or nothing: surfaces on the scene's hull
-    // are not drawn.
+    // The next pixel must have the receiver's own surface, or none: surfaces on the scene's hull
+    // are not rendered.
     const float next_stored = stored_depth(tiling, tile, f, f.pixel + side);
     const float next =
         in_front_of_plane(tiling, f, f.pixel + side, next_stored, facing, toward_point);
     if (next > plane * kDepthSlack || (next_stored > 0.0 && next < -plane * kPlaneSlack))
         return false;
-    // A convex edge: the other facet lies a little behind the plane.
+    // A convex edge: the other facet is a little behind the plane.
     if (in_front <= 0.0)
         return in_front > -plane * kEdgeSlack;
-    // A contact: the other surface comes down to the plane before the point is reached, if it
-    // goes on as it does over the pixels before.
+    // A contact: the other surface, extrapolated from the previous pixels, reaches the plane before
+    // the point.
     const float before =
         in_front_of_plane(tiling, f, f.pixel - side, stored_depth(tiling, tile, f, f.pixel - side),
                           facing, toward_point);
@@ -66,8 +67,8 @@ bool is_past_edge(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, flo
     return is_flat && in_front + step * dot(offset, side) <= plane * kDepthSlack;
 }
 
-// Does the receiver's plane show beside the pixel as well, toward the eye or away from it? Another
-// surface meets the plane in a line, and off that line leaves it.
+// True if the receiver's plane is also visible beside the pixel, toward the eye or away from it.
+// Another surface intersects the plane only in a line.
 bool is_plane_beside(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, float toward_point,
                      float plane)
 {
@@ -86,9 +87,9 @@ bool is_plane_beside(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, 
     return shown;
 }
 
-// Is a steep plane seen at all four pixel centres around the point? Over the pixels, the plane and
-// any flat occluder are affine in 1 / z. An occluder that covers the four and is nearer than the
-// plane at the point is nearer at one of them at least: none can hide the point alone.
+// True if a steep plane is visible at all four pixel centres around the point. Over the pixels, the
+// plane and any flat occluder are affine in 1 / z. An occluder that covers the four and is nearer
+// than the plane at the point is nearer at one of them at least, so none can hide the point alone.
 bool is_free_around(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, float toward_point)
 {
     const vec2 corner = floor(f.at - 0.5);
@@ -112,16 +113,15 @@ bool is_free_around(EyeViewLayout tiling, uint tile, ViewPoint f, vec3 facing, f
 // V between the eye of tile `tile` and the point at eye + (t, b, n)·local on a surface whose
 // normal is `facing` (any length) in the eye's frame.
 //
-// The pixel that holds the point stores near / z of the nearest surface along the pixel's
-// centre, z along a hemicube face's axis or the distance. The receiver's plane is met by that same
-// centre ray at
+// The pixel with the point stores near / z of the closest surface along the pixel's centre ray,
+// with z along a hemicube face's axis or the distance. That ray intersects the receiver's plane at
 //
 //     z_plane = (facing · local) / (facing · q),      q = the ray to z = 1,
 //
-// and if that is what is stored, the pixel shows the receiver's own surface: it is seen. Otherwise
-// the point's own z decides, as in any shadow map, but for points beside an edge or a contact. Only
-// equality counts for the plane: it may well run in front of an occluder that hides the point
-// itself. At grazing angles one pixel is not enough: its neighbours are read as well.
+// If this is the stored depth, the pixel has the receiver's own surface: the point is visible.
+// Otherwise the point's own z decides, as in any shadow map, except beside edges and contacts. The
+// plane must match exactly: it may be in front of an occluder that hides the point. At grazing
+// angles the pixel's neighbours are read too.
 bool sees(EyeViewLayout tiling, uint tile, vec3 local, vec3 facing)
 {
     const ViewPoint f = project(tiling, local);
@@ -135,7 +135,7 @@ bool sees(EyeViewLayout tiling, uint tile, vec3 local, vec3 facing)
     const float in_front = toward_point * stored - plane;
     const float width = half_width(tiling, ray);
     if (toward_point < (1.0 - kMaxSlope * width) * f.z * toward_pixel)
-        return in_front <= plane * kEdgeSlack &&  // else hidden at this pixel already
+        return in_front <= plane * kEdgeSlack &&  // else already occluded at this pixel
                is_free_around(tiling, tile, f, facing, toward_point);
     if (in_front <= plane * kDepthSlack && in_front >= -plane * kPlaneSlack)
         return toward_point >= (1.0 - kSlope * width) * f.z * toward_pixel ||

@@ -1,5 +1,5 @@
 #pragma once
-// How finely shooters see.
+// Resolution of shooters' views.
 
 #include "raster/eyes/eye_views.h"
 
@@ -8,7 +8,7 @@ namespace lumel {
 struct ViewOptions {
     Projection projection = Projection::hemicube;
     int hemicube = 256;  ///< side of the front face [pixels], see EyeViews
-    int batch = 16;      ///< K, eyes at a time
+    int batch = 16;      ///< K, eyes per batch
 };
 
 }  // namespace lumel

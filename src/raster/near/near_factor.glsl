@@ -9,7 +9,7 @@ layout(scalar) readonly buffer NearFirst { uint near_first[]; };  // [N + 1]
 layout(scalar) readonly buffer NearColumn { uint near_column[]; };
 layout(scalar) readonly buffer NearFactor { float near_factors[]; };
 
-// F_ij of a near pair, 0 if the table has none: the columns of a row ascend.
+// F_ij of a near pair, 0 if absent: the columns of a row ascend.
 float near_factor(uint i, uint j)
 {
     uint low = near_first[i], high = near_first[i + 1u];

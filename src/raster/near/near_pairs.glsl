@@ -1,7 +1,7 @@
 #ifndef LUMEL_NEARFIELD_NEAR_PAIRS_GLSL
 #define LUMEL_NEARFIELD_NEAR_PAIRS_GLSL
 
-// Which pairs of lumels belong to the near field. Twin of is_near() in atlas/near/near_pairs.h.
+// Test for near pairs of lumels. Duplicates is_near() in atlas/near/near_pairs.h.
 
 bool is_near(vec3 centre_i, float size_i, vec3 centre_j, float size_j, float radius)
 {

@@ -5,7 +5,7 @@
 namespace lumel {
 namespace {
 
-/// Rows without entries where there is no near field.
+/// Row starts; without a near field all rows are empty.
 std::vector<std::uint32_t> starts_of(const NearField& near, std::size_t count)
 {
     return near.first.size() == count + 1 ? near.first : std::vector<std::uint32_t>(count + 1, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// The near field on the device.
+// The near field on the GPU.
 
 #include "atlas/near/near_field.h"
 #include "gpu/commands.h"
@@ -7,14 +7,14 @@
 
 namespace lumel {
 
-/// The sparse rows of a NearField, and their product with a source.
+/// Sparse rows of a NearField, and their product with a vector.
 class NearRows {
 public:
     NearRows(const gpu::Device& device, const NearField& near, std::size_t lumel_count);
 
     static std::uint64_t device_bytes(std::size_t lumel_count, std::uint64_t pairs);
 
-    /// Takes another table in. Nothing may be at work on the former.
+    /// Replaces the table. The GPU must not be using the previous one.
     void replace(const NearField& near);
 
     /// result_i = Σ_j F_ij source_j. source, result: [N].

@@ -7,7 +7,7 @@ LUMEL_CONST uint kNearGroup = 64u;
 
 /// Push constants of near_rows.comp.
 struct NearParams {
-    uint count;  ///< rows
+    uint count;  ///< number of rows
 };
 
 LUMEL_SHARED_END

@@ -3,7 +3,7 @@
 #include "raster/parallel/parallel.glsl"
 #include "raster/parallel/illumination.depth.glsl"
 
-// illumination.vert for surfaces with alpha: also hands on where the texture is read.
+// illumination.vert for surfaces with alpha: passes texture coordinates too.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

@@ -1,7 +1,7 @@
 #ifndef LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
 #define LUMEL_VISIBILITY_ILLUMINATION_DEPTH_GLSL
 
-// Depths in an illumination map, which may show a part of what lies along the direction only.
+// Depths in an illumination map, which may show only a part of the surfaces along the direction.
 
 #include "raster/parallel/illumination_maps.shared.h"
 

@@ -4,7 +4,7 @@
 #include "raster/parallel/parallel.glsl"
 #include "raster/parallel/illumination.list.glsl"
 
-// A pixel of an illumination map that keeps all surfaces: put in front of the pixel's list.
+// Prepends a surface to the pixel's list in an illumination map of all surfaces.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

@@ -1,8 +1,7 @@
 #ifndef LUMEL_VISIBILITY_ILLUMINATION_LIST_GLSL
 #define LUMEL_VISIBILITY_ILLUMINATION_LIST_GLSL
 
-// The lists of an illumination map that keeps all surfaces. Declares `heads`, `fragments` and
-// `total`.
+// Lists of an illumination map of all surfaces. Declares `heads`, `fragments` and `total`.
 
 #include "raster/parallel/illumination_maps.shared.h"
 #include "raster/parallel/parallel.glsl"
@@ -11,7 +10,7 @@ layout(scalar) buffer Heads { uint heads[]; };  // [tiles][side][side]
 layout(scalar) writeonly buffer Fragments { Fragment fragments[]; };
 layout(scalar) buffer Count { FragmentCount total; };
 
-// Puts a surface in front of the pixel's list, if there is room.
+// Prepends a surface to the pixel's list, if there is capacity.
 void append(IlluminationParams p, uint surface)
 {
     const uint index = atomicAdd(total.count, 1u);

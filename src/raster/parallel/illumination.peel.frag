@@ -2,8 +2,8 @@
 #include "raster/parallel/illumination_maps.shared.h"
 #include "raster/parallel/illumination.glsl"
 
-// A pixel of an illumination map from which the surfaces in front are peeled off: of those behind
-// what the pass before kept, the nearest to the direction's light.
+// Depth peeling of an illumination map: keeps the surface closest to the direction's light among
+// those behind the previous pass's.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

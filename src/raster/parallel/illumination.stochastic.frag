@@ -5,9 +5,8 @@
 #include "raster/parallel/illumination.glsl"
 #include "raster/parallel/illumination.stochastic.glsl"
 
-// A pixel of an illumination map with stochastic depths, [TN11] Figure 4: of all surfaces
-// on the pixel's ray the one with the largest random number stays. With ordinary depths it is the
-// nearest beyond a region.
+// Stochastic depths in an illumination map, [TN11] Figure 4: keeps the surface with the largest
+// random number on the pixel's ray; with ordinary depths, the closest beyond a region.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

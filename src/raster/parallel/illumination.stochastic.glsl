@@ -6,8 +6,7 @@
 #include "base/core/hash.glsl"
 #include "raster/parallel/illumination_maps.shared.h"
 
-// A depth drawn for a surface at a pixel, Figure 4: the one with the largest stays. 0 is the
-// depth, which is behind everything.
+// Random depth of a surface at a pixel, Figure 4: the largest stays. 0 is behind everything.
 float random_depth(uvec2 fragment, uint random)
 {
     const uvec2 pixel = uvec2(gl_FragCoord.xy);
@@ -15,7 +14,7 @@ float random_depth(uvec2 fragment, uint random)
     return 1.0 - unit_float(hash(here ^ random));
 }
 
-// The depth that decides whether the fragment stays: random within a region, ordinary beyond it.
+// Depth for the depth test: random within a region, ordinary beyond it.
 float deciding_depth(IlluminationParams p, uvec2 fragment, uint random)
 {
     return p.ordinary != 0u ? gl_FragCoord.z : random_depth(fragment, random);

@@ -3,7 +3,7 @@
 #include "raster/parallel/parallel.glsl"
 #include "raster/parallel/illumination.depth.glsl"
 
-// One vertex as it is seen along a direction, with its place in the atlas.
+// A vertex projected along a direction, with its atlas position.
 
 layout(push_constant, scalar) uniform Params { IlluminationParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

@@ -10,13 +10,13 @@
 namespace lumel {
 namespace {
 
-/// Surfaces that lists have room for, per pixel of the maps: what is drawn covers some half of a
-/// map, several times.
+/// List capacity in surfaces per pixel of the maps: the scene covers about half of a map, several
+/// times.
 constexpr std::uint64_t kFragmentsPerPixel = 4;
-/// And at least this number (48 MiB): few maps do not even out the needs of single views.
+/// Minimum capacity (48 MiB): a few maps do not average out the needs of single views.
 constexpr std::uint64_t kMinFragments = 4u << 20;
 
-/// Fewer tiles if lists of that many would not fit an array.
+/// Reduces the number of tiles if their lists would exceed the maximum size of arrays.
 std::uint32_t listable(const gpu::Device& device, Layers layers, std::uint32_t side,
                        std::uint32_t capacity)
 {
@@ -47,7 +47,7 @@ ParallelLayout layout_for(const gpu::Device& device, Layers layers, std::uint32_
                        listable(device, layers, side, capacity) * maps_of_slabs(slabs));
 }
 
-/// Directions whose maps fit the device's images.
+/// Number of directions whose maps fit the device's images.
 std::uint32_t fitting(const gpu::Device& device, Layers layers, const ParallelLayout& layout,
                       std::uint32_t capacity, std::uint32_t slabs)
 {
@@ -63,14 +63,13 @@ std::uint32_t fitting(const gpu::Device& device, Layers layers, const ParallelLa
     return directions;
 }
 
-/// How a tile shows its part of what lies along the direction; see IlluminationMaps. `map`: which
-/// of the direction's tiles it is.
+/// Depth range of a tile, see IlluminationMaps. `map`: index among the direction's tiles.
 IlluminationParams part_shown(std::uint32_t map, std::uint32_t slabs)
 {
     const auto all = float(slabs);
     if (map < slabs)
         return {.depth_scale = all, .depth_shift = -float(map)};
-    // From the end of the slab on: the less near, the sooner it is met, and the larger its depth.
+    // Depths from the end of the slab on; surfaces closer to the light have larger depths.
     const float scale = all / (all - float(map - slabs + 1));
     return {.depth_scale = -scale, .depth_shift = scale, .ordinary = 1};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Illumination maps: all surfaces that lie along a direction, by parallel projection.
+// Illumination maps: all surfaces along a direction, by parallel projection.
 //
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
@@ -21,65 +21,65 @@
 namespace lumel {
 
 enum class Layers : std::uint32_t {
-    stochastic = kStochasticLayers,  ///< [TN11] section 3: one surface a pixel, by chance
-    list = kListedLayers,            ///< every surface, in a list for each pixel
-    peel = kPeeledLayers,            ///< every surface, one a pixel in each of several passes
+    stochastic = kStochasticLayers,  ///< [TN11] section 3: one random surface per pixel
+    list = kListedLayers,            ///< all surfaces, in a list per pixel
+    peel = kPeeledLayers,            ///< all surfaces, one per pixel and pass
 };
 
-/// Maps of a direction that is cut into this number of slabs: one of each slab, and
-/// one of what lies beyond each but the nearest to the light.
+/// Number of maps of a direction that is divided into slabs: one per slab, and one for the surfaces
+/// beyond each slab except the closest to the light.
 constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
 {
     return 2 * slabs - 1;
 }
 
-/// Maps of `capacity` directions, side by side. Fragments name lumels, by side and texel, not
-/// colours: so one map serves emitted and reflected light.
+/// Maps of `capacity` directions in one image. Fragments refer to lumels, by side and texel, not to
+/// colours, so one map serves emitted and reflected light.
 ///
-/// Regions after [TN11] section 6 are slabs of equal thickness along the direction. Slab s of S
-/// holds nearness s/S to (s + 1)/S, and has a map in which only its own surfaces compete by chance.
-/// Beyond it ordinary depth tells what comes first, in a map of its own: in one with the slab's,
-/// the surfaces of the slab would hide what lies beyond it from one another. A direction has
-/// maps_of_slabs(S) tiles: those of slabs 0, 1, … S - 1, and those beyond slabs 0, 1, … S - 2.
+/// The regions of [TN11] section 6 are slabs of equal thickness along the direction. Slab s of S
+/// has nearness s/S to (s + 1)/S, and a map in which only its own surfaces compete randomly. Beyond
+/// it, ordinary depth selects the first surface, in a separate map: in the slab's map, the slab's
+/// surfaces would hide surfaces beyond it from one another. A direction has maps_of_slabs(S) tiles:
+/// slabs 0, 1, … S - 1, then beyond slabs 0, 1, … S - 2.
 class IlluminationMaps {
 public:
-    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must hold.
-    /// slabs: 1 unless layers are stochastic. The capacity given is what fits the device and is at
-    /// most the one requested. Throws Error{device} if the device cannot keep lists, or the maps of
-    /// one direction do not fit its images.
+    /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must have.
+    /// slabs: 1 unless layers are stochastic. `capacity` is an upper limit; it is reduced to fit
+    /// the device. Throws Error{device} if the device does not support lists, or the maps of one
+    /// direction do not fit its images.
     IlluminationMaps(const gpu::Device& device, const World& world, Layers layers,
                      std::uint32_t side, std::uint32_t capacity, std::uint32_t width,
                      std::uint32_t height, std::uint32_t slabs = 1);
 
-    /// Bytes on a device whose images and arrays may be as large as is wanted.
+    /// GPU memory for images and arrays of any size [bytes].
     static std::uint64_t device_bytes(Layers layers, std::uint32_t side, std::uint32_t capacity,
                                       std::uint32_t slabs = 1);
 
-    std::uint32_t capacity() const { return capacity_; }  ///< directions
+    std::uint32_t capacity() const { return capacity_; }  ///< number of directions
     std::uint32_t slabs() const { return slabs_; }
     const ParallelLayout& layout() const { return layout_; }
-    /// Stochastic: (surface, nearness). Peeled: of that layer, or of the one two before.
+    /// Stochastic: (surface, nearness). Peeled: that of the layer, or of the one two before.
     const gpu::Target& image(std::uint32_t layer = 0) const
     {
         return layer % 2 == 0 ? image_ : odd_image_;
     }
     const gpu::Sampler& sampler() const { return sampler_; }
-    const gpu::Array<std::uint32_t>& heads() const { return heads_; }     ///< of lists
-    const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< of lists
+    const gpu::Array<std::uint32_t>& heads() const { return heads_; }  ///< first Fragment per pixel
+    const gpu::Array<Fragment>& fragments() const { return fragments_; }  ///< list entries
 
-    /// Draws views [first, first + count), each into its tiles. With Layers::peel: what lies behind
-    /// the layer before, which was the last to be drawn; layer 0 is what the direction's light
-    /// meets first.
+    /// Renders views [first, first + count), each into its tiles. Layers::peel requires the
+    /// previous layer to be the last rendered; layer 0 has the surfaces closest to the direction's
+    /// light.
     void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
                     std::uint32_t count, std::uint32_t layer = 0);
 
-    /// Share of its fragments that lists had room for in the worst of all calls so far. Waits for
-    /// the device.
+    /// Minimum over all calls of the share of fragments that fitted into the lists. Waits for the
+    /// GPU.
     double kept() const;
 
-    /// Layers::stochastic: K, the surfaces that compete for a covered pixel, mean over the slabs'
-    /// maps of the first `count` directions as they were last drawn; 0 if nothing is covered. Waits
-    /// for the device, whose work must have been submitted.
+    /// Layers::stochastic: K, the number of surfaces that compete for a covered pixel, averaged
+    /// over the slabs' maps of the first `count` directions of the last rendering; 0 if nothing is
+    /// covered. Waits for the GPU; its work must be submitted.
     double overdraw(std::uint32_t count) const;
 
 private:
@@ -89,7 +89,7 @@ private:
     using PeelRasters = SurfaceRasters<shaders::IlluminationPeel, shaders::IlluminationPeelCutOut>;
     using Rasters = std::variant<StochasticRasters, ListRasters, PeelRasters>;
 
-    /// A pass over what a layer shows.
+    /// Parameters of a pass over one layer.
     struct Pass {
         gpu::Commands& commands;
         const gpu::Array<ParallelView>& views;
@@ -117,7 +117,7 @@ private:
     gpu::Sampler sampler_;
     gpu::Array<std::uint32_t> heads_;
     gpu::Array<Fragment> fragments_;
-    gpu::Array<std::uint32_t> none_;  ///< a count of no fragments
+    gpu::Array<std::uint32_t> none_;  ///< placeholder: a count of no fragments
     gpu::Array<FragmentCount> count_;
     Rasters rasters_;
 };

@@ -6,13 +6,13 @@
 namespace lumel {
 namespace {
 
-/// Side of the blocks [pixels].
+/// Block side [pixels].
 constexpr std::uint32_t kBlock = 4;
-/// Covered pixels of a block that counts: with fewer, the estimate's variance, K²/(m - 2), is
-/// infinite or large.
+/// Minimum covered pixels of a block: with fewer, the estimate's variance, K²/(m - 2), is infinite
+/// or large.
 constexpr std::uint32_t kMinPixels = 4;
 
-/// What is known of the pixels of a block.
+/// Sums over the pixels of a block.
 struct Block {
     double sum = 0.0;  ///< Σ -ln z
     std::uint32_t covered = 0;

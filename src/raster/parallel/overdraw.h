@@ -1,5 +1,5 @@
 #pragma once
-// The number of surfaces behind one another, estimated from the random depths that they were given.
+// Estimates the number of overlapping surfaces per pixel from their random depths.
 //
 //   [TN11] A. Thomsen, K. Nielsen. Approximate Radiosity Using Stochastic Depth Buffering. 2011.
 
@@ -10,17 +10,17 @@
 
 namespace lumel {
 
-/// A count of the surfaces that competed for the pixels of stochastic maps, for which no pass is
-/// needed. Of K random numbers in 0…1 the largest, z, stays, and -ln z is then distributed
-/// exponentially with mean 1/K. Its sum over m pixels of one K follows a gamma distribution, of
-/// whose inverse the mean is K/(m - 1). So (m - 1)/Σ -ln z is K without bias where K is constant,
-/// which is assumed of small blocks of pixels, as [TN11] section 6 does of the lookups.
+/// Counts the surfaces that compete for the pixels of stochastic maps, without a pass of its own.
+/// The largest of K random numbers in 0…1, z, stays, and -ln z is exponentially distributed with
+/// mean 1/K. Its sum over m pixels of equal K has a gamma distribution, whose inverse has the mean
+/// K/(m - 1). So (m - 1)/Σ -ln z is an unbiased estimate where K is constant, as is assumed of
+/// small blocks of pixels; [TN11] section 6 assumes it of the lookups.
 class Overdraw {
 public:
-    /// Adds an area of an image of depths, `width` pixels wide; 0: the pixel is not covered.
+    /// Adds an area of a depth image `width` pixels wide. Depth 0: pixel not covered.
     void add(std::span<const float> depths, std::uint32_t width, const gpu::Area& area);
 
-    /// K, mean over the covered pixels that were added; 0 if there are none.
+    /// K, averaged over the covered pixels; 0 if there are none.
     double mean() const { return pixels_ > 0.0 ? surfaces_ / pixels_ : 0.0; }
 
 private:

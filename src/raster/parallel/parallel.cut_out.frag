@@ -3,7 +3,7 @@
 #include "base/core/hash.glsl"
 #include "raster/world/alpha.glsl"
 
-// A pixel of a surface with alpha, as it is seen along a direction.
+// Pixel of a surface with alpha in a parallel view.
 
 layout(push_constant, scalar) uniform Params { ParallelLookParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

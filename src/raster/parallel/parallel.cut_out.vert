@@ -2,7 +2,7 @@
 #include "raster/parallel/parallel_views.shared.h"
 #include "raster/parallel/parallel.glsl"
 
-// parallel.vert for surfaces with alpha: also hands on where the texture is read.
+// parallel.vert for surfaces with alpha: passes texture coordinates too.
 
 layout(push_constant, scalar) uniform Params { ParallelLookParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

@@ -1,7 +1,7 @@
 #ifndef LUMEL_VISIBILITY_PARALLEL_GLSL
 #define LUMEL_VISIBILITY_PARALLEL_GLSL
 
-// Parallel views: where points fall.
+// Projection to parallel views.
 
 #include "raster/parallel/parallel_views.shared.h"
 

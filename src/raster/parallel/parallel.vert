@@ -2,7 +2,7 @@
 #include "raster/parallel/parallel_views.shared.h"
 #include "raster/parallel/parallel.glsl"
 
-// One vertex as it is seen along a direction.
+// A vertex projected along a direction.
 
 layout(push_constant, scalar) uniform Params { ParallelLookParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };

@@ -8,14 +8,14 @@
 namespace lumel {
 namespace {
 
-/// Pixels around the scene: one for the offset, one so that its edge is never a tile's.
+/// Pixels around the scene: one for the offset, and half a pixel from the tile's edge.
 constexpr float kBorder = 1.5f;
-/// Part of the range of depths that is left free at both ends.
+/// Fraction of the depth range that is free at both ends.
 constexpr float kDepthBorder = 0.01f;
 
 constexpr std::uint32_t kMinSide = 128, kMaxSide = 2048;
 
-/// How far a box reaches along an axis.
+/// Extent of a box along an axis.
 struct Reach {
     float low = std::numeric_limits<float>::max(), high = -low;
     float size() const { return high - low; }

@@ -1,5 +1,5 @@
 #pragma once
-// look_along: what a direction sees of the whole scene, as depth, by parallel projection.
+// Depth images of the scene by parallel projection along directions.
 
 #include <cstdint>
 #include <limits>
@@ -14,36 +14,35 @@
 
 namespace lumel {
 
-/// Where a parallel view stands in the space of all that show the world from one direction.
+/// Parameters of a parallel view.
 struct ParallelPose {
     glm::vec3 toward{0.0f, 1.0f, 0.0f};    ///< unit, from the scene to the light
-    float turn = 0.0f;                     ///< of the picture about `toward` [rad]
-    glm::vec2 offset{0.5f};                ///< of its pixels, 0…1
-    std::uint32_t random = 0;              ///< seeds the chance by which surfaces with alpha block
-    std::uint32_t channel = kAllChannels;  ///< that is looked in
+    float turn = 0.0f;                     ///< rotation of the image about `toward` [rad]
+    glm::vec2 offset{0.5f};                ///< shift of the pixel grid, 0…1
+    std::uint32_t random = 0;              ///< seed for the random opacity of surfaces with alpha
+    std::uint32_t channel = kAllChannels;  ///< colour channel of the view
 };
 
-/// The view that shows a whole box, as large as fits a tile of side × side pixels.
+/// The largest view of a whole box that fits a tile of side × side pixels.
 ParallelView fit_view(const glm::vec3& low, const glm::vec3& high, std::uint32_t side,
                       const ParallelPose& pose);
 
-/// The side of parallel views that shows typical lumels that number of pixels wide, within limits.
-/// diagonal: of the scene's bounding box [m]; most: side that the device's images may have
-/// [pixels].
+/// Side of parallel views in which typical lumels are `pixels` wide, within limits. diagonal: of
+/// the scene's bounding box [m]; most: maximum side [pixels].
 std::uint32_t parallel_side(const Lumels& lumels, float diagonal, float pixels,
                             std::uint32_t most = std::numeric_limits<std::uint32_t>::max());
 
-/// How tiles of that side lie in an image, about square, that holds `capacity` of them if it may be
-/// so large.
+/// A nearly square layout of `capacity` tiles of that side in an image, or of as many as fit the
+/// device's maximum.
 ParallelLayout tile_layout(const gpu::Device& device, std::uint32_t side, std::uint32_t capacity);
 Tiles tiles_of(const ParallelLayout& layout);
 
-/// Depth images of what `capacity` directions see, side by side in one image. A kernel reads them
-/// through raster/parallel/piece_along.glsl and first_met.glsl.
+/// Depth images of `capacity` directions, tiled in one image. Kernels read them through
+/// raster/parallel/piece_along.glsl and first_met.glsl.
 class ParallelViews {
 public:
-    /// side: of each image [pixels]. The capacity given is what fits the device's images and is at
-    /// most the one requested.
+    /// side: of each image [pixels]. `capacity` is an upper limit; it is reduced to fit the
+    /// device's images.
     ParallelViews(const gpu::Device& device, const World& world, std::uint32_t side,
                   std::uint32_t capacity);
 
@@ -52,7 +51,7 @@ public:
     const gpu::Target& image() const { return image_; }
     const gpu::Sampler& sampler() const { return sampler_; }
 
-    /// Draws views [first, first + count) into tiles 0, 1, …, with the walls on the scene's hull.
+    /// Renders views [first, first + count) to tiles 0, 1, …, including the scene's hull.
     void look_along(gpu::Pacer& pacer, const gpu::Array<ParallelView>& views, std::uint32_t first,
                     std::uint32_t count);
 

@@ -7,7 +7,7 @@
 #include "raster/world/first_met.glsl"
 #include "raster/parallel/parallel.glsl"
 
-// Rounding of stored depths, which lie in 0…1, where the scene is about the origin.
+// Rounding error of stored depths in 0…1, for a scene near the origin.
 const float kParallelRounding = 1e-6;
 
 PieceInView piece_along(ParallelView view, Piece piece)

@@ -1,22 +1,23 @@
 #ifndef LUMEL_VISIBILITY_RAYS_ALONG_GLSL
 #define LUMEL_VISIBILITY_RAYS_ALONG_GLSL
 
-// All rays of a parallel view that meet a piece of a lumel.
+// All pixel rays of a parallel view that hit a piece of a lumel.
 //
-// Where an edge crosses a lumel, its lit part is found only as exactly as the test points are
-// evenly spread. The points where rays meet it are, and each represents the area of a pixel.
+// For a lumel crossed by a shadow edge, the accuracy of the lit fraction depends on the
+// uniformity of the test points. The rays' hits are uniform, and each represents the
+// area of a pixel.
 
 #include "raster/parallel/piece_along.glsl"
 
 struct RaysAlong {
-    vec3 sides[4];  // a ray through p meets the piece where each dot(side, p) > 0
-    vec2 rows;      // of pixels, first and last
-    float area;     // of the piece [pixels]
-    float mean;     // number of rays that meet it, over all places of the grid of pixels
-    float width;    // of the part that rays may meet, across its longest side [pixels]
+    vec3 sides[4];  // a ray through p hits the piece if all dot(side, p) > 0
+    vec2 rows;      // first and last row [pixels]
+    float area;     // area of the piece [pixels]
+    float mean;     // number of rays that hit it, averaged over shifts of the pixel grid
+    float width;    // width of the valid region across its longest side [pixels]
 };
 
-// Pieces that are smaller, as seen along the view, are left out [pixels].
+// Smaller projected areas are omitted [pixels].
 const float kMinArea = 1e-6;
 
 RaysAlong rays_along(ParallelView view, ParallelLayout tiling, Piece piece, PieceInView s)
@@ -47,8 +48,7 @@ RaysAlong rays_along(ParallelView view, ParallelLayout tiling, Piece piece, Piec
     return rays;
 }
 
-// First and last pixel of a row whose rays meet the piece; the last is before the first where none
-// does.
+// First and last pixel of a row whose rays hit the piece; last < first if there are none.
 vec2 columns_of(RaysAlong rays, ParallelLayout tiling, float row)
 {
     float low = 0.5, high = float(tiling.side) - 0.5;

@@ -1,5 +1,5 @@
 #pragma once
-// Direct light of everything that is no lumel: sky, sun and lamps.
+// Direct light of sky, sun and lamps by shadow maps.
 
 #include <cstdint>
 #include <functional>
@@ -13,43 +13,43 @@
 namespace lumel {
 
 struct DirectLightOptions {
-    std::uint32_t sky_directions = 1024;  ///< sampled of the sky, 0: without it
+    std::uint32_t sky_directions = 1024;  ///< samples of the sky, 0: no sky
     std::uint32_t sun_directions = 256;   ///< for each directional light
-    std::uint32_t disc_directions = 256;  ///< for each that has a disc
+    std::uint32_t disc_directions = 256;  ///< for each with a disc
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };
 
 struct DirectLight {
     std::vector<glm::vec3> irradiance;  ///< [N] [lx]
-    gpu::StageTimes times;              ///< on the device [ms]
-    bool finished = true;               ///< false: stopped by the caller, light is missing
+    gpu::StageTimes times;              ///< on the GPU [ms]
+    bool finished = true;               ///< false: stopped by the caller, incomplete
 };
 
-/// True if the scene has a source that is no surface.
+/// True if the scene has sky, sun or lamps.
 bool has_lights(const Scene& scene);
 
-/// Bytes on the device that direct_light() holds beside the world, on one without a limit to
-/// the size of images. diagonal: of the scene's bounding box [m].
+/// GPU memory of direct_light() beside the world [bytes], for images of any size. diagonal: of the
+/// scene's bounding box [m].
 std::uint64_t direct_light_bytes(const Scene& scene, const Lumels& lumels, float diagonal);
 
-/// Finds the direct light of the scene's sky and lights some views at a time. How they are cut does
-/// not change the result.
+/// Computes direct light of the scene's sky and lights, some views per step. The division into
+/// steps does not change the result.
 class DirectLightSearch {
 public:
-    /// All but the options must outlive it, and the world stay as it is.
+    /// All arguments but the options must outlive this, and the world must not change.
     DirectLightSearch(const gpu::Device& device, const World& world, const Scene& scene,
                       const Lumels& lumels, const DirectLightOptions& options);
     ~DirectLightSearch();
 
-    /// Draws views of about `pixels` in all, one at least. It must not be done.
+    /// Renders views of about `pixels` pixels in total, at least one view. Requires !is_done().
     void step(std::uint64_t pixels);
-    /// Until the device has done what step() gave it.
+    /// Waits until the GPU has finished the steps.
     void wait();
     bool is_done() const;
-    /// Part of the whole.
+    /// Fraction of the work that is done.
     double done() const;
-    /// Stops where it is not done. Waits for the device.
+    /// Returns the result, incomplete unless done. Waits for the GPU.
     DirectLight take();
 
 private:
@@ -58,7 +58,7 @@ private:
 };
 
 /// Direct light of the scene's sky and lights. `go_on` receives the fraction done and returns false
-/// to stop; what has been found by then is returned.
+/// to stop; the result is then incomplete.
 DirectLight direct_light(const gpu::Device& device, const World& world, const Scene& scene,
                          const Lumels& lumels, const DirectLightOptions& options,
                          const std::function<bool(double)>& go_on = {});

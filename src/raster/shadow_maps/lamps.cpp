@@ -17,10 +17,10 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Between the keys of one lamp's random numbers and the next's.
+/// Distance of the random keys of two lamps.
 constexpr std::uint32_t kLampKeys = 977;
 
-/// Are two hemicubes needed to see all surfaces that the light reaches?
+/// True if the light needs two hemicubes to cover all directions.
 bool has_halves(const PunctualLight& light)
 {
     return light.kind == PunctualLight::Kind::point && light.radius == 0.0f;
@@ -48,7 +48,7 @@ Lamp lamp_of(const PunctualLight& light)
     return lamp;
 }
 
-/// An eye that looks along `normal`, turned about it by `turn` [rad].
+/// An eye facing `normal`, rotated about it by `turn` [rad].
 Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::uint32_t random)
 {
     const glm::mat3 frame = frame_about(normal);
@@ -56,8 +56,8 @@ Eye eye_at(const glm::vec3& position, const glm::vec3& normal, float turn, std::
     return {position, tangent, glm::cross(normal, tangent), normal, random, kAllChannels};
 }
 
-/// Eyes of a lamp: points of its ball, or the lamp itself, turned differently each time; all
-/// around in two halves, or only where a spot lights.
+/// Eyes of a lamp: points of its ball, or its centre with different rotations; as two halves for
+/// all directions, or towards a spot's cone.
 std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options, std::uint32_t key)
 {
     std::vector<Eye> eyes;
@@ -81,7 +81,7 @@ std::vector<Eye> eyes_of(const PunctualLight& light, const LampOptions& options,
     return eyes;
 }
 
-/// Each eye once for each channel.
+/// Repeats each eye for each channel.
 std::vector<Eye> in_channels(const std::vector<Eye>& eyes)
 {
     std::vector<Eye> all;
@@ -101,7 +101,7 @@ std::vector<float> profiles_of(const Scene& scene)
     return candela;
 }
 
-/// Eyes of one batch.
+/// Eyes per batch.
 std::uint32_t batch_of(const LampOptions& options)
 {
     return std::uint32_t(std::max<std::uint64_t>(
@@ -115,7 +115,7 @@ std::uint64_t lamp_pixels(const LampOptions& options)
     return batch_of(options) * view_pixels(Projection::hemicube, options.hemicube);
 }
 
-/// Buffers that lamps use in turn.
+/// Buffers shared by all lamps.
 struct LampLight::Stage {
     Stage(const gpu::Device& on, const World& in, const Scene& scene, const std::vector<Lamp>& all,
           const LampOptions& given)
@@ -130,7 +130,7 @@ struct LampLight::Stage {
     {
     }
 
-    /// Adds the light of some of a lamp's eyes. first: of them among the lamp's.
+    /// Adds the light of some of a lamp's eyes. first: index of the batch's first eye.
     void take(std::span<const Eye> batch, std::uint32_t lamp, std::uint32_t first,
               const SummedLight& light)
     {
@@ -166,7 +166,7 @@ struct LampLight::Stage {
     EyeViews views;
     gpu::Kernel<shaders::LampsReceive> receive;
     std::deque<gpu::Array<Eye>> in_flight;  ///< until the pacer has finished
-    gpu::Pacer pacer;                       ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer;  ///< last: its destructor waits for work that uses the others
 };
 
 LampLight::LampLight(const gpu::Device& device, const World& world, const Scene& scene,

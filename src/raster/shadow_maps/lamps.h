@@ -13,42 +13,42 @@ namespace lumel {
 
 struct LampOptions {
     std::uint32_t hemicube = 512;     ///< side of the front face [pixels], see EyeViews
-    std::uint32_t points = 16;        ///< looked from per lamp that is a point
-    std::uint32_t ball_points = 128;  ///< per lamp that is a ball
+    std::uint32_t points = 16;        ///< rotated views per point light
+    std::uint32_t ball_points = 128;  ///< per spherical lamp
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds the direct light of the scene's point and spot lights at the lumels to a sum, each lamp as
-/// one source, a few of their views at a time. How they are cut does not change the result.
-/// Hemicubes, whose edges are exact, are used whatever projection solvers use.
+/// Adds the direct irradiance of the scene's point and spot lights to a sum, each lamp as one
+/// source, some views per step. The division into steps does not change the result. Always uses
+/// hemicubes, whose edges are exact.
 class LampLight {
 public:
-    /// device, world and light must outlive it, and the world stay as it is.
+    /// device, world and light must outlive this, and the world must not change.
     LampLight(const gpu::Device& device, const World& world, const Scene& scene,
               const LampOptions& options, SummedLight& light);
     ~LampLight();
 
-    /// Draws hemicubes of about `pixels` in all, of one lamp, one at least, and adds their light.
-    /// Waits for the device after the last.
+    /// Renders hemicubes of one lamp, of about `pixels` pixels in total, at least one, and adds
+    /// their light. Waits for the GPU after the last.
     void step(std::uint64_t pixels);
     void wait();
     bool is_done() const { return lamp_ == eyes_.size(); }
-    /// Part of the whole.
+    /// Fraction of the work that is done.
     double done() const;
-    /// Counts what has been found as the whole. Waits for the device.
+    /// Accepts the light found so far as complete. Waits for the GPU.
     void finish();
 
 private:
     struct Stage;
 
     SummedLight* light_;
-    std::vector<std::vector<Eye>> eyes_;  ///< of each lamp
-    std::size_t lamp_ = 0, next_ = 0;     ///< eye of it
-    std::unique_ptr<Stage> stage_;        ///< none where there are no lamps
+    std::vector<std::vector<Eye>> eyes_;  ///< [lamps] eyes
+    std::size_t lamp_ = 0, next_ = 0;     ///< current lamp and its next eye
+    std::unique_ptr<Stage> stage_;        ///< null without lamps
 };
 
-/// Pixels of the views of one batch.
+/// Pixels of a batch of views.
 std::uint64_t lamp_pixels(const LampOptions& options);
 
 }  // namespace lumel

@@ -10,16 +10,16 @@
 #include "raster/world/first_met.glsl"
 #include "raster/eyes/piece_from.glsl"
 
-// Every lumel takes the light of K eyes at a lamp:
+// Every lumel receives light of K eyes at a lamp:
 //
 //     H = Σ_k  share · I(ω) / r² · V cosθ · window(r),
 //
-// I the lamp's intensity towards the lumel. A ball of even luminance L and radius R has I = π R² L;
-// a point y drawn evenly from its surface stands for  4 I max(n_y·ω, 0).
+// with the lamp's intensity I towards the lumel. A ball of uniform luminance L and radius R has I =
+// π R² L; a uniformly sampled point y of its surface represents  4 I max(n_y·ω, 0).
 //
-// V is summed as light_sums.shared.h describes. Unoccluded light is taken at more points of the
-// lumel than V: it may change much over a lumel. With coloured glass V differs between channels,
-// and each eye carries one.
+// V is summed as described in light_sums.shared.h. Unoccluded light varies much over a lumel, so it
+// is sampled at more points than V. With coloured glass V depends on the channel, and each eye has
+// one.
 
 layout(local_size_x = kLampGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
@@ -30,7 +30,7 @@ layout(scalar) buffer Sums { LightSums sums[]; };
 
 const float kPi = 3.14159265;
 
-// From here to range_window(): the twin of scene/values/photometry.cpp.
+// From here to range_window(): duplicates scene/values/photometry.cpp.
 
 float profile_value(uint profile, uint azimuth, uint polar)
 {
@@ -38,7 +38,7 @@ float profile_value(uint profile, uint azimuth, uint polar)
                    polar];
 }
 
-// Bilinear, as in Photometry.
+// Bilinear interpolation of a Photometry.
 float profile_towards(Lamp lamp, vec3 direction)
 {
     const float polar =
@@ -70,7 +70,7 @@ float range_window(Lamp lamp, float squared)
     return clamp(1.0 - part * part, 0.0, 1.0);
 }
 
-// A ball that shines evenly all around and is wholly above the horizon lights as its centre would.
+// A uniform ball wholly above the horizon has the irradiance of its centre.
 bool is_whole_ball(Lamp lamp, LumelPoint point)
 {
     return lamp.radius > 0.0 && lamp.cone_scale == 0.0 && lamp.profile == kNoProfile &&
@@ -85,7 +85,7 @@ vec3 light_of_centre(Lamp lamp, LumelPoint point)
     return lamp.intensity * (lamp.share * dot(d, point.normal) / (squared * sqrt(squared)));
 }
 
-// Unoccluded light of an eye at a point; 0 where either faces away.
+// Unoccluded light of an eye at a point; 0 if either faces away.
 vec3 open_light(Lamp lamp, Eye eye, LumelPoint point)
 {
     const vec3 d = point.position - eye.position;
@@ -98,8 +98,8 @@ vec3 open_light(Lamp lamp, Eye eye, LumelPoint point)
            (lamp.share * ball * range_window(lamp, squared) * facing / (squared * reach));
 }
 
-// Looks for a ray of eye k's hemicube that meets the piece the point lies on. `seen`: nothing is
-// before it.
+// Finds a ray of eye k's hemicube that hits the piece of the point. `seen`: true if it is
+// unoccluded.
 bool ask_view(Eye eye, uint k, LumelPoint point, out RayMet ray, out bool seen)
 {
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);

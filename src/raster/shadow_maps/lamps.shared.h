@@ -12,17 +12,17 @@ LUMEL_CONST uint kNoProfile = 0xffffffffu;
 struct Lamp {
     vec3 position;       ///< [m]
     float radius;        ///< [m], 0: a point
-    vec3 x, y, z;        ///< its unit axes in the world; it shines along -z
-    vec3 intensity;      ///< [cd]; a factor where there is a profile
+    vec3 x, y, z;        ///< unit axes in the world; its light is centred on -z
+    vec3 intensity;      ///< [cd]; with a profile, a factor
     float range;         ///< [m], 0: unlimited
     float cone_scale;    ///< KHR_lights_punctual's lightAngleScale and lightAngleOffset;
     float cone_offset;   ///< 0 and 1: no cone
     uint profile;        ///< index into the profiles, or kNoProfile
-    uint eyes_per_look;  ///< that together see all around and in all channels
-    float share;         ///< of the lamp's light that a look stands for
+    uint eyes_per_look;  ///< eyes that together cover all directions and channels
+    float share;         ///< share of the lamp's light per group of eyes
 };
 
-LUMEL_CONST uint kOpenPoints = 4u;  ///< of a lumel at which unoccluded light is taken
+LUMEL_CONST uint kOpenPoints = 4u;  ///< points of a lumel for unoccluded light
 
 /// Push constants of lamps.receive.comp.
 struct LampReceiveParams {
@@ -30,7 +30,7 @@ struct LampReceiveParams {
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
     uint lamp;
-    uint first_eye;  ///< of this batch among the lamp's
+    uint first_eye;  ///< index of the batch's first eye
     uint eyes;       ///< K
     uint seed;
     uint centre;  ///< 1: receive at the centroid

@@ -1,7 +1,7 @@
 #version 460
 #include "raster/shadow_maps/light_sums.shared.h"
 
-// Adds what has come from one source, H = U N / D, to the lumels, and clears its sums.
+// Adds the light of one source, H = U N / D, to the lumels, and clears its sums.
 
 layout(local_size_x = kLightSumsGroup) in;
 layout(push_constant, scalar) uniform Params { FinishLightParams p; };

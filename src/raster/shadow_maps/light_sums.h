@@ -1,5 +1,5 @@
 #pragma once
-// Irradiance that is gathered source by source.
+// Irradiance, summed source by source.
 
 #include <vector>
 
@@ -9,15 +9,15 @@
 
 namespace lumel {
 
-/// Pixels of all views of a source in one batch: bounds them to 32 MiB.
+/// Maximum pixels of a batch of views (32 MiB).
 inline constexpr std::uint64_t kMaxLightPixels = 8u << 20;
 
-/// Sums of the source at work, and of all before it. A kernel adds to sums().
+/// Sums of the current source and of all previous ones. Kernels add to sums().
 class SummedLight {
 public:
     SummedLight(const gpu::Device& device, std::size_t lumels);
 
-    /// Bytes on the device.
+    /// GPU memory [bytes].
     static std::uint64_t bytes(std::size_t lumels)
     {
         return lumels * (sizeof(LightSums) + sizeof(glm::vec3));
@@ -26,13 +26,13 @@ public:
     std::uint32_t lumels() const { return std::uint32_t(irradiance_.size()); }
     const gpu::Array<LightSums>& sums() const { return sums_; }
 
-    /// Ends a source.
+    /// Completes the current source.
     void finish_source(gpu::Pacer& pacer);
-    /// Finishes, and keeps the times.
+    /// Waits for the pacer and keeps its times.
     void finish(gpu::Pacer& pacer);
-    /// Device time per kind of work [ms], of all pacers that have finished.
+    /// GPU time per kind of work [ms], of all finished pacers.
     const gpu::StageTimes& times() const { return times_; }
-    /// H [N] [lx] of all sources that have ended. Their pacers must have finished.
+    /// H [N] [lx] of all completed sources. Their pacers must have finished.
     std::vector<glm::vec3> irradiance() const { return irradiance_.download(); }
 
 private:

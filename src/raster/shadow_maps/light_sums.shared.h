@@ -5,18 +5,18 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLightSumsGroup = 64u;  ///< threads per workgroup of light_sums.finish.comp
 
-/// Light of one source that a lumel has received so far [lx]. A view shows whether light is hidden
-/// only for lumels that one of its rays meets, which has a probability P. So three sums are kept,
-/// and H = U N / D is exact wherever nothing or everything is hidden.
+/// Light of one source received by a lumel so far [lx]. A view decides occlusion only for lumels
+/// hit by one of its rays, which has a probability P. Therefore three sums are kept; H = U N / D is
+/// exact wherever nothing or everything is occluded.
 struct LightSums {
     vec3 open;     ///< U: unoccluded
-    vec3 known;    ///< D: the same where V is known, over P: U in the mean
-    vec3 arrived;  ///< N: of D, what arrives
+    vec3 known;    ///< D: unoccluded, if V is known, over P: U on average
+    vec3 arrived;  ///< N: part of D that arrives
 };
 
 /// Push constants of light_sums.finish.comp.
 struct FinishLightParams {
-    uint count;  ///< N lumels
+    uint count;  ///< number of lumels
 };
 
 LUMEL_SHARED_END

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t kSky = std::numeric_limits<std::uint32_t>::max();
 
-/// Of the views that are drawn before a caller may look at the clock: about one hemicube of a lamp.
+/// Pixels per step, for callers with a time budget: about one hemicube of a lamp.
 constexpr std::uint64_t kPixelsAStep = 1u << 20;
 
 }  // namespace
@@ -65,7 +65,7 @@ void LiveLamps::find(const gpu::Device& device, const World& world, const Lumels
         step();
 }
 
-/// Begins with the next source.
+/// Starts the next source.
 void LiveLamps::search()
 {
     search_.reset();

@@ -1,13 +1,13 @@
-// Light from infinitely far away.
+// Light from infinity.
 //
 //   [VG95] E. Veach, L. Guibas. Optimally Combining Sampling Techniques. 1995.
 //
-// All lumels use a direction at once: one depth image of the scene shows which of them it
-// reaches. The sky is an integral over directions,
+// All lumels use a direction at once: one depth image of the scene shows which of them it reaches.
+// The sky is an integral over directions,
 //
 //     H = ∫ L(ω) V(ω) cosθ dω  ≈  Σ_k  L(ω_k) / (p(ω_k) n) · V cosθ,
 //
-// with the same n directions ω_k for all lumels, drawn with density p.
+// with the same n directions ω_k for all lumels, sampled with density p.
 
 #include "raster/shadow_maps/parallel_light.h"
 
@@ -23,15 +23,15 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Keys of the points drawn, see lattice_point.
+/// Keys of the samples, see lattice_point.
 constexpr std::uint32_t kBrightKey = 1, kEvenKey = 2, kDiscKey = 3, kTurnKey = 4, kOffsetKey = 5;
 /// Keys of one seed.
 constexpr std::uint32_t kKeys = 8;
 
-/// Views that are drawn at a time at most, however small.
+/// Maximum views per batch.
 constexpr std::uint64_t kMaxViews = 64;
 
-/// Views that are drawn at a time.
+/// Views per batch.
 std::uint32_t batch_of(const ParallelLightOptions& options)
 {
     const std::uint64_t fit = kMaxLightPixels / (std::uint64_t(options.side) * options.side);
@@ -42,7 +42,7 @@ ParallelView view_of(const ParallelSource& source, std::uint32_t index, std::uin
                      const World& world, const ParallelLightOptions& options)
 {
     const std::uint32_t keys = options.seed * kKeys;
-    // Pictures of equal orientation divide one another's pixels evenly.
+    // Images of equal orientation have evenly distributed pixel offsets.
     const ParallelPose pose{.toward = source.toward,
                             .turn = 2.0f * kPi * sequence_point(0, keys + kTurnKey).x,
                             .offset = sequence_point(index, keys + kOffsetKey),
@@ -56,7 +56,7 @@ std::uint32_t views_per_source(const World& world)
     return world.has_coloured_glass() ? kChannels : 1;
 }
 
-/// One view of each source, or where there is coloured glass three, alike but for their channel.
+/// One view per source, or with coloured glass three that differ by channel.
 std::vector<ParallelView> views_of(const std::vector<ParallelSource>& sources, const World& world,
                                    const ParallelLightOptions& options)
 {
@@ -80,10 +80,10 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
     const SkySampler sampler(sky);
     if (sampler.empty())
         return sources;
-    constexpr float kEven = 0.25f / kPi;  // density of even directions [1/sr]
+    constexpr float kEven = 0.25f / kPi;  // density of uniform directions [1/sr]
     const std::uint32_t half = std::max(count / 2, 1u);
     const auto add = [&](const glm::vec3& toward, const glm::vec3& radiance, float density) {
-        // Balance heuristic: both techniques together draw with this density.
+        // Balance heuristic: the combined density of both techniques.
         sources.push_back({toward, radiance / ((density + kEven) * float(half))});
     };
     for (std::uint32_t i = 0; i < half; ++i) {
@@ -100,10 +100,10 @@ std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std
 std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
                                         std::uint32_t seed)
 {
-    const glm::vec3 away = glm::normalize(glm::vec3(light.transform[2]));  // it shines along -z
+    const glm::vec3 away = glm::normalize(glm::vec3(light.transform[2]));  // light along -z
     const glm::mat3 frame = frame_about(away);
-    // Even radiance over the disc makes this illuminance on a surface that faces its middle:
-    // the mean cosine over a cone is sin²α / 2(1 - cosα).
+    // A uniform disc gives this illuminance on a surface facing its centre: the mean cosine over a
+    // cone is sin²α / 2(1 - cosα).
     const float cosine = std::cos(light.angle);
     const float mean_cosine = light.angle > 0.0f ? 0.5f * (1.0f + cosine) : 1.0f;
     const glm::vec3 each = light.color * (light.intensity / (float(count) * mean_cosine));

@@ -1,5 +1,5 @@
 #pragma once
-// Light from infinitely far away: sky and sun, through parallel views.
+// Light of sky and sun, by parallel views.
 
 #include <cstdint>
 #include <functional>
@@ -13,38 +13,38 @@
 
 namespace lumel {
 
-/// `count` directions that stand for the whole sky: half of them drawn by its brightness, half
-/// evenly, weighted by the balance heuristic [VG95]. None for a dark sky or a count of 0.
+/// `count` samples of the whole sky: half of them by brightness, half uniform, weighted by the
+/// balance heuristic [VG95]. Empty for a dark sky or a count of 0.
 std::vector<ParallelSource> sky_sources(const Sky& sky, std::uint32_t count, std::uint32_t seed);
 
-/// `count` directions, evenly spread over the light's disc; all the same where it has none. Only
-/// where their pixels lie differs then.
+/// `count` directions, uniform over the light's disc. Without a disc they are equal and differ only
+/// by their pixel grids.
 std::vector<ParallelSource> sun_sources(const PunctualLight& light, std::uint32_t count,
                                         std::uint32_t seed);
 
 struct ParallelLightOptions {
-    std::uint32_t side = 512;  ///< of each view [pixels]
+    std::uint32_t side = 512;  ///< view side [pixels]
     std::uint32_t seed = 1;
     bool centre = false;  ///< receive at lumels' centroids
 };
 
-/// Adds the direct light of some directions at the lumels to a sum, as one source, some of them at
-/// a time. How they are cut does not change the result.
+/// Adds the direct irradiance of some directions to a sum, as one source, some views per step. The
+/// division into steps does not change the result.
 class ParallelLight {
 public:
-    /// device, world and light must outlive it, and the world stay as it is.
+    /// device, world and light must outlive this, and the world must not change.
     ParallelLight(const gpu::Device& device, const World& world,
                   const std::vector<ParallelSource>& sources, const ParallelLightOptions& options,
                   SummedLight& light);
 
-    /// Draws views of about `pixels` in all, one at least, and adds their light. Waits for the
-    /// device after the last.
+    /// Renders views of about `pixels` pixels in total, at least one view, and adds their light.
+    /// Waits for the GPU after the last.
     void step(std::uint64_t pixels);
     void wait() { pacer_.finish(); }
     bool is_done() const { return next_ == total_; }
-    /// Part of the whole.
+    /// Fraction of the work that is done.
     double done() const { return total_ > 0 ? double(next_) / double(total_) : 1.0; }
-    /// Counts what has been found as the whole. Waits for the device.
+    /// Accepts the light found so far as complete. Waits for the GPU.
     void finish();
 
 private:
@@ -56,10 +56,10 @@ private:
     gpu::Array<ParallelSource> sources_;
     ParallelViews images_;
     gpu::Kernel<shaders::ParallelLightReceive> receive_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;  ///< last: its destructor waits for work that uses the others
 };
 
-/// Pixels of the views of one batch.
+/// Pixels of a batch of views.
 std::uint64_t parallel_light_pixels(const ParallelLightOptions& options);
 
 }  // namespace lumel

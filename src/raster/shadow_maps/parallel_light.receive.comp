@@ -10,13 +10,12 @@
 #include "raster/parallel/piece_along.glsl"
 #include "raster/parallel/rays_along.glsl"
 
-// Every lumel takes the light of K directions:
+// Every lumel receives light of K directions:
 //
 //     H = Σ_k  illuminance_k · V_k · max(cosθ_k, 0).
 //
-// With coloured glass V differs between channels, and each view carries one. V is summed as
-// light_sums.shared.h describes, P being the mean number of rays that meet a lumel: all of them
-// count.
+// With coloured glass V depends on the channel, and each view has one. V is summed as described in
+// light_sums.shared.h; P is the mean number of rays that hit a lumel, because all of them count.
 
 layout(local_size_x = kParallelGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
@@ -25,9 +24,9 @@ layout(scalar) readonly buffer Sources { ParallelSource sources[]; };
 uniform sampler2D parallel_image;
 layout(scalar) buffer Sums { LightSums sums[]; };
 
-// Pieces of a lumel that are tested: all, or this number chosen at random.
+// Maximum pieces tested per lumel; of more, this number is sampled.
 const uint kMaxPieces = 4u;
-// Rays that are tested for a piece, about: where more meet it, some are left out.
+// Approximate maximum of rays tested per piece; the rest is skipped.
 const float kMaxRays = 64.0;
 
 bool is_lit(PieceInView piece, uint tile, vec2 pixel)
@@ -36,8 +35,8 @@ bool is_lit(PieceInView piece, uint tile, vec2 pixel)
     return is_first(piece, RayMet(pixel, 1.0), texelFetch(parallel_image, place, 0).x);
 }
 
-// Rays that meet a piece, and those of them that are lit, each counted as what it stands for: 1 for
-// all in the mean. `random`: which are left out where there are many.
+// Rays that hit a piece, and those of them that are lit, normalised to 1 for all on average.
+// `random`: selects the skipped rays.
 vec2 rays_of(ParallelView view, uint tile, Piece piece, uint random)
 {
     const PieceInView s = piece_along(view, piece);
@@ -56,7 +55,7 @@ vec2 rays_of(ParallelView view, uint tile, Piece piece, uint random)
     return vec2(met, lit) * (stride * stride / rays.area);
 }
 
-// The same for the ray next to a lumel's centroid.
+// Those sums for only the ray next to a lumel's centroid.
 vec2 ray_of(ParallelView view, uint tile, Piece piece, vec3 middle)
 {
     const PieceInView s = piece_along(view, piece);
@@ -71,8 +70,8 @@ uint pieces_asked(Lumel lumel)
     return p.centre != 0u ? 1u : min(lumel.piece_count, kMaxPieces);
 }
 
-// The n-th of them, and the share of the lumel that it stands for. `draw` differs for each piece
-// chosen of a lumel.
+// The n-th tested piece and its share of the lumel. `draw`: index of the sample, different for each
+// piece of a lumel.
 Piece piece_asked(Lumel lumel, uint i, uint n, uint draw, out float share)
 {
     if (p.centre == 0u && lumel.piece_count <= kMaxPieces) {

@@ -6,10 +6,10 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kParallelGroup = 64u;  ///< threads per workgroup of parallel_light.receive.comp
 
-/// Light from infinitely far away along one direction.
+/// Light from infinity along one direction.
 struct ParallelSource {
     vec3 toward;       ///< unit, from the scene to the light
-    vec3 illuminance;  ///< [lx] on a surface that faces it
+    vec3 illuminance;  ///< [lx] on a surface facing it
 };
 
 /// Push constants of parallel_light.receive.comp.
@@ -17,9 +17,9 @@ struct ParallelReceiveParams {
     ParallelLayout tiling;
     uint first;  ///< lumels [first, last) of this dispatch
     uint last;
-    uint first_view;  ///< views [first_view, first_view + views), drawn into tiles 0, 1, …
+    uint first_view;  ///< views [first_view, first_view + views) in tiles 0, 1, …
     uint views;
-    uint views_per_source;  ///< that follow one another
+    uint views_per_source;  ///< consecutive views of a source
     uint seed;
     uint centre;  ///< 1: receive at the centroid
 };

@@ -1,20 +1,20 @@
 #ifndef LUMEL_VISIBILITY_ALPHA_GLSL
 #define LUMEL_VISIBILITY_ALPHA_GLSL
 
-// When a surface with alpha, or of glass, blocks.
+// Opacity of surfaces with alpha and of glass.
 
 #include "base/core/hash.glsl"
 #include "raster/world/passage.shared.h"
 
-// What becomes of a view's light at a surface.
+// Interaction of a view's light with a surface.
 struct Meeting {
-    bool there;    // it meets the surface
-    bool blocked;  // it meets it, or glass absorbs it
+    bool there;    // hits the surface
+    bool blocked;  // hits it, or is absorbed by glass
 };
 
 struct Opacity {
-    float there;    // share of the light that meets the surface
-    float blocked;  // the same and what glass absorbs
+    float there;    // share of the light that hits the surface
+    float blocked;  // including the share absorbed by glass
 };
 
 // `base`: the texture's colour, and the surface's alpha.
@@ -28,9 +28,8 @@ Opacity opacity_of(Passage passage, vec4 base, uint channel)
                    there * (1.0 - passage.transmission * tint));
 }
 
-// A number in 0…1 for a surface at a pixel: over many shots, a surface that blocks where it is less
-// than a share of the light blocks that share. `depth` distinguishes surfaces that lie behind one
-// another.
+// Random number in 0…1 for a surface at a pixel: over many shots, a surface that blocks if it is
+// less than a share blocks this share of the light. `depth` distinguishes overlapping surfaces.
 float chance_at(vec2 at, float depth, uint random)
 {
     const uvec2 pixel = uvec2(at);
@@ -38,7 +37,7 @@ float chance_at(vec2 at, float depth, uint random)
     return unit_float(hash(where ^ random));
 }
 
-// `look`: where the base colour is read, and the factor of its alpha. `at` [pixels].
+// `look`: texture coordinates of the base colour, and the factor of its alpha. `at` [pixels].
 Meeting meet(Passage passage, sampler2D base_color, vec3 look, uint channel, vec2 at, float depth,
              uint random)
 {

@@ -1,7 +1,7 @@
 #ifndef LUMEL_VISIBILITY_CHANNEL_GLSL
 #define LUMEL_VISIBILITY_CHANNEL_GLSL
 
-// The part of light that a view carries.
+// Colour channels of a view.
 
 #include "raster/world/passage.shared.h"
 
@@ -11,7 +11,7 @@ vec3 carried(uint channel)
                                    : vec3(equal(uvec3(channel - 1u), uvec3(0u, 1u, 2u)));
 }
 
-// Where views take the channels in turn, one stands for three.
+// If views take turns with the channels, each represents three.
 uint channel_in_turn(uint index, bool in_turn)
 {
     return in_turn ? 1u + index % kChannels : kAllChannels;

@@ -1,46 +1,45 @@
 #ifndef LUMEL_VISIBILITY_FIRST_MET_GLSL
 #define LUMEL_VISIBILITY_FIRST_MET_GLSL
 
-// Is a lumel the first thing that light meets?
+// Visibility of a lumel at its own pixel rays.
 //
-// A pixel stores exactly what the ray through its centre meets first, and nothing about the rays
-// beside it. So a lumel is tested at a point where a pixel's ray meets it: there it is compared
-// only with itself, and no light can leak. Lumels that are small or
-// seen from the side may have no such point; then this view does not decide about them.
+// A pixel stores exactly the closest surface on the ray through its centre, and nothing about other
+// rays. So a lumel is tested where a pixel's ray hits it: there it is compared only with itself,
+// and no light leaks. Small or edge-on lumels may have no such point; this view then does not
+// decide about them.
 
-// A flat piece of a lumel in a view. Where the ray through a place p = (x, y, 1) [pixels] meets the
-// piece's plane, in the piece's coordinates and in the depth that the view stores, is a ratio of
-// linear forms of p in a perspective, and linear in a parallel view:
+// A flat piece of a lumel in a view. The ray through p = (x, y, 1) [pixels] intersects the piece's
+// plane at piece coordinates, and at a stored depth, that are ratios of linear forms of p in
+// perspective, and linear in a parallel view:
 //
 //     (u, v) = (u_form·p, v_form·p) / weight·p,        depth = depth_form·p.
 struct PieceInView {
     vec3 u_form, v_form, weight, depth_form;
-    float steepness;  // by how many pixels' widths the plane comes nearer per pixel
-    float rounding;   // of stored depths
+    float steepness;  // depth change of the plane per pixel, in pixel widths
+    float rounding;   // rounding error of stored depths
     bool parallelogram;
 };
 
-// Corners are drawn where a grid of 1/256 pixel lets them be, so at most this far off [pixels]
-// along each axis; a plane's stored depth is off by as much times its slope.
+// Corners are rounded to a grid of 1/256 pixel, an error of at most this [pixels] along each axis;
+// a plane's stored depth has this error times its slope.
 const float kSnap = 1.0 / 512.0;
-// Room for the rounding beside it.
+// Safety factor for further rounding.
 const float kSnapSlack = 1.25;
 
-// A ray that meets a piece.
+// A ray that hits a piece.
 struct RayMet {
     vec2 pixel;
-    float chance;  // that a view has one that meets the piece: about its area in pixels, at most 1
+    float chance;  // probability of such a ray: about the piece's area in pixels, at most 1
 };
 
-// A safe distance from a piece's edges in its coordinates, which change by du, dv per pixel. Where
-// another surface meets an edge at a right angle, the two differ in depth by 2 pixels' widths for
-// every pixel of that distance.
+// Safety margin at a piece's edges in its coordinates, which change by du, dv per pixel. At an edge
+// with a perpendicular surface, the two depths differ by 2 pixel widths per pixel of margin.
 vec2 margin_of(float steepness, vec2 du, vec2 dv)
 {
     return kSnap * (2.0 + steepness) * vec2(abs(du.x) + abs(du.y), abs(dv.x) + abs(dv.y));
 }
 
-// Does the pixel's ray meet the piece, at a safe distance from its edges?
+// True if the pixel's ray hits the piece inside the safety margin.
 bool meets(PieceInView s, vec2 pixel, out float area)
 {
     const vec3 p = vec3(pixel + 0.5, 1.0);
@@ -55,8 +54,8 @@ bool meets(PieceInView s, vec2 pixel, out float area)
                             : at.x + at.y < 1.0 - margin.x - margin.y);
 }
 
-// Searches for a ray that meets the piece near `place` [pixels], a point of it. Pixels outside
-// [0, size) are not in the view.
+// Finds a ray that hits the piece near its point `place` [pixels]. Pixels outside [0, size) are not
+// in the view.
 bool find_ray(PieceInView s, vec2 place, vec2 size, out RayMet ray)
 {
     const vec2 here = clamp(floor(place), vec2(0.0), size - 1.0);
@@ -74,7 +73,7 @@ bool find_ray(PieceInView s, vec2 place, vec2 size, out RayMet ray)
     return found;
 }
 
-// Is the piece the first that the ray meets, if the view stores this depth (nearer is larger)?
+// True if the piece is the closest hit, given the view's stored depth (nearer is larger).
 bool is_first(PieceInView s, RayMet ray, float stored)
 {
     const float own = dot(s.depth_form, vec3(ray.pixel + 0.5, 1.0));

@@ -1,7 +1,7 @@
 #ifndef LUMEL_WORLD_LUMEL_GLSL
 #define LUMEL_WORLD_LUMEL_GLSL
 
-// The lumels in the world, and points on them. Declares `lumels` and `pieces`. Twin of
+// Lumels in the world, and points on them. Declares `lumels` and `pieces`. Duplicates
 // atlas/lumels/sampling.h.
 
 #include "atlas/packing/lumel.shared.h"
@@ -13,7 +13,7 @@ struct LumelPoint {
     vec3 position;
     vec3 normal;  // shading normal, unit
     vec3 facing;  // geometric normal, any length
-    uint piece;   // that it lies on
+    uint piece;   // index of its piece
 };
 
 // Maps (s, t) in the unit square to a point of the lumel, uniform by area.

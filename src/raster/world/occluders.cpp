@@ -11,8 +11,8 @@
 namespace lumel {
 namespace {
 
-/// A point counts as on a plane within this part of the scene's diagonal: float positions of a
-/// few ten-thousand units keep about this much.
+/// Tolerance for points on a plane, relative to the scene's diagonal: the precision of float
+/// positions of a few ten-thousand units.
 constexpr float kPlaneTolerance = 2e-6f;
 
 struct WorldTriangle {
@@ -24,8 +24,8 @@ glm::vec3 to_world(const glm::mat4& transform, const glm::vec3& p)
     return glm::vec3(transform * glm::vec4(p, 1.0f));
 }
 
-/// Positions of the scene that are extreme in some direction of a fixed set: if one of them lies
-/// behind a plane, that plane is settled without looking at all the others.
+/// Points that are extreme in a fixed set of directions: if one of them lies behind a plane, the
+/// others need no test.
 std::vector<glm::vec3> extremes(const std::vector<glm::vec3>& points)
 {
     constexpr int kDirections = 128;
@@ -42,7 +42,7 @@ std::vector<glm::vec3> extremes(const std::vector<glm::vec3>& points)
     return result;
 }
 
-/// True if all points lie on one side of the triangle's plane.
+/// True if all points are on one side of the triangle's plane.
 bool has_one_side(const WorldTriangle& t, const std::vector<glm::vec3>& points, float tolerance)
 {
     const glm::vec3 cross = glm::cross(t.b - t.a, t.c - t.a);
@@ -71,8 +71,8 @@ float diagonal_of(const std::vector<glm::vec3>& points)
     return glm::length(high - low);
 }
 
-/// For each triangle, corners three by three: does it lie on the convex hull of them all and of
-/// the other points? Where that would take too long to find out, the answer is no.
+/// For each triangle, given by three corners: true if it is on the convex hull of all corners and
+/// the other points. False if the test would take too long.
 std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
                             const std::vector<glm::vec3>& others)
 {
@@ -92,7 +92,7 @@ std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
         });
     };
     std::fill(outer.begin(), outer.end(), char(1));
-    keep(extremes(points));  // settles nearly all that are not
+    keep(extremes(points));  // decides nearly all triangles off the hull
 
     const auto before = [](const glm::vec3& a, const glm::vec3& b) {
         return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -107,7 +107,7 @@ std::vector<char> find_hull(const std::vector<glm::vec3>& corners,
     return outer;
 }
 
-/// [V] The rectangle, low and high, that the chart of each vertex fills in the atlas [texels].
+/// [V] The chart rectangle of each vertex in the atlas, low and high corner [texels].
 std::vector<glm::vec4> chart_corners(const Surface& surface)
 {
     std::map<std::uint32_t, glm::vec4> corners;
@@ -125,7 +125,7 @@ std::vector<glm::vec4> chart_corners(const Surface& surface)
     return of_vertices;
 }
 
-/// Everything about one primitive of one instance, appended to the vertex arrays.
+/// Appends one primitive of one instance to the vertex arrays.
 std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::uint32_t instance,
                               const Material& material, const Surface* surface)
 {
@@ -150,7 +150,7 @@ std::uint32_t append_vertices(Occluders& out, const Primitive& primitive, std::u
     return base;
 }
 
-/// Corners of boxes around the lamps, which the hull is to hold as well.
+/// Corners of boxes around the lamps, which the hull must contain.
 std::vector<glm::vec3> lamp_corners(const Scene& scene)
 {
     std::vector<glm::vec3> corners;
@@ -213,7 +213,7 @@ Occluders find_occluders(const Scene& scene, const std::vector<char>& movers, co
         const bool moves = i < movers.size() && movers[i];
         const bool mirrored = glm::determinant(glm::mat3(scene.instances[i].transform)) < 0.0f;
         for (const Primitive& primitive : scene.meshes[scene.instances[i].mesh].primitives) {
-            // Surfaces come in the same order.
+            // Surfaces have the same order.
             const Surface* surface = atlas ? &atlas->surfaces[surface_index++] : nullptr;
             const Material& material = scene.materials[primitive.material];
             const std::uint32_t base = append_vertices(out, primitive, i, material, surface);

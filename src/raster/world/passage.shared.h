@@ -3,16 +3,15 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-/// How light passes a surface with alpha or of glass.
+/// Light transmission of a surface with alpha or of glass.
 struct Passage {
-    float cutoff;        ///< the surface is there where alpha ≥ cutoff; < 0: its share is alpha
-    float transmission;  ///< of what is there, the share that is glass
-    vec3 color;          ///< of glass, linear; multiplies the texture
+    float cutoff;        ///< covered if alpha ≥ cutoff; < 0: coverage is alpha
+    float transmission;  ///< share of glass in the covered area
+    vec3 color;          ///< glass colour, linear; multiplies the texture
 };
 
-/// A pixel of a view holds one depth, and coloured glass blocks more of one colour than of another:
-/// so there are views that carry one colour channel each. Channel c is 1 + c; or all of them, and
-/// glass blocks as it does in the mean.
+/// A pixel of a view has one depth, but coloured glass blocks the channels differently, so views
+/// may be restricted to one channel: 1 + c for channel c. In kAllChannels glass blocks the average.
 LUMEL_CONST uint kAllChannels = 0u;
 LUMEL_CONST uint kChannels = 3u;
 

@@ -1,13 +1,13 @@
 #ifndef LUMEL_WORLD_RECEIVING_POINT_GLSL
 #define LUMEL_WORLD_RECEIVING_POINT_GLSL
 
-// Where light is received.
+// Points at which lumels receive light.
 
 #include "base/core/hash.glsl"
 #include "raster/world/lumel.glsl"
 
-// One point of the lumel for this batch: additive recurrence (R2 sequence) with a start of its
-// own for every lumel.
+// A point of the lumel per batch: additive recurrence (R2 sequence), with a different start per
+// lumel.
 LumelPoint receiving_point(Lumel lumel, uint i, uint iteration, uint seed, bool centre)
 {
     const uint start = hash(i ^ hash(seed));

@@ -1,5 +1,5 @@
 #pragma once
-// Raster passes come in pairs: for opaque surfaces, and for those with alpha.
+// A pair of raster passes: for opaque surfaces, and for those with alpha.
 
 #include "gpu/pipeline.h"
 

@@ -30,7 +30,7 @@ gpu::Target upload_texture(const gpu::Device& device, const Scene& scene, const 
     return target;
 }
 
-/// As Passage has it; opaque surfaces are there whatever their alpha.
+/// Cutoff as in Passage; opaque surfaces are covered for any alpha.
 float cutoff_of(const Material& material)
 {
     switch (material.alpha_mode) {
@@ -66,7 +66,7 @@ std::vector<Placement> placements_of(const Scene& scene)
     return placements;
 }
 
-/// Around an instance's vertices; upside down if it has none.
+/// Bounds of an instance's vertices; inverted if it has none.
 Box box_of(const Scene& scene, const Instance& instance)
 {
     Box box{glm::vec3(std::numeric_limits<float>::max()),
@@ -162,7 +162,7 @@ void World::bound(const Scene& scene)
 
 std::uint64_t World::device_bytes(const Lumels& lumels, const Occluders& occluders)
 {
-    // Lumels, pieces and vertices in their instance's frame and in the world's.
+    // Lumels, pieces and vertices, both in their instance's frame and in the world.
     return lumels.lumels.size() * 2 * sizeof(Lumel) + lumels.pieces.size() * 2 * sizeof(Piece) +
            occluders.positions.size() * 2 * sizeof(glm::vec3) +
            occluders.instances.size() * sizeof(std::uint32_t) +

@@ -1,5 +1,5 @@
 #pragma once
-// The scene and its lumels, resident on the GPU.
+// The scene and its lumels in GPU memory.
 
 #include <memory>
 #include <optional>
@@ -17,10 +17,10 @@
 
 namespace lumel {
 
-/// Lumels tried first when a kind of work is timed (see gpu::Pacer).
+/// Units to measure first for a kind of work (see gpu::Pacer).
 inline constexpr std::uint32_t kProbeLumels = 4096;
 
-/// One cut-out material's part of the occluders, with its base colour on the GPU.
+/// A cut-out material's part of the occluders, with its base colour on the GPU.
 struct CutOutDraw {
     OccluderRange range;
     std::unique_ptr<gpu::Target> color;
@@ -28,29 +28,29 @@ struct CutOutDraw {
     Passage passage{};
 };
 
-/// Local data stays; placed data (in the world) follows the instances' transforms.
+/// Local data are constant; world-space data follow the instances' transforms.
 class World {
 public:
-    /// The world looks at the scene's sky for as long as it lives. `atlas`: which the lumels were
-    /// lifted from; null where the places of vertices in it are not needed.
+    /// `scene`: its sky must outlive this. `atlas`: the lumels' atlas, or null if vertices need no
+    /// atlas positions.
     World(const gpu::Device& device, const Scene& scene, const Lumels& lumels,
           const Atlas* atlas = nullptr, const std::vector<char>& movers = {});
 
-    /// Moves instances to `transforms` [instances]. Waits for the device.
+    /// Sets the instances' transforms [instances]. Waits for the GPU.
     void place(std::span<const glm::mat4> transforms);
 
-    /// Takes the bounding box, to which views of sky and sun are fitted, from where the scene's
-    /// instances stand now. Costs what has moved since.
+    /// Updates the bounding box, which views of sky and sun use, from the scene's transforms. Costs
+    /// time for moved instances only.
     void bound(const Scene& scene);
 
-    /// From now on views show movers, as they do at first, or not.
+    /// Shows movable instances in views, as initially, or hides them.
     void show_movers(bool shown) { movers_shown_ = shown; }
-    /// What views draw of a range.
+    /// Indices of a range that views draw.
     gpu::Range drawn(const OccluderRange& range) const
     {
         return {range.first_index, movers_shown_ ? range.inner_count : range.still_count};
     }
-    /// The same with the hull.
+    /// Indices of a range that views draw, including the hull.
     gpu::Range drawn_with_hull(const OccluderRange& range) const
     {
         return {range.first_index, movers_shown_ ? range.index_count : range.still_count};
@@ -62,20 +62,20 @@ public:
     const gpu::Array<glm::vec3>& vertices() const { return vertices_; }       ///< [V] in the world
     const gpu::Array<glm::vec3>& looks() const { return looks_; }
     const gpu::Array<glm::vec2>& places() const { return places_; }  ///< [V] [texels], or none
-    /// [V] corners of the rectangle that a vertex's chart fills there, low and high, or none
+    /// [V] rectangle of the vertex's chart there, low and high corner, or none
     const gpu::Array<glm::vec4>& charts() const { return charts_; }
     const gpu::Array<std::uint32_t>& indices() const { return indices_; }
     const OccluderRange& opaque() const { return opaque_; }
     const std::vector<CutOutDraw>& cut_outs() const { return cut_outs_; }
-    /// True if there is coloured glass: views that carry one channel each are needed.
+    /// True if there is coloured glass: views with one channel each are needed.
     bool has_coloured_glass() const { return coloured_glass_; }
-    /// Bytes on the device.
+    /// GPU memory [bytes].
     static std::uint64_t device_bytes(const Lumels& lumels, const Occluders& occluders);
 
-    glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m]
+    glm::vec3 low() const { return low_; }  ///< bounding box [m]
     glm::vec3 high() const { return high_; }
     const Sky& sky() const { return *sky_; }
-    float diagonal() const { return glm::length(high_ - low_); }  ///< of the bounding box [m]
+    float diagonal() const { return glm::length(high_ - low_); }  ///< bounding box diagonal [m]
 
 private:
     const gpu::Device* device_;
@@ -96,7 +96,7 @@ private:
     bool movers_shown_ = true;
     gpu::Kernel<shaders::WorldPlaceLumels> place_lumels_;
     gpu::Kernel<shaders::WorldPlaceVertices> place_vertices_;
-    /// An instance's box, where it stood when that was found.
+    /// An instance's box, and the transform at which it was computed.
     struct Bounded {
         glm::mat4 transform;
         Box box;

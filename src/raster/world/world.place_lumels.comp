@@ -1,7 +1,7 @@
 #version 460
 #include "raster/world/world.shared.h"
 
-// Puts lumels and their pieces into the world: points by the instance's transform, normals by
+// Transforms lumels and their pieces to the world: points by the instance's transform, normals by
 // its inverse transpose. A mirroring transform also swaps the edges of a piece, so that
 // cross(edge_u, edge_v) still points to the lumel's side.
 

@@ -1,7 +1,7 @@
 #version 460
 #include "raster/world/world.shared.h"
 
-// Puts the occluders' vertices into the world.
+// Transforms the occluders' vertices to the world.
 
 layout(local_size_x = kPlaceGroup) in;
 layout(push_constant, scalar) uniform Params { PlaceParams p; };

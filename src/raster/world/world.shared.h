@@ -5,7 +5,7 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kPlaceGroup = 64u;  ///< threads per workgroup of world.place_*.comp
 
-/// An instance's frame in the world, now and before the last move.
+/// An instance's transform to the world, now and before the last move.
 struct Placement {
     mat4 now;
     mat4 before;
@@ -13,7 +13,7 @@ struct Placement {
 
 /// Push constants of world.place_lumels.comp and world.place_vertices.comp.
 struct PlaceParams {
-    uint count;  ///< lumels, or vertices
+    uint count;  ///< number of lumels or vertices
 };
 
 LUMEL_SHARED_END

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a scene as devices that trace them number them.
+// Triangle numbering of a scene for GPU ray tracing.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lumel {
 
-/// Parts of a RayScene that are solid, then those that may let light pass.
+/// All solid parts of a RayScene, followed by those that may transmit light.
 class DeviceTriangles {
 public:
     explicit DeviceTriangles(const RayScene& rays);
@@ -21,20 +21,20 @@ public:
 
     struct Place {
         std::size_t part;
-        std::uint32_t triangle;  ///< of the part
+        std::uint32_t triangle;  ///< in its part
     };
     Place place(std::uint32_t triangle) const;
 
     struct Mesh {
         std::vector<glm::vec3> positions;    ///< world [m]
-        std::vector<std::uint32_t> corners;  ///< [count][3] of these
+        std::vector<std::uint32_t> corners;  ///< [count][3] indices of positions
     };
-    /// Of the scene that this was made for.
+    /// World-space mesh. rays: the scene given to the constructor.
     Mesh mesh(const RayScene& rays) const;
 
 private:
     std::vector<std::size_t> parts_;     ///< in the order of their triangles
-    std::vector<std::uint32_t> before_;  ///< [parts] triangles
+    std::vector<std::uint32_t> before_;  ///< [parts] triangles before the part
     std::uint32_t solid_ = 0, count_ = 0;
 };
 

@@ -9,9 +9,9 @@
 namespace lumel {
 namespace {
 
-constexpr unsigned kStill = 0;  // the tree of what stays
+constexpr unsigned kStill = 0;  // index of the static BVH
 
-/// Moves a part's vertices to the world.
+/// Transforms a part's vertices to the world.
 void place_vertices(TracedPart& part, float* vertices)
 {
     const glm::mat3 linear(part.scene->instances[part.instance].transform);
@@ -23,7 +23,7 @@ void place_vertices(TracedPart& part, float* vertices)
     }
 }
 
-/// Embree's monitor of what it takes and gives back.
+/// Embree's memory monitor.
 bool count_bytes(void* sum, ssize_t bytes, bool)
 {
     *static_cast<std::atomic<std::int64_t>*>(sum) += bytes;
@@ -58,7 +58,7 @@ EmbreeTrees::EmbreeTrees(const Scene& scene, std::span<const std::uint32_t> inst
         for (const Tree& tree : trees_)
             rtcCommitScene(tree.scene);
         join();
-        check("building the tree for ray queries");
+        check("building the BVH");
     } catch (...) {
         release();
         throw;
@@ -87,7 +87,7 @@ void EmbreeTrees::check(const char* step) const
     if (code == RTC_ERROR_NONE)
         return;
     const char* reason = code == RTC_ERROR_OUT_OF_MEMORY     ? "out of memory"
-                         : code == RTC_ERROR_UNSUPPORTED_CPU ? "this processor lacks SSE2"
+                         : code == RTC_ERROR_UNSUPPORTED_CPU ? "this CPU lacks SSE2"
                                                              : "Embree failed";
     throw Error(ErrorKind::device, "", std::string(step) + ": " + reason);
 }
@@ -100,7 +100,7 @@ RTCScene EmbreeTrees::new_scene(RTCBuildQuality quality) const
     return scene;
 }
 
-/// Adds one geometry to the tree of its instance.
+/// Adds a geometry to the BVH of its instance.
 void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t primitive,
                       RTCFilterFunctionN filter)
 {
@@ -117,7 +117,7 @@ void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t 
                                 3 * sizeof(std::uint32_t), source.indices.size() / 3));
     if (!vertices || !indices) {
         rtcReleaseGeometry(geometry);
-        check("storing the triangles for ray queries");
+        check("storing the triangles of the BVH");
     }
     const auto number = std::uint32_t(parts_.size());
     TracedPart& part =
@@ -138,7 +138,7 @@ void EmbreeTrees::add(const Scene& scene, std::uint32_t instance, std::uint32_t 
     tree.parts.push_back(number);
 }
 
-/// Trees without triangles have no box, and are left out.
+/// BVHs without triangles have no box and are omitted.
 void EmbreeTrees::join()
 {
     if (trees_.size() == 1) {
@@ -185,7 +185,7 @@ void EmbreeTrees::place(std::span<const std::uint32_t> instances)
         if (!trees_[tree_of_[i]].parts.empty())
             rtcCommitGeometry(rtcGetGeometry(top_, tree_of_[i]));
     rtcCommitScene(top_);
-    check("building the tree for ray queries");
+    check("building the BVH");
     bound();
 }
 

@@ -1,14 +1,12 @@
 #pragma once
-// Embree's trees over the triangles of a scene: one over what stays, one over each instance that
-// may move, and one over all of these.
+// Embree BVHs of a scene: one for static geometry, one per movable instance, and one over all.
 
 #include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include <embree3/rtcore.h>
-
+#include "rays/cast/embree.h"
 #include "scene/values/scene.h"
 
 namespace lumel {
@@ -19,8 +17,8 @@ struct TracedPart {
     const Primitive* source = nullptr;
     std::uint32_t instance = 0;
     std::uint32_t primitive = 0;
-    std::uint32_t number = 0;  ///< of all parts
-    float winding = 1.0f;  ///< -1: the instance mirrors, the front is where vertices run clockwise
+    std::uint32_t number = 0;  ///< index among all parts
+    float winding = 1.0f;      ///< -1: mirrored instance, clockwise vertices at the front
 
     glm::vec3 to_world(const glm::vec3& position) const
     {
@@ -28,36 +26,37 @@ struct TracedPart {
     }
 };
 
-/// All vertices are in the world, so that a ray meets the same however the trees are divided.
+/// Vertices are in world space, so that hits do not depend on how BVHs are divided.
 class EmbreeTrees {
 public:
-    /// Of some instances, those among them that may move [instances] (1; empty: none) in trees of
-    /// their own. filter: decides whether a candidate hit on a surface that may let light pass
-    /// counts; the geometry's user pointer is its TracedPart. The scene must outlive this, unmoved.
+    /// Builds the BVHs of some instances, with separate ones for those that may move. movers
+    /// [instances]: 1 if movable; empty: none. filter: decides whether a candidate hit on a surface
+    /// that may transmit light counts; the geometry's user pointer is its TracedPart. The scene
+    /// must outlive this and not move.
     EmbreeTrees(const Scene& scene, std::span<const std::uint32_t> instances,
                 const std::vector<char>& movers, RTCFilterFunctionN filter);
     ~EmbreeTrees();
     EmbreeTrees(const EmbreeTrees&) = delete;
     EmbreeTrees& operator=(const EmbreeTrees&) = delete;
 
-    /// Builds the trees of some that may move from where they are now, and that over all.
+    /// Rebuilds the BVHs of these movable instances at their current transforms, and the top BVH.
     void place(std::span<const std::uint32_t> instances);
 
     RTCScene top() const { return top_; }  ///< for queries
     const std::vector<TracedPart>& parts() const { return parts_; }
     const TracedPart& part(const RTCHit& hit) const;
 
-    /// Bytes that Embree holds.
+    /// Memory used by Embree [bytes].
     std::uint64_t bytes() const { return std::uint64_t(bytes_.load()); }
 
-    glm::vec3 low() const { return low_; }  ///< corners of the bounding box [m], 0 if there is none
+    glm::vec3 low() const { return low_; }  ///< bounding box [m], 0 if empty
     glm::vec3 high() const { return high_; }
 
 private:
     /// Parts that move together.
     struct Tree {
         RTCScene scene = nullptr;
-        std::vector<std::uint32_t> parts;  ///< by Embree's geometry number
+        std::vector<std::uint32_t> parts;  ///< by Embree's geometry ID
     };
 
     void check(const char* step) const;
@@ -71,8 +70,8 @@ private:
 
     std::atomic<std::int64_t> bytes_ = 0;
     RTCDevice device_ = nullptr;
-    std::vector<Tree> trees_;  ///< the first of what stays, the others of an instance each
-    RTCScene top_ = nullptr;   ///< of all trees, or the first of them where nothing may move
+    std::vector<Tree> trees_;  ///< static geometry first, then one per movable instance
+    RTCScene top_ = nullptr;   ///< over all BVHs; the static one if nothing is movable
     std::vector<TracedPart> parts_;
     std::vector<std::uint32_t> tree_of_;  ///< [instances]
     glm::vec3 low_{0.0f}, high_{0.0f};

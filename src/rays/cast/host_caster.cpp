@@ -5,7 +5,7 @@
 namespace lumel {
 namespace {
 
-/// What is known of so many rays stays in the caches of a core.
+/// Data of this many rays fit in the caches of a core.
 constexpr std::size_t kBatch = 256;
 
 class HostCaster final : public RayCaster {
@@ -20,11 +20,12 @@ public:
                 hits[i].distance = kNothing;
     }
 
-    void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const override
+    void transmittance(std::span<const RaySpan> rays,
+                       std::span<glm::vec3> transmittance) const override
     {
-        assert(rays.size() == passing.size());
+        assert(rays.size() == transmittance.size());
         for (std::size_t i = 0; i < rays.size(); ++i)
-            passing[i] = rays_.passing(rays[i]);
+            transmittance[i] = rays_.transmittance(rays[i]);
     }
 
     std::size_t batch() const override { return kBatch; }

@@ -1,5 +1,5 @@
 #pragma once
-// Who is met first, asked for many rays at once. Answers come from the host or from a device.
+// Closest-hit and transmittance queries for ray batches, on the CPU or the GPU.
 
 #include <cstddef>
 #include <limits>
@@ -10,29 +10,29 @@
 
 namespace lumel {
 
-/// Answers for batches of rays. Safe to ask from many threads at once; an answer depends on the ray
-/// alone. Casters agree but for rounding: the same surfaces let the same seeds pass.
+/// Traces batches of rays. Thread-safe; a result depends only on its ray. All casters agree up to
+/// rounding: equal seeds pass equal surfaces.
 class RayCaster {
 public:
     virtual ~RayCaster() = default;
 
-    /// hits [rays]: what each ray meets first. Its distance is kNothing where it meets nothing; its
-    /// tint counts then too.
+    /// hits [rays]: closest hit of each ray. Without a hit the distance is kNothing and only the
+    /// tint is valid.
     virtual void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const = 0;
     static constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-    /// passing [rays]: the part of light that gets along each ray: 0 if something is in between,
-    /// else the product of the tints.
-    virtual void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const = 0;
+    /// transmittance [rays]: 0 if the ray is occluded, else the product of the tints.
+    virtual void transmittance(std::span<const RaySpan> rays,
+                               std::span<glm::vec3> transmittance) const = 0;
 
-    /// Rays of a batch that make good use of it.
+    /// Recommended number of rays per batch.
     virtual std::size_t batch() const = 0;
 
     /// "host" or "query", for reports.
     virtual const char* name() const = 0;
 };
 
-/// Rays through Embree. The rays' scene must outlive it.
+/// Traces rays by Embree. `rays` must outlive the result.
 std::unique_ptr<RayCaster> cast_on_host(const RayScene& rays);
 
 }  // namespace lumel

@@ -12,22 +12,22 @@ namespace lumel {
 
 namespace {
 
-/// Rays start this share of the scene's size off their surface: far above the rounding of a hit's
-/// position (about 1e-7 of it), far below anything one could see.
+/// Ray offset relative to the scene's size: far above the rounding error of a hit's position (about
+/// 1e-7), far below visible distances.
 constexpr float kLift = 1e-5f;
 
-/// Coloured glass that a ray went through.
+/// Coloured glass on a ray.
 struct PassedGlass {
     std::uint32_t part = 0, triangle = 0;
     float distance = 0.0f;
     glm::vec3 tint{1.0f};
 };
 
-/// Embree's context of a query, with what a cut-out needs to decide.
+/// Embree's query context with the data that cut-outs need.
 struct QueryContext {
-    RTCIntersectContext embree;  // first, so that Embree's pointer is also ours
+    EmbreeContext embree;  // first, so that Embree's pointer is also ours
     std::uint32_t seed;
-    std::vector<PassedGlass> passed;  ///< in any order, and beyond the hit as well
+    std::vector<PassedGlass> passed;  ///< in any order, possibly beyond the hit
 
     /// Embree may test a triangle more than once.
     void pass(const PassedGlass& glass)
@@ -39,7 +39,7 @@ struct QueryContext {
             passed.push_back(glass);
     }
 
-    /// Multiplied in the order of the parts: that in which they are met differs from tree to tree.
+    /// Multiplies in the order of the parts: the order of hits depends on the BVHs.
     glm::vec3 tint_before(float distance)
     {
         std::sort(passed.begin(), passed.end(), [](const PassedGlass& a, const PassedGlass& b) {
@@ -53,7 +53,7 @@ struct QueryContext {
     }
 };
 
-/// A well-mixed number in [0, 1) for three integers.
+/// Hash of three integers, in [0, 1).
 float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
 {
     std::uint32_t state = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu ^ c * 0xc2b2ae35u;
@@ -63,7 +63,7 @@ float hash_to_unit(std::uint32_t a, std::uint32_t b, std::uint32_t c)
     return float(state >> 8) * 0x1p-24f;
 }
 
-/// Look of a surface at a point of one of its triangles.
+/// Material of a surface at a point of one of its triangles.
 MaterialSample look_at(const TracedPart& part, std::uint32_t triangle, float u, float v)
 {
     const Primitive& source = *part.source;
@@ -79,7 +79,7 @@ MaterialSample look_at(const TracedPart& part, std::uint32_t triangle, float u, 
     return sample_material(*part.scene, source.material, texcoord, color);
 }
 
-/// The tint of what passes a triangle; empty if a ray of this seed meets it.
+/// Tint of light that passes a triangle; nullopt if a ray of this seed hits it.
 std::optional<glm::vec3> tint_through(const TracedPart& part, std::uint32_t triangle,
                                       const glm::vec2& barycentric, std::uint32_t seed)
 {
@@ -89,7 +89,7 @@ std::optional<glm::vec3> tint_through(const TracedPart& part, std::uint32_t tria
     return look.tint;
 }
 
-/// Embree's filter: does this candidate hit count?
+/// Embree's filter: rejects candidate hits that the ray passes.
 void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 {
     if (candidate->valid[0] != -1)
@@ -111,7 +111,7 @@ void pass_through_cut_outs(const RTCFilterFunctionNArguments* candidate)
 QueryContext query_context(std::uint32_t seed)
 {
     QueryContext context{};
-    rtcInitIntersectContext(&context.embree);
+    start_query(context.embree);
     context.seed = seed;
     return context;
 }
@@ -138,11 +138,11 @@ std::vector<std::uint32_t> all_instances(const Scene& scene)
     return all;
 }
 
-/// The tint of what passes along the ray; 0 if it meets something.
+/// Transmittance along the ray.
 glm::vec3 tint_along(RTCScene tree, RTCRay&& ray, std::uint32_t seed)
 {
     QueryContext context = query_context(seed);
-    rtcOccluded1(tree, &context.embree, &ray);
+    find_occluder(tree, context.embree, ray);
     const bool clear = ray.tfar >= 0.0f;  // Embree marks an occluded ray by -infinity
     return clear ? context.tint_before(std::numeric_limits<float>::infinity()) : glm::vec3(0.0f);
 }
@@ -190,7 +190,7 @@ RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t
     return {from, 0.0f, direction, std::numeric_limits<float>::max(), seed};
 }
 
-glm::vec3 RayScene::passing(const RaySpan& ray) const
+glm::vec3 RayScene::transmittance(const RaySpan& ray) const
 {
     if (!(ray.far > ray.near))
         return glm::vec3(1.0f);
@@ -198,38 +198,38 @@ glm::vec3 RayScene::passing(const RaySpan& ray) const
                       ray.seed);
 }
 
-glm::vec3 RayScene::passing(const glm::vec3& from, const glm::vec3& to, float offset,
-                            std::uint32_t seed) const
+glm::vec3 RayScene::transmittance(const glm::vec3& from, const glm::vec3& to, float offset,
+                                  std::uint32_t seed) const
 {
-    return passing(ray_between(from, to, offset, seed));
+    return transmittance(ray_between(from, to, offset, seed));
 }
 
-glm::vec3 RayScene::passing_out(const glm::vec3& from, const glm::vec3& direction,
-                                std::uint32_t seed) const
+glm::vec3 RayScene::transmittance_out(const glm::vec3& from, const glm::vec3& direction,
+                                      std::uint32_t seed) const
 {
-    return passing(ray_out(from, direction, seed));
+    return transmittance(ray_out(from, direction, seed));
 }
 
 bool RayScene::sees(const glm::vec3& from, const glm::vec3& to, float offset,
                     std::uint32_t seed) const
 {
-    return passing(from, to, offset, seed) != glm::vec3(0.0f);
+    return transmittance(from, to, offset, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const
 {
-    return passing_out(from, direction, seed) != glm::vec3(0.0f);
+    return transmittance_out(from, direction, seed) != glm::vec3(0.0f);
 }
 
 bool RayScene::closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                        std::uint32_t seed, RayHit& hit) const
 {
-    // Made in place: a copy would wait for what was just written.
+    // Constructed in place: a copy would stall on the preceding stores.
     RTCRayHit query{.ray = make_ray(origin, direction, near, far), .hit = {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = query_context(seed);
-    rtcIntersect1(trees_->top(), &context.embree, &query);
+    find_closest(trees_->top(), context.embree, query);
     hit.tint = context.tint_before(query.ray.tfar);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
@@ -272,8 +272,9 @@ bool RayScene::may_let_pass(std::size_t part) const
     return may_be_transparent(from.scene->materials[from.source->material], *from.source);
 }
 
-std::optional<glm::vec3> RayScene::passing(std::size_t part, std::uint32_t triangle,
-                                           const glm::vec2& barycentric, std::uint32_t seed) const
+std::optional<glm::vec3> RayScene::transmittance(std::size_t part, std::uint32_t triangle,
+                                                 const glm::vec2& barycentric,
+                                                 std::uint32_t seed) const
 {
     return tint_through(trees_->parts()[part], triangle, barycentric, seed);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Rays on the host, through Embree: who hits what. Knows geometry and opacity, no light.
+// Rays on the CPU, by Embree. Handles geometry and opacity, no light.
 
 #include <cstdint>
 #include <memory>
@@ -16,22 +16,22 @@ namespace lumel {
 
 class EmbreeTrees;
 
-/// What lies along a ray counts from `near` to `far`. One whose ends have met is clear.
+/// Ray segment: hits count between `near` and `far`. Unoccluded if far ≤ near.
 struct RaySpan {
     glm::vec3 origin{0.0f};     ///< [m]
     float near = 0.0f;          ///< [m]
     glm::vec3 direction{0.0f};  ///< unit
     float far = 0.0f;           ///< [m]
-    std::uint32_t seed = 0;     ///< of what surfaces let pass
+    std::uint32_t seed = 0;     ///< random choices of transparent surfaces
 };
 
-/// From one point to another, both ends shortened by `offset` [m].
+/// Segment between two points, both ends shortened by `offset` [m].
 RaySpan ray_between(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed);
 
-/// Along a unit direction, however far.
+/// Ray along a unit direction, of infinite length.
 RaySpan ray_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed);
 
-/// Where a ray meets the scene.
+/// Hit of a ray.
 struct RayHit {
     std::uint32_t instance = 0;   ///< index into Scene::instances
     std::uint32_t primitive = 0;  ///< index into the instance's mesh.primitives
@@ -39,48 +39,49 @@ struct RayHit {
     glm::vec2 barycentric{0.0f};  ///< weights of the triangle's 2nd and 3rd vertex
     float distance = 0.0f;        ///< [m], direction must be unit length
     glm::vec3 normal{0.0f};  ///< geometric, unit, world, outward by winding (flipped by mirroring)
-    bool front = true;       ///< the ray came from the side the normal points to
-    /// Product of the tints of all glass that the ray passed, also where it then met nothing.
+    bool front = true;       ///< hit from the side of the normal
+    /// Product of the tints of all glass passed, valid even without a hit.
     glm::vec3 tint{1.0f};
 };
 
-/// All triangles of a scene in world space. Safe to query from many threads at once.
-/// Reads materials and textures while it is queried, so the scene must outlive it, unmoved.
-/// MASK surfaces are cut out exactly; BLEND surfaces and glass are hit with the probability of
-/// their opacity, drawn from a hash of `seed` and the triangle, so a query with the same seed has
-/// the same answer. What passes glass has its tint.
+/// All triangles of a scene in world space. Queries are thread-safe. They read materials and
+/// textures, so the scene must outlive this and not move. MASK surfaces are cut out exactly. BLEND
+/// surfaces and glass are hit with the probability of their opacity, by a hash of `seed` and the
+/// triangle: equal seeds give equal results. Light that passes glass has its tint.
 class RayScene {
 public:
-    /// Throws Error{device} if Embree cannot build its tree (out of memory).
+    /// Throws Error{device} if Embree cannot build its BVH (out of memory).
     explicit RayScene(const Scene& scene);
-    /// Of some of its instances alone.
+    /// Uses only these instances.
     RayScene(const Scene& scene, std::span<const std::uint32_t> instances);
-    /// Of all, those that may move [instances] (1) in trees of their own.
+    /// movers [instances]: 1 if movable; each has its own BVH.
     RayScene(const Scene& scene, const std::vector<char>& movers);
     ~RayScene();
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    /// Takes some of those that may move from where the scene has them now: only their trees, and
-    /// one over all trees, are built again. Rays then meet what they meet in a new RayScene; of two
-    /// surfaces in one plane they may meet the other. Nothing may query meanwhile.
+    /// Applies the current transforms of these movable instances. Rebuilds only their BVHs and the
+    /// top one. Hits then equal those of a new RayScene, except between coplanar surfaces. No query
+    /// may run meanwhile.
     void place(std::span<const std::uint32_t> instances);
 
-    /// True if nothing lies between the two points (both ends are shortened by `offset` [m]).
+    /// True if the segment between the points, shortened by `offset` [m] at both ends, is
+    /// unoccluded.
     bool sees(const glm::vec3& from, const glm::vec3& to, float offset, std::uint32_t seed) const;
 
-    /// True if nothing lies along a unit direction, however far.
+    /// True if the ray along a unit direction is unoccluded.
     bool sees_out(const glm::vec3& from, const glm::vec3& direction, std::uint32_t seed) const;
 
-    /// The part of light that passes from one point to the other, or out along a unit direction:
-    /// 0 if something is hit, else the product of the tints.
-    glm::vec3 passing(const glm::vec3& from, const glm::vec3& to, float offset,
-                      std::uint32_t seed) const;
-    glm::vec3 passing_out(const glm::vec3& from, const glm::vec3& direction,
-                          std::uint32_t seed) const;
-    glm::vec3 passing(const RaySpan& ray) const;
+    /// Transmittance between two points, or out along a unit direction: 0 if a surface is hit, else
+    /// the product of the tints.
+    glm::vec3 transmittance(const glm::vec3& from, const glm::vec3& to, float offset,
+                            std::uint32_t seed) const;
+    glm::vec3 transmittance_out(const glm::vec3& from, const glm::vec3& direction,
+                                std::uint32_t seed) const;
+    glm::vec3 transmittance(const RaySpan& ray) const;
 
-    /// First hit along a unit direction with distance in (near, far), or false.
+    /// Finds the closest hit along a unit direction within (near, far). Returns false if there is
+    /// none.
     bool closest(const glm::vec3& origin, const glm::vec3& direction, float near, float far,
                  std::uint32_t seed, RayHit& hit) const;
     bool closest(const RaySpan& ray, RayHit& hit) const
@@ -88,18 +89,17 @@ public:
         return closest(ray.origin, ray.direction, ray.near, ray.far, ray.seed, hit);
     }
 
-    /// The triangles as who traces them elsewhere needs them: a part for each primitive of each
-    /// instance that has any.
+    /// Triangles for other ray tracing backends: one part per primitive of each instance.
     std::size_t parts() const;
-    std::vector<glm::vec3> positions(std::size_t part) const;        ///< of vertices, world [m]
-    std::span<const std::uint32_t> corners(std::size_t part) const;  ///< [triangles][3] of these
+    std::vector<glm::vec3> positions(std::size_t part) const;        ///< vertices, world [m]
+    std::span<const std::uint32_t> corners(std::size_t part) const;  ///< [triangles][3] indices
     bool may_let_pass(std::size_t part) const;                       ///< MASK, BLEND or glass
 
-    /// The tint of what passes a triangle at a point of it; empty if a ray of this seed meets it.
-    std::optional<glm::vec3> passing(std::size_t part, std::uint32_t triangle,
-                                     const glm::vec2& barycentric, std::uint32_t seed) const;
+    /// Transmittance at a point of a triangle; nullopt if a ray of this seed hits it.
+    std::optional<glm::vec3> transmittance(std::size_t part, std::uint32_t triangle,
+                                           const glm::vec2& barycentric, std::uint32_t seed) const;
 
-    /// A hit, by what is known of it.
+    /// Builds a RayHit from its parameters.
     RayHit hit(std::size_t part, std::uint32_t triangle, const glm::vec2& barycentric,
                float distance, const glm::vec3& direction) const;
 
@@ -107,10 +107,10 @@ public:
     glm::vec3 low() const;
     glm::vec3 high() const;
 
-    /// That its trees take.
+    /// Memory of the BVHs [bytes].
     std::uint64_t bytes() const;
 
-    /// How far off a surface that was hit rays should start, so as to miss it [m].
+    /// Offset of ray origins from a surface, so that rays do not hit it again [m].
     float ray_offset() const;
 
 private:
@@ -119,7 +119,7 @@ private:
     std::unique_ptr<EmbreeTrees> trees_;
 };
 
-/// Of the library that traces the rays: "3.13.5".
+/// Version of the ray tracing library: "3.13.5".
 std::string embree_version();
 
 }  // namespace lumel

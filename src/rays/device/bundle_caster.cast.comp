@@ -2,8 +2,8 @@
 #include "rays/device/bundle_caster.shared.h"
 #include "rays/device/bundle_caster.glsl"
 
-// Rays against the triangles that their pixels list: the nearest of these and of what was hit
-// before. Which triangles a pixel lists costs time, but does not change what is hit.
+// Tests rays against the triangles listed by their pixels and keeps the closest hit so far. The
+// lists affect the cost but not the hits.
 //
 //   [WBW13] S. Woop, C. Benthin, I. Wald. Watertight Ray/Triangle Intersection. 2013.
 
@@ -17,7 +17,7 @@ layout(scalar) readonly buffer Lists { Listed lists[]; };
 layout(scalar) readonly buffer Rays { BundleRay rays[]; };
 layout(scalar) buffer Hits { BundleHit hits[]; };
 
-// A corner as the ray sees it. Triangles that share it compute the same numbers.
+// A vertex in the ray's view. Triangles that share it compute equal values.
 vec3 seen(BundleView view, vec3 origin, uint corner)
 {
     const vec3 from = positions[corner] - origin;
@@ -25,15 +25,15 @@ vec3 seen(BundleView view, vec3 origin, uint corner)
     return at;
 }
 
-// On which side of an edge the ray passes: the opposite number for the edge the other way round, so
-// that no ray slips between two triangles.
+// Side of an edge on which the ray passes. The reversed edge gives the negated value, so that no
+// ray slips between two triangles.
 float side_of(vec3 from, vec3 to)
 {
     precise float side = from.x * to.y - from.y * to.x;
     return side;
 }
 
-// Takes the triangle if the ray meets it first.
+// Keeps the triangle if its hit is the closest so far.
 void try_triangle(BundleView view, BundleRay ray, uint triangle, inout BundleHit hit)
 {
     const vec3 a = seen(view, ray.origin, corners[3u * triangle]);

@@ -21,32 +21,31 @@
 namespace lumel {
 namespace {
 
-/// Rays, and views, whose lists the device holds at once.
+/// Maximum rays, and views, in GPU memory at once.
 constexpr std::size_t kMaxRays = std::size_t(1) << 18;
 constexpr std::uint32_t kMaxViews = 1024;
-/// Views of one drawing, at most: enough that a device is busy for longer than it takes to begin.
+/// Maximum views per pass: enough to hide its start-up cost.
 constexpr std::uint32_t kMaxSlots = 64;
-/// Of a drawing; lists and the image take 8 bytes for each.
+/// Maximum pixels per pass; lists and the image take 8 bytes each.
 constexpr std::uint32_t kMaxPixels = 1u << 22;
-/// Triangles that lists have room for, over all pixels of a drawing (32 MiB). What needs more is
-/// drawn in parts.
+/// Capacity of the lists over all pixels of a pass (32 MiB). Larger passes are split.
 constexpr std::uint32_t kListed = 1u << 22;
-/// Side of a view [pixels], a power of two so that no pixel's place is rounded. As the triangles
-/// that a pixel lists are tested exactly, finer views make lists shorter and drawings slower. A
-/// view has about one pixel for two triangles.
+/// Side of a view [pixels], a power of two so that pixel positions are exact. Listed triangles are
+/// tested exactly; finer views make shorter lists and slower passes. A view has about one pixel per
+/// two triangles.
 constexpr std::uint32_t kMinSide = 32, kMaxSide = 1024;
 constexpr double kTrianglesPerPixel = 2.0;
 static_assert(kListed >= kMaxSide * kMaxSide, "a triangle alone has room");
-/// Around the scene, so that rays that start on its edge have a pixel [pixels].
+/// Border around the scene [pixels], for rays that start on its edge.
 constexpr float kBorder = 1.0f;
-/// Small scenes are drawn in several views by one call, which is then of so many boxes at most.
+/// Maximum boxes per draw call, in which small scenes draw several views.
 constexpr std::uint32_t kMaxBoxes = 1u << 16;
-/// Indices of the two triangles that make the box around one.
+/// Indices of a box around a triangle: two triangles.
 constexpr std::uint32_t kIndices = 6;
-/// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
-/// not meet it again.
+/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
+/// same surface again.
 constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
-/// Hits that a core takes over in one go.
+/// Hits per task.
 constexpr std::size_t kGrain = 1024;
 
 const gpu::Device& able_to_list(const gpu::Device& device)
@@ -71,7 +70,7 @@ std::uint32_t slots_for(const gpu::Device& device, std::uint32_t side)
         std::min({kMaxSlots, device.max_image_side() / side, kMaxPixels / (side * side)}));
 }
 
-/// Views of one draw call.
+/// Number of views per draw call.
 std::uint32_t views_at_once(std::uint32_t triangles, std::uint32_t slots)
 {
     return std::clamp(kMaxBoxes / std::max(triangles, 1u), 1u, slots);
@@ -87,7 +86,7 @@ std::vector<std::uint32_t> box_indices(std::uint32_t boxes)
     return indices;
 }
 
-/// A view along a direction that holds the scene.
+/// A view along a direction that contains the scene.
 BundleView view_along(const glm::vec3& direction, const RayScene& rays, std::uint32_t side)
 {
     const glm::mat3 frame = frame_about(direction);
@@ -105,7 +104,7 @@ BundleView view_along(const glm::vec3& direction, const RayScene& rays, std::uin
             .scale = scale};
 }
 
-/// Indices of rays, those of one direction after those of another. [directions + 1] into them.
+/// Indices of rays, sorted by direction. first [directions + 1]: index into `rays`.
 struct Sorted {
     std::vector<std::uint32_t> rays, first;
 
@@ -122,15 +121,15 @@ struct Sorted {
     }
 };
 
-/// Rays that the device holds at once, sorted by their views.
+/// Rays in GPU memory at once, sorted by view.
 struct Go {
     std::vector<BundleView> views;
     std::vector<std::uint32_t> first_ray;  ///< [views + 1]
     std::vector<BundleRay> rays;
-    std::vector<std::uint32_t> which;  ///< [rays] of all
+    std::vector<std::uint32_t> which;  ///< [rays] indices among all
 };
 
-/// A part of the views with all triangles, or one with a part of them.
+/// Several views with all triangles, or one view with some of them.
 struct Job {
     std::uint32_t view, views, triangle, triangles;
 };
@@ -149,19 +148,19 @@ struct BundleCaster::Data {
     const RayScene& rays;
     DeviceTriangles triangles;
     std::uint32_t side, slots;
-    std::uint32_t per_call;  ///< views of a draw call
-    std::uint32_t at_once;   ///< views of the next drawing
+    std::uint32_t per_call;  ///< views per draw call
+    std::uint32_t at_once;   ///< views of the next pass
     gpu::Raster<shaders::BundleCaster> raster;
     gpu::Kernel<shaders::BundleCasterCast> tester;
     gpu::Commands commands;
     std::optional<gpu::Array<glm::vec3>> positions;
     std::optional<gpu::Array<std::uint32_t>> corners;
     gpu::Array<std::uint32_t> indices;
-    gpu::Target depth;  ///< nothing is written to it, but drawings need one
+    gpu::Target depth;  ///< never written; passes require a depth target
     gpu::Array<BundleView> views;
     gpu::Array<std::uint32_t> heads;
     gpu::Array<Listed> lists;
-    gpu::Array<std::uint32_t> used, used_there;  ///< of the lists; as it returns
+    gpu::Array<std::uint32_t> used, used_there;  ///< list length; its readback
     gpu::Array<BundleRay> asked;
     gpu::Array<BundleHit> found;
 };
@@ -219,7 +218,7 @@ void BundleCaster::Data::draw(const Job& job)
     commands.end_pass();
 }
 
-/// Returns how many triangles pixels should have listed. Whatever they did list was tested.
+/// Returns the number of triangles that the pixels needed to list. All that fit were tested.
 std::uint32_t BundleCaster::Data::draw_and_cast(const Go& go, const Job& job)
 {
     commands.stage("draw bundles");
@@ -242,7 +241,7 @@ std::uint32_t BundleCaster::Data::draw_and_cast(const Go& go, const Job& job)
     return *used_there.mapped();
 }
 
-/// Takes over what the device has found.
+/// Converts a result of the GPU.
 void BundleCaster::Data::take(const BundleHit& one, const RaySpan& ray, RayHit& hit) const
 {
     hit.distance = RayCaster::kNothing;
@@ -251,7 +250,7 @@ void BundleCaster::Data::take(const BundleHit& one, const RaySpan& ray, RayHit& 
         return;
     const auto [part, triangle] = triangles.place(one.triangle);
     if (one.triangle >= triangles.solid())
-        if (const auto tint = rays.passing(part, triangle, one.barycentric, ray.seed)) {
+        if (const auto tint = rays.transmittance(part, triangle, one.barycentric, ray.seed)) {
             RaySpan behind = ray;
             behind.near = kBehind * one.distance;
             if (!(behind.far > behind.near) || !rays.closest(behind, hit))
@@ -262,7 +261,7 @@ void BundleCaster::Data::take(const BundleHit& one, const RaySpan& ray, RayHit& 
     hit = rays.hit(part, triangle, one.barycentric, one.distance, ray.direction);
 }
 
-/// Where lists have no room for a part, it is halved. What is tested again changes nothing.
+/// Splits a part that exceeds the lists in halves. Testing a triangle twice does not change hits.
 void BundleCaster::Data::cast_part(const Go& go, const Job& job)
 {
     if (draw_and_cast(go, job) <= kListed)

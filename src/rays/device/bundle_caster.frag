@@ -1,7 +1,7 @@
 #version 460
 #include "rays/device/bundle_caster.shared.h"
 
-// Puts a triangle in front of the list of each pixel that it touches.
+// Prepends a triangle to the list of each pixel that it touches.
 
 layout(push_constant, scalar) uniform Params { BundleDrawParams p; };
 layout(scalar) buffer Heads { uint heads[]; };  // [slots][side][side]
@@ -11,12 +11,12 @@ layout(location = 0) flat in vec2 a;
 layout(location = 1) flat in vec2 b;
 layout(location = 2) flat in vec2 c;
 layout(location = 3) flat in uint triangle;
-layout(location = 4) flat in uint top;  // of the view in the image [pixels]
+layout(location = 4) flat in uint top;  // in the image [pixels]
 
-// Half a pixel, and more than what rounding moves [pixels].
+// Half a pixel plus the maximum rounding error [pixels].
 const float kReach = 0.5 + 1.0 / 64.0;
 
-// Does a line that runs along an edge of the triangle part it from the pixel?
+// True if a line along an edge of the triangle separates it from the pixel.
 bool parted(vec2 edge, vec2 centre)
 {
     const vec2 across = vec2(edge.y, -edge.x);

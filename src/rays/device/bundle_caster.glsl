@@ -1,7 +1,7 @@
 #ifndef LUMEL_BUNDLES_BUNDLE_CASTER_GLSL
 #define LUMEL_BUNDLES_BUNDLE_CASTER_GLSL
 
-// Views of bundles: where points fall.
+// Projection of points to bundle views.
 
 #include "rays/device/bundle_caster.shared.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Rays that share directions, cast by drawing: for devices without ray queries.
+// Traces rays that share directions by rasterisation, on devices without ray queries.
 //
 //   [TSO11] Y. Tokuyoshi, T. Sekine, S. Ogaki. Fast Global Illumination Baking via Ray-Bundles.
 //   2011.
@@ -15,26 +15,26 @@
 
 namespace lumel {
 
-/// Rays in bundles, each of one direction.
+/// Rays with shared directions.
 struct RayBundles {
     std::span<const glm::vec3> directions;  ///< unit
     std::span<const std::uint32_t> along;   ///< [rays] index into directions
-    std::span<const RaySpan> rays;          ///< each has its direction, too
+    std::span<const RaySpan> rays;          ///< direction as in `directions`
 };
 
-/// Draws the scene along every direction that rays have, so as to list the triangles that touch
-/// each pixel; a ray is tested against those of its pixel. So it meets what it meets on the host,
-/// but for rounding. A drawing costs the same for one ray and for a million.
+/// Rasterises the scene along each direction to list the triangles that touch each pixel, then
+/// tests each ray against those of its pixel. Hits equal those on the CPU up to rounding. The
+/// cost of a pass does not depend on the number of rays.
 class BundleCaster {
 public:
-    /// Both must outlive it; while rays are cast no other thread may use the device. Throws
-    /// Error{device} where fragments cannot write lists (Device::can_list_fragments), or where
-    /// memory is too small.
+    /// Both must outlive this; no other thread may use the device during closest(). Throws
+    /// Error{device} if fragments cannot write lists (Device::can_list_fragments) or memory is
+    /// insufficient.
     BundleCaster(const gpu::Device& device, const RayScene& rays);
     ~BundleCaster();
 
-    /// hits [rays]: what each ray meets first, as RayCaster has it. Rays that pass glass, veils or
-    /// cut-outs go on on the host. For one thread at a time.
+    /// hits [rays]: closest hits, as in RayCaster. Rays that pass glass, blended surfaces or
+    /// cut-outs continue on the CPU. Not thread-safe.
     void closest(const RayBundles& bundles, std::span<RayHit> hits) const;
 
 private:

@@ -6,11 +6,11 @@ LUMEL_SHARED_BEGIN
 LUMEL_CONST uint kBundleGroup = 64u;
 LUMEL_CONST uint kNoneListed = 0xffffffffu;  ///< end of a list, or no triangle
 
-/// A parallel view of the scene, a square of pixels: x falls on ((right, up)·x - low) · scale.
+/// A parallel view of the scene, a square of pixels: x projects to ((right, up)·x - low) · scale.
 struct BundleView {
     vec3 right;
     vec3 up;
-    vec3 along;   ///< of the rays, unit
+    vec3 along;   ///< direction of the rays, unit
     vec2 low;     ///< [m]
     float scale;  ///< [pixels / m]
 };
@@ -18,7 +18,7 @@ struct BundleView {
 /// A triangle that touches a pixel.
 struct Listed {
     uint triangle;
-    uint next;  ///< of the same pixel: index of Listed, or kNoneListed
+    uint next;  ///< next Listed of the pixel, or kNoneListed
 };
 
 struct BundleRay {
@@ -34,22 +34,22 @@ struct BundleHit {
     vec2 barycentric;  ///< weights of its 2nd and 3rd vertex
 };
 
-/// Push constants of bundle_caster.vert and .frag. Views lie below one another in an image.
+/// Push constants of bundle_caster.vert and .frag. Views are stacked vertically in an image.
 struct BundleDrawParams {
     uint view;
-    uint slot;       ///< where it lies
-    uint slots;      ///< of the image
-    uint side;       ///< of a view [pixels]
-    uint triangles;  ///< of the scene; the next view follows after them
-    uint capacity;   ///< of the lists
+    uint slot;       ///< index in the image
+    uint slots;      ///< number in the image
+    uint side;       ///< view side [pixels]
+    uint triangles;  ///< per view; further ones belong to the next views
+    uint capacity;   ///< capacity of the lists
 };
 
 /// Push constants of bundle_caster.cast.comp.
 struct BundleCastParams {
-    uint first;       ///< ray
-    uint count;       ///< rays
-    uint first_view;  ///< the one in slot 0
-    uint side;        ///< of a view [pixels]
+    uint first;       ///< first ray
+    uint count;       ///< number of rays
+    uint first_view;  ///< view in slot 0
+    uint side;        ///< view side [pixels]
 };
 
 LUMEL_SHARED_END

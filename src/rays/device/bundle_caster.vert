@@ -2,8 +2,8 @@
 #include "rays/device/bundle_caster.shared.h"
 #include "rays/device/bundle_caster.glsl"
 
-// Corners of the pixels around a triangle: four vertices for each triangle in a view, then in the
-// views that follow. The pixels that a triangle does not touch are left out by the next stage.
+// Corners of the pixel box around a triangle: four vertices per triangle of a view, then those of
+// the next views. The fragment stage discards pixels that the triangle does not touch.
 
 layout(push_constant, scalar) uniform Params { BundleDrawParams p; };
 layout(scalar) readonly buffer Views { BundleView views[]; };
@@ -13,9 +13,9 @@ layout(location = 0) flat out vec2 a;
 layout(location = 1) flat out vec2 b;
 layout(location = 2) flat out vec2 c;
 layout(location = 3) flat out uint triangle;
-layout(location = 4) flat out uint top;  // of the view in the image [pixels]
+layout(location = 4) flat out uint top;  // in the image [pixels]
 
-// Rounding moves what is drawn by less than this [pixels].
+// Maximum rounding error of rasterised positions [pixels].
 const float kRounding = 1.0 / 64.0;
 
 void main()

@@ -2,8 +2,8 @@
 #extension GL_EXT_ray_query : require
 #include "rays/device/query_caster.shared.h"
 
-// Casts rays at the triangles of a scene. Geometry 0 are the solid ones, geometry 1 those that may
-// let light pass; which rays they do let pass is decided by who asks.
+// Traces rays against the triangles of a scene. Geometry 0 is solid, geometry 1 may transmit light;
+// the caller decides which rays it transmits.
 
 layout(local_size_x = kCastGroup) in;
 layout(push_constant, scalar) uniform Params { CastParams p; };

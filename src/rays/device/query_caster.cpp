@@ -1,6 +1,6 @@
-// The device knows triangles only. Surfaces that may let light pass are decided about here, by the
-// rule and the random numbers of RayScene, so that both casters agree; a ray that passes goes on
-// from just behind.
+// The GPU only has triangles. The CPU decides about surfaces that may transmit light, by the rule
+// and the random numbers of RayScene, so that both casters agree. A transmitted ray continues just
+// behind its hit.
 
 #include "rays/device/query_caster.h"
 
@@ -19,12 +19,12 @@
 namespace lumel {
 namespace {
 
-/// Enough to keep a device busy for longer than it takes to begin.
+/// Enough work to hide the start-up cost of a dispatch.
 constexpr std::size_t kBatch = std::size_t(1) << 15;
-/// Rays of one dispatch, at most.
+/// Maximum rays per dispatch.
 constexpr std::size_t kMaxRays = 4 * kBatch;
-/// From a distance to just behind it, whatever rounding does: a ray that has passed a surface must
-/// not meet it again.
+/// Factor from a hit distance to just behind it, despite rounding, so that a ray does not hit the
+/// same surface again.
 constexpr float kBehind = 1.0f + 8.0f * std::numeric_limits<float>::epsilon();
 constexpr float kFar = std::numeric_limits<float>::max();
 
@@ -44,7 +44,7 @@ gpu::TriangleTree make_tree(const gpu::Device& device, const RayScene& rays,
     return {device, mesh.positions, lists};
 }
 
-/// Rays that are still on their way, of a longer list.
+/// Unfinished rays of a longer list.
 struct Going {
     std::vector<CastRay> rays;
     std::vector<std::uint32_t> which;  ///< [rays] in that list
@@ -53,7 +53,7 @@ struct Going {
     {
         if (!(ray.far > near))
             return;
-        // What lies at the very end of a ray counts, as it does on the host.
+        // Hits at the very end of a ray count, as on the CPU.
         rays.push_back({ray.origin, near, ray.direction, std::min(kBehind * ray.far, kFar)});
         which.push_back(i);
     }
@@ -75,17 +75,18 @@ public:
     }
 
     void closest(std::span<const RaySpan> rays, std::span<RayHit> hits) const override;
-    void passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const override;
+    void transmittance(std::span<const RaySpan> rays,
+                       std::span<glm::vec3> transmittance) const override;
     std::size_t batch() const override { return kBatch; }
     const char* name() const override { return "query"; }
 
 private:
     bool has_passable() const { return triangles_.solid() < triangles_.count(); }
-    /// The tint of what gets through; empty if the ray ends here.
-    std::optional<glm::vec3> passing(const CastHit& hit, std::uint32_t seed) const
+    /// The tint of transmitted light; nullopt if the ray ends here.
+    std::optional<glm::vec3> transmittance(const CastHit& hit, std::uint32_t seed) const
     {
         const auto [part, triangle] = triangles_.place(hit.triangle);
-        return rays_.passing(part, triangle, hit.barycentric, seed);
+        return rays_.transmittance(part, triangle, hit.barycentric, seed);
     }
     std::vector<CastHit> cast(std::span<const CastRay> rays, std::uint32_t wanted) const;
     void cast_at_once(std::span<const CastRay> rays, std::uint32_t wanted,
@@ -95,7 +96,7 @@ private:
     DeviceTriangles triangles_;
     gpu::TriangleTree tree_;
     gpu::Kernel<shaders::QueryCasterCast> cast_;
-    mutable std::mutex mutex_;  ///< of what follows, and of the device
+    mutable std::mutex mutex_;  ///< protects the following members and the device
     mutable gpu::Commands commands_;
     mutable gpu::Array<CastRay> sent_, asked_;
     mutable gpu::Array<CastHit> found_, returned_;
@@ -119,7 +120,7 @@ void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits)
                 continue;
             const std::uint32_t i = going.which[n];
             if (one.triangle >= triangles_.solid())
-                if (const auto tint = passing(one, rays[i].seed)) {
+                if (const auto tint = transmittance(one, rays[i].seed)) {
                     hits[i].tint *= *tint;
                     next.add(i, rays[i], kBehind * one.distance);
                     continue;
@@ -133,19 +134,20 @@ void QueryCaster::closest(std::span<const RaySpan> rays, std::span<RayHit> hits)
     }
 }
 
-void QueryCaster::passing(std::span<const RaySpan> rays, std::span<glm::vec3> passing) const
+void QueryCaster::transmittance(std::span<const RaySpan> rays,
+                                std::span<glm::vec3> transmittance) const
 {
-    assert(rays.size() == passing.size());
+    assert(rays.size() == transmittance.size());
     Going all, going;
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        passing[i] = glm::vec3(1.0f);
+        transmittance[i] = glm::vec3(1.0f);
         all.add(i, rays[i], rays[i].near);
     }
     const std::vector<CastHit> solid = cast(all.rays, kAnySolid);
     for (std::size_t n = 0; n < solid.size(); ++n) {
         const std::uint32_t i = all.which[n];
         if (solid[n].triangle != kNoTriangle)
-            passing[i] = glm::vec3(0.0f);
+            transmittance[i] = glm::vec3(0.0f);
         else if (has_passable())
             going.add(i, rays[i], rays[i].near);
     }
@@ -156,8 +158,8 @@ void QueryCaster::passing(std::span<const RaySpan> rays, std::span<glm::vec3> pa
             if (found[n].triangle == kNoTriangle)
                 continue;
             const std::uint32_t i = going.which[n];
-            const std::optional<glm::vec3> tint = this->passing(found[n], rays[i].seed);
-            passing[i] *= tint.value_or(glm::vec3(0.0f));
+            const std::optional<glm::vec3> tint = this->transmittance(found[n], rays[i].seed);
+            transmittance[i] *= tint.value_or(glm::vec3(0.0f));
             if (tint)
                 next.add(i, rays[i], kBehind * found[n].distance);
         }

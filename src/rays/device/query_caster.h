@@ -1,5 +1,5 @@
 #pragma once
-// Rays through the ray queries of a device (VK_KHR_ray_query).
+// Ray tracing by GPU ray queries (VK_KHR_ray_query).
 
 #include <memory>
 
@@ -8,9 +8,9 @@
 
 namespace lumel {
 
-/// Builds a tree over the triangles on the device. Both must outlive the caster; while rays are
-/// cast no other thread may use the device. Throws Error{device} where the device has no ray
-/// queries (Device::can_query_rays), or too little memory.
+/// Builds a BVH over the triangles on the GPU. Both arguments must outlive the caster; no other
+/// thread may use the device while rays are traced. Throws Error{device} if the device lacks ray
+/// queries (Device::can_query_rays) or memory.
 std::unique_ptr<RayCaster> cast_by_queries(const gpu::Device& device, const RayScene& rays);
 
 }  // namespace lumel

@@ -5,10 +5,10 @@ LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kCastGroup = 64u;
 
-// What rays look for.
+// Query modes.
 LUMEL_CONST uint kNearestOfAll = 0u;
-LUMEL_CONST uint kAnySolid = 1u;         ///< whether there is any; which one is left open
-LUMEL_CONST uint kNearestPassable = 2u;  ///< among surfaces that may let light pass
+LUMEL_CONST uint kAnySolid = 1u;         ///< any hit, for occlusion
+LUMEL_CONST uint kNearestPassable = 2u;  ///< closest surface that may transmit light
 
 LUMEL_CONST uint kNoTriangle = 0xffffffffu;
 
@@ -20,7 +20,7 @@ struct CastRay {
 };
 
 struct CastHit {
-    uint triangle;     ///< kNoTriangle: there is none. Passable ones come after the solid ones.
+    uint triangle;     ///< kNoTriangle: no hit. Transmitting triangles follow the solid ones.
     float distance;    ///< [m]
     vec2 barycentric;  ///< weights of its 2nd and 3rd vertex
 };
@@ -29,7 +29,7 @@ struct CastHit {
 struct CastParams {
     uint rays;
     uint wanted;
-    uint solid;  ///< triangles
+    uint solid;  ///< number of solid triangles
 };
 
 LUMEL_SHARED_END

@@ -1,5 +1,5 @@
 #pragma once
-// Maps of the unit square to directions, and what they share.
+// Maps from the unit square to directions, and their frames.
 
 #include <cmath>
 #include <numbers>
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// x, y, z along two tangents and a unit `axis`, by a branch-free frame. [DBC*17]
+/// Direction x, y, z in a branch-free frame about the unit vector `axis`. [DBC*17]
 inline glm::vec3 turn_to(const glm::vec3& axis, float x, float y, float z)
 {
     const float sign = std::copysign(1.0f, axis.z);
@@ -19,7 +19,7 @@ inline glm::vec3 turn_to(const glm::vec3& axis, float x, float y, float z)
     return x * tangent + y * bitangent + z * axis;
 }
 
-/// Concentric map of the unit square to the unit disc: areas are kept, and strata stay compact.
+/// Concentric map from the unit square to the unit disc: preserves areas and keeps strata compact.
 inline glm::vec2 square_to_disc(const glm::vec2& at)
 {
     constexpr float kPi = std::numbers::pi_v<float>;

@@ -1,5 +1,5 @@
 #pragma once
-// What a surface reflects at a point.
+// Reflectance of a surface at a point.
 
 #include <glm/glm.hpp>
 

@@ -24,7 +24,7 @@ public:
     {
     }
 
-    /// A well-mixed 32-bit number for two of them.
+    /// 32-bit hash of two numbers.
     static std::uint32_t hash(std::uint32_t a, std::uint32_t b)
     {
         std::uint32_t x = a * 0x9e3779b1u + (b ^ 0x5bd1e995u) * 0x85ebca6bu;
@@ -33,7 +33,7 @@ public:
         return x ^ (x >> 16);
     }
 
-    /// The stratified point of dimension pair `pair`, in [0, 1)².
+    /// Stratified point of dimension pair `pair`, in [0, 1)².
     glm::vec2 stratified(std::uint32_t pair) const
     {
         const std::uint32_t key = hash(stream_, pair);
@@ -44,7 +44,7 @@ public:
         return {to_unit(x), to_unit(y)};
     }
 
-    /// An independent random point in [0, 1)², cheaper than a stratified one.
+    /// Independent random point in [0, 1)², cheaper than a stratified one.
     glm::vec2 random(std::uint32_t pair) const
     {
         const std::uint32_t key = bits(pair);
@@ -77,8 +77,8 @@ private:
         return x;
     }
 
-    /// The second Sobol dimension: Pascal's triangle mod 2 times the reversed index. As C(k, j) is
-    /// odd where j's bits are a subset of k's, the product is a sum over supersets, bit by bit.
+    /// The second Sobol dimension: Pascal's triangle mod 2 times the reversed index. C(k, j) is odd
+    /// if j's bits are a subset of k's, so the product is a sum over supersets, bit by bit.
     static std::uint32_t sobol_second(std::uint32_t x)
     {
         x = reverse_bits(x);
@@ -91,8 +91,8 @@ private:
     }
 
     std::uint32_t stream_;
-    std::uint32_t index_;  ///< bit-reversed, as the scrambles want it
-    std::uint32_t path_;   ///< key of this point's random numbers
+    std::uint32_t index_;  ///< bit-reversed for the scrambles
+    std::uint32_t path_;   ///< key of the random numbers
 };
 
 }  // namespace lumel

@@ -4,7 +4,7 @@ namespace lumel {
 
 namespace {
 
-/// A vertex array's value inside a triangle.
+/// Interpolates a vertex attribute in a triangle.
 template <typename Value>
 Value interpolate(const std::vector<Value>& values, const std::uint32_t* corner,
                   const glm::vec2& barycentric)
@@ -51,7 +51,7 @@ MaterialSample Surfaces::textured_look(const PlacedSurface& surface, std::uint32
     return sample_material(*scene_, source.material, texcoord, color);
 }
 
-/// As the scene was read: without gloss all that is reflected is diffuse.
+/// Scenes read without gloss reflect diffusely only.
 Reflectance Surfaces::reflectance(const MaterialSample& look) const
 {
     if (scene_->model == MaterialModel::diffuse)
@@ -75,7 +75,7 @@ Shading Surfaces::shade(const RayHit& hit) const
     if (surface.source->normals.empty())
         return shading;
 
-    // Take the interpolated normal unless it points behind the triangle.
+    // Uses the interpolated normal unless it points behind the triangle.
     const std::uint32_t* corner = surface.source->indices.data() + std::size_t(hit.triangle) * 3;
     const glm::vec3 bent = side * (surface.normal_transform *
                                    interpolate(surface.source->normals, corner, hit.barycentric));

@@ -1,5 +1,5 @@
 #pragma once
-// The scene's surfaces as a path tracer meets them: material, normals and sides at a point.
+// Surfaces of a scene for path tracing: material, normals and sides at a point.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,11 +21,11 @@ struct PlacedSurface {
     bool mirrored = false;
     bool double_sided = false;
     bool may_emit = false;
-    bool uniform = false;  ///< looks the same everywhere: as `look`
+    bool uniform = false;  ///< same material everywhere: `look`
     MaterialSample look{};
 };
 
-/// Side and shading of a hit, on the side that the ray came from.
+/// Shading of a hit, on the side of the ray.
 struct Shading {
     glm::vec3 geometric{0.0f};  ///< unit normal of the triangle, world
     glm::vec3 normal{0.0f};     ///< interpolated, unit, world; never behind the triangle
@@ -35,15 +35,15 @@ struct Shading {
 
 class Surfaces {
 public:
-    /// The scene must outlive this, unmoved.
+    /// The scene must outlive this and not move.
     explicit Surfaces(const Scene& scene);
 
-    /// Number of a primitive of an instance in `all()`.
+    /// Index of a primitive of an instance in `all()`.
     std::size_t index(std::uint32_t instance, std::uint32_t primitive) const
     {
         return first_[instance] + primitive;
     }
-    /// Which instance one of them belongs to.
+    /// Instance of a surface.
     std::uint32_t instance(std::size_t surface) const
     {
         const auto next = std::upper_bound(first_.begin(), first_.end(), surface);
@@ -52,14 +52,14 @@ public:
     /// In order of instance, then primitive.
     const std::vector<PlacedSurface>& all() const { return surfaces_; }
 
-    /// Look of a surface at a point of one of its triangles.
+    /// Material of a surface at a point of one of its triangles.
     MaterialSample look_at(const PlacedSurface& surface, std::uint32_t triangle,
                            const glm::vec2& barycentric) const
     {
         return surface.uniform ? surface.look : textured_look(surface, triangle, barycentric);
     }
 
-    /// Shading where a ray hit. The back of a single-sided surface is black and does not emit.
+    /// Shading at a hit. The back of a single-sided surface is black and does not emit.
     Shading shade(const RayHit& hit) const;
 
 private:
@@ -68,7 +68,7 @@ private:
                                  const glm::vec2& barycentric) const;
 
     const Scene* scene_;
-    std::vector<std::size_t> first_;  ///< [instances] number of the instance's first primitive
+    std::vector<std::size_t> first_;  ///< [instances] index of the instance's first surface
     std::vector<PlacedSurface> surfaces_;
 };
 

@@ -1,13 +1,13 @@
-// Directional light: spherical harmonics of the radiance that arrives at every lumel.
+// Directional light: spherical harmonics of the incoming radiance at every lumel.
 //
-// Beyond the papers. The finished irradiance H of any method makes every lumel a source of
-// radiosity B = E + ρH. Shooters are drawn from B and send it once more, as in
-// stochastic.cpp, but receivers keep where it comes from (directional.receive.comp). Close pairs
-// are left out of the shots and taken from the near field (directional.near.comp). Directions go
-// into coefficients by the fit of directional_fit.cpp, about each lumel's normal. The light of sky,
-// sun and lamps joins by rays on the host (light_directions.cpp); at last the
-// coefficients are made to give H exactly at that normal, so that the shots' noise is left only in
-// how irradiance changes as the normal is tilted.
+// Not from the papers. The finished irradiance H of any method makes every lumel a source of
+// radiosity B = E + ρH. Shooters are drawn from B and send it once more, as in stochastic.cpp, but
+// receivers store its direction (directional.receive.comp). Close pairs are left out of the shots
+// and taken from the near field (directional.near.comp). The fit of directional_fit.cpp converts
+// directions to coefficients about each lumel's normal. Light of sky, sun and lamps is added by
+// rays on the CPU (light_directions.cpp). Finally the coefficients are adjusted to give exactly H
+// at that normal, so that noise of the shots only remains in the variation of irradiance with a
+// tilted normal.
 
 #include "results/directional/directional.h"
 
@@ -29,12 +29,12 @@
 namespace lumel {
 namespace {
 
-/// Shooters, whatever the solve took, and before a stop is heeded.
+/// Bounds on the number of shooters, and the minimum before a stop.
 constexpr std::uint64_t kMinShots = 1024, kMaxShots = 4096, kShotsBeforeStop = 256;
-/// Shooters where the solve had none.
+/// Shooters if the solve had none.
 constexpr std::uint64_t kUsualShots = 2048;
 
-/// B = E + ρH [N]; what is buried sends nothing.
+/// B = E + ρH [N]; 0 for buried lumels.
 std::vector<glm::vec3> radiosity_of(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
 {
     std::vector<glm::vec3> radiosity = emission_of(lumels);
@@ -44,7 +44,7 @@ std::vector<glm::vec3> radiosity_of(const Lumels& lumels, const std::vector<glm:
     return radiosity;
 }
 
-/// The device side.
+/// The GPU part.
 class Gathering {
 public:
     Gathering(const gpu::Device& device, const World& world, const Lumels& lumels,
@@ -79,7 +79,7 @@ public:
         });
     }
 
-    /// Sends one batch.
+    /// Shoots one batch.
     void shoot()
     {
         select();
@@ -130,7 +130,7 @@ private:
                                   .count = batch_,
                                   .emission_count = 0,
                                   .source_index = std::uint32_t(sent_),
-                                  .seed = ~options_.seed,  // no shooter of the solve again
+                                  .seed = ~options_.seed,  // shooters differ from the solve's
                                   .disc = near_radius_ > 0.0f ? 0u : 1u,
                                   .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                   .channels = world_->has_coloured_glass() ? 1u : 0u};
@@ -194,7 +194,7 @@ private:
     std::array<gpu::Array<glm::vec3>, kMaxBands> bands_;  ///< [2l + 1][N] sums
     NearRows near_rows_;
     PowerPyramid pyramid_;
-    gpu::Pacer pacer_;  ///< after all that its work uses: it waits when it ends
+    gpu::Pacer pacer_;  ///< last member: its destructor waits for work that uses others
     std::uint64_t sent_ = 0;
     std::uint32_t iteration_ = 0;
 };
@@ -252,7 +252,7 @@ DirectionalLight gather_directional(const gpu::Device& device, const World& worl
                                     const std::function<bool(double)>& go_on)
 {
     const DirectionalFit fit(int(options.kind));
-    // Lights first: their share of the time, about, if there are any.
+    // Lights first, for about this fraction of the time if there are any.
     const double share = has_far_lights(scene) ? 0.5 : 0.0;
     const std::vector<glm::vec3> normals = world_normals(scene, lumels);
     std::vector<std::vector<glm::vec3>> of_lights(

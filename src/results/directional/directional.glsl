@@ -1,7 +1,7 @@
 #ifndef LUMEL_DIRECTIONAL_DIRECTIONAL_GLSL
 #define LUMEL_DIRECTIONAL_DIRECTIONAL_GLSL
 
-// Sums of spherical harmonics for one lumel. Declares the bands that they are kept in, and `fit`.
+// Sums of spherical harmonics for one lumel. Declares the bands that store them, and `fit`.
 
 #include "results/directional/directional.shared.h"
 
@@ -22,8 +22,8 @@ FitRow fit_row(float z)
                   mix(a.axial, b.axial, f), mix(a.skew, b.skew, f), mix(a.planar, b.planar, f));
 }
 
-// What light of radiance × solid angle 1 from unit direction `from` adds to the coefficients of a
-// lumel of normal n; see FitRow.
+// Coefficients of a lumel of normal n for radiance × solid angle 1 from unit direction `from`; see
+// FitRow.
 void coefficients_of(vec3 from, vec3 n, uint order, out float c[9])
 {
     const float z = dot(n, from);
@@ -48,7 +48,7 @@ void coefficients_of(vec3 from, vec3 n, uint order, out float c[9])
     c[8] = kY22 * (square.x - square.y);
 }
 
-// Arrays are gone through by hand, so that they stay in registers.
+// Unrolled, so that arrays stay in registers.
 void add_light(float c[9], vec3 light, uint order)
 {
     sums[0] += light * c[0];

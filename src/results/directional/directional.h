@@ -1,5 +1,5 @@
 #pragma once
-// Directional light: where the light of a finished solution comes from. See directional.cpp.
+// Directions of the light of a finished solution. See directional.cpp.
 
 #include <cstdint>
 #include <functional>
@@ -15,14 +15,14 @@
 
 namespace lumel {
 
-/// What directional lightmaps hold: coefficients of bands 0…order.
+/// Contents of directional lightmaps: coefficients of bands 0…order.
 enum class Directional : std::uint8_t { none = 0, sh1 = 1, sh2 = 2 };
 
 struct DirectionalOptions {
     Directional kind = Directional::sh1;
     SampleRule rule = SampleRule::area;
     std::uint32_t seed = 1;
-    std::uint32_t batch = 16;  ///< shooters at a time
+    std::uint32_t batch = 16;  ///< shooters per batch
     Projection projection = Projection::hemicube;
     std::uint32_t hemicube = 256;  ///< side of the front face [pixels], see EyeViews
     std::uint64_t shots = 4096;
@@ -32,23 +32,22 @@ struct DirectionalLight {
     /// [4 or 9][N] radiance [cd/m²] × Y_lm in world space, at l² + l + m.
     std::vector<std::vector<glm::vec3>> coefficients;
     std::uint64_t shots = 0;
-    gpu::StageTimes times;  ///< on the device [ms]
+    gpu::StageTimes times;  ///< on the GPU [ms]
 };
 
-/// Bytes on the device that gather_directional() takes, on one whose images may be as large as is
-/// wanted.
+/// GPU memory of gather_directional() [bytes], if the device does not limit images.
 std::uint64_t directional_bytes(const SolveSize& size, const DirectionalOptions& options);
 
-/// As many shooters as suit a solution that took `solver_shots`; 0: as suit one without shooters.
+/// Number of shooters for a solution that took `solver_shots`; 0: for one without shooters.
 std::uint64_t directional_shots(std::uint64_t solver_shots);
 
-/// Unit shading normals of the lumels [N], in the world.
+/// Unit shading normals of the lumels [N], world space.
 std::vector<glm::vec3> world_normals(const Scene& scene, const Lumels& lumels);
 
-/// Gathers light from all lumels' radiosity E + ρH, whichever method found `irradiance` [N] [lx],
-/// and from sky, sun and lamps.
-/// irradiance_at() of a lumel's coefficients at its own normal is its irradiance. `near`: as in
-/// the solve, may be empty. `go_on` is given the fraction done and returns false to stop early.
+/// Gathers light from all lumels' radiosity E + ρH, for `irradiance` [N] [lx] of any method, and
+/// from sky, sun and lamps. irradiance_at() of a lumel's coefficients at its own normal is its
+/// irradiance. near: as in the solve, may be empty. `go_on` receives the fraction done and returns
+/// false to stop early.
 DirectionalLight gather_directional(const gpu::Device& device, const World& world,
                                     const Scene& scene, const RayScene& rays, const Lumels& lumels,
                                     const NearField& near, const std::vector<glm::vec3>& irradiance,

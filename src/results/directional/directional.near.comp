@@ -5,16 +5,16 @@
 #include "raster/world/lumel.glsl"
 #include "results/directional/directional.glsl"
 
-// The mean of all shots, and the light of near pairs: F_ij X_j / cosθ_i is the radiance times the
-// solid angle of lumel j. Where it comes from is looked at between points of both lumels, each
-// with the weight that it has in F_ij,
+// The mean of all shots, plus the light of near pairs: F_ij X_j / cosθ_i is the radiance times the
+// solid angle of lumel j. Its direction is sampled between points of both lumels, each with its
+// weight in F_ij,
 //
 //     w = cosθ_i cosθ_j / (r² + s_j² / 4π),   s_j the size of j,
 //
-// or between their centres, where the lumels are farther apart.
+// or is that between their centres if the lumels are farther apart.
 //
-// Mesa's software Vulkan ends all loops of an invocation after 65,535 rounds in all, so the points
-// are few.
+// Few points, as Mesa's software Vulkan ends all loops of an invocation after 65,535 rounds in
+// total.
 
 layout(local_size_x = kDirectionalGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalNearParams p; };
@@ -23,11 +23,11 @@ layout(scalar) readonly buffer Column { uint column[]; };
 layout(scalar) readonly buffer Factor { float factor[]; };
 layout(scalar) readonly buffer Source { vec3 source[]; };
 
-// Pairs closer than this, in sizes of the larger, are sampled between this number of points.
+// Pairs closer than this, in sizes of the larger lumel, are sampled by kPoints points.
 const float kClose = 4.0;
 const uint kPoints = 8u;
-// A sender that lies lower than this part of its size, on the whole, is cut by the receiver's
-// horizon, or nearly so, and F_ij may hold what the points miss: it counts as that high.
+// Minimum height of a sender above the receiver's horizon, relative to its size: the horizon can
+// cut lower ones, and F_ij can include parts that the points miss.
 const float kMinHeight = 0.25;
 
 // Point k of additive recurrences in four dimensions; the steps are 1/g, 1/g², … for g⁵ = g + 1.
@@ -38,7 +38,7 @@ vec4 recurrence(uint k)
 
 struct Way {
     vec3 from;     // unit, toward the sender
-    float cosine;  // with the receiver's normal
+    float cosine;  // at the receiver's normal
     float weight;
 };
 
@@ -55,7 +55,7 @@ Way way_between(Lumel receiver, Lumel sender, uint k)
     return Way(from, cosine, weight);
 }
 
-// `light`: irradiance of the pair. False if none of the points sees another.
+// `light`: irradiance of the pair. Returns false if no points see each other.
 bool add_between_points(Lumel receiver, Lumel sender, vec3 light)
 {
     float sum = 0.0, solid = 0.0;

@@ -9,9 +9,9 @@
 #include "solve/shooting/shot.glsl"
 #include "results/directional/directional.glsl"
 
-// Every lumel i adds up where the light of K shots comes from. A shot gives it the irradiance
-// dH = X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π), so dH / cosθ_i is the radiance times
-// the solid angle that arrives from its direction.
+// Every lumel i sums the directions of the light of K shots. A shot gives it the irradiance dH =
+// X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π), so dH / cosθ_i is the radiance times the
+// solid angle from its direction.
 
 layout(local_size_x = kDirectionalGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalReceiveParams p; };

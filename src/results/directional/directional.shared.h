@@ -8,11 +8,11 @@ LUMEL_CONST uint kDirectionalGroup = 64u;
 
 LUMEL_CONST uint kElevations = 129u;  ///< rows of the fit's table, z = -1…1
 
-/// What light of radiance × solid angle 1 from ω gives the coefficients of a lumel whose normal is
-/// n, with z = n·ω and t = ω - z n:
+/// Coefficients of a lumel of normal n for radiance × solid angle 1 from ω, with z = n·ω and t = ω
+/// - z n:
 ///     band 0   zero
 ///     band 1   u = along n + across t,                      (y, z, x) of u
-///     band 2   M = axial (n nᵀ - I/3) + skew (n tᵀ + t nᵀ) + flat (t tᵀ - t·t (I - n nᵀ) / 2),
+///     band 2   M = axial (n nᵀ - I/3) + skew (n tᵀ + t nᵀ) + planar (t tᵀ - t·t (I - n nᵀ) / 2),
 ///              kY2 (M_xy, M_yz), 3 kY20 M_zz, kY2 M_xz, kY22 (M_xx - M_yy)
 struct FitRow {
     float zero;
@@ -31,7 +31,7 @@ struct DirectionalReceiveParams {
     uint seed;
     uint centre;        ///< 1: receive at the centroid
     uint order;         ///< 1 or 2
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 /// Push constants of directional.near.comp.
@@ -40,7 +40,7 @@ struct DirectionalNearParams {
     uint last;
     uint count;
     uint order;
-    float shots;  ///< whose sums the bands hold
+    float shots;  ///< number of shots in the bands' sums
 };
 
 LUMEL_SHARED_END

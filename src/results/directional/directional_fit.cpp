@@ -1,26 +1,26 @@
-// Spherical harmonics that are right where a surface can see.
+// Spherical harmonics fitted to irradiance on the visible side of a surface.
 //
 // [RH01] R. Ramamoorthi, P. Hanrahan. An Efficient Representation for Irradiance Environment Maps.
 //        SIGGRAPH 2001.
 //
-// The projection c_lm = ∫ L Y_lm of radiance over the sphere spends most of what one or two bands
-// can represent on the horizon, below which nothing arrives. Wanted is irradiance,
+// The projection c_lm = ∫ L Y_lm of radiance over the sphere spends most of the accuracy of one or
+// two bands on the horizon, below which no light arrives. The aim is irradiance,
 //
 //     H(n') = ∫ L(ω) max(ω·n', 0) dω   ≈   Σ A_l c_lm Y_lm(n'),            [RH01] Eq. (5), (8)
 //
-// for normals n' on the upper side of the surface's own normal n. So the coefficients of light L
-// are the linear functions c_lm = ∫ L(ω) D_lm(ω) dω for which
+// for normals n' on the upper side of the surface's own normal n. The coefficients of light L are
+// therefore the linear functions c_lm = ∫ L(ω) D_lm(ω) dω that minimise
 //
 //     ∫ (n·n') (Σ A_l D_lm Y_lm(n') - max(ω·n', 0))² dn'  +  λ Σ (D_lm - Y_lm(ω))²
 //
-// over the upper hemisphere is least, and Σ A_l D_lm Y_lm(n) = max(ω·n, 0) at n itself. λ holds
-// them near the projection, so that they still describe the arriving radiance. With n along z, D_lm
-// is a function of ω's elevation times cos |m|φ or sin |m|φ: tabulated here, put together in
+// over the upper hemisphere, with Σ A_l D_lm Y_lm(n) = max(ω·n, 0) at n itself. λ keeps them near
+// the projection, so that they still describe the incoming radiance. With n along z, D_lm is a
+// function of ω's elevation times cos |m|φ or sin |m|φ: tabulated here, combined in
 // directional.glsl.
 //
-// Measured with rays on the Cornell box (cosine-weighted normals, matched at n): root mean square
-// errors of H at normals tilted by 20° and 40° fall from 11 % and 24 % to 5 % and 10 % for one band
-// beyond the mean, and from 4.3 % and 7.9 % to 3.4 % and 5.2 % for two.
+// Measured with rays on the Cornell box (cosine-weighted normals, matched at n): RMS errors of H at
+// normals tilted by 20° and 40° fall from 11 % and 24 % to 5 % and 10 % for one band beyond the
+// mean, and from 4.3 % and 7.9 % to 3.4 % and 5.2 % for two.
 
 #include "results/directional/directional_fit.h"
 
@@ -37,15 +37,15 @@ using Vector = glm::dvec3;  // over the bands
 using Matrix = glm::dmat3;
 
 /// λ. From 0 to 0.1 the irradiance gets 1.7 times worse at two bands and reflections better; below
-/// 0.03 more than 1 % of lumels receive more from one side than in all.
+/// 0.03 more than 1 % of lumels receive more from one side than in total.
 constexpr double kPull = 0.03;
-/// Steps of the sums over normals, in height and round.
+/// Integration steps over normals, in height and azimuth.
 constexpr int kHeights = 64, kAround = 128;
-/// Elevations nearer to the poles than this have no side to lean to.
+/// Elevations closer to the poles have no tangential part.
 constexpr double kPole = 1e-4;
-/// Scaling to the known irradiance, at most.
+/// Maximum scaling to the known irradiance.
 constexpr float kMaxScale = 2.0f;
-/// Normals at which no irradiance may be below 0: rings at these tilts [degrees].
+/// Normals with irradiance ≥ 0: rings at these tilts [degrees].
 constexpr float kRings[] = {15.0f, 30.0f, 45.0f, 60.0f};
 constexpr int kRingNormals = 16;
 
@@ -70,10 +70,10 @@ double lobe(int band)
     return double(kCosineLobe[std::size_t(band)]);
 }
 
-/// The bands m…order of azimuthal order m: the matrix of the least squares.
+/// Least-squares matrix of the bands m…order for azimuthal order m.
 Matrix normal_matrix(int m, int order)
 {
-    Matrix matrix(1.0);  // bands that are not requested stay 0
+    Matrix matrix(1.0);  // unused bands stay 0
     for (int a = m; a <= order; ++a)
         for (int b = m; b <= order; ++b) {
             double sum = a == b ? kPull : 0.0;
@@ -88,7 +88,7 @@ Matrix normal_matrix(int m, int order)
     return matrix;
 }
 
-/// Its right-hand side for light from (s, 0, z).
+/// Right-hand side for light from (s, 0, z).
 Vector target(int m, int order, double s, double z)
 {
     Vector sum(0.0);
@@ -108,7 +108,7 @@ Vector target(int m, int order, double s, double z)
     return sum;
 }
 
-/// A_l Y_l0(n), what evaluates coefficients at the surface's own normal.
+/// A_l Y_l0(n): irradiance at the surface's own normal per coefficient.
 Vector at_normal(int order)
 {
     Vector result(0.0);
@@ -125,7 +125,7 @@ DirectionalFit::DirectionalFit(int order) : order_(order), rows_(kElevations)
     for (int m = 0; m <= order; ++m)
         inverse[m] = glm::inverse(normal_matrix(m, order));
 
-    // The cheapest change that gives irradiance 1 more at n.
+    // The smallest change that adds irradiance 1 at n.
     const Vector own = at_normal(order);
     const Vector change = inverse[0] * own / glm::dot(own, inverse[0] * own);
     for (int l = 0; l <= order; ++l)
@@ -149,7 +149,7 @@ DirectionalFit::DirectionalFit(int order) : order_(order), rows_(kElevations)
     }
 }
 
-/// The same as in directional.glsl.
+/// As in directional.glsl.
 std::array<float, kMaxCoefficients> DirectionalFit::coefficients_of(const glm::vec3& from,
                                                                     const glm::vec3& n) const
 {
@@ -203,7 +203,7 @@ std::vector<glm::vec3> rings_about(const glm::vec3& axis)
     return normals;
 }
 
-/// The part of the coefficients that is symmetric about the axis.
+/// Part of the coefficients that is symmetric about the axis.
 std::array<glm::vec3, kMaxCoefficients> axial_part(std::span<const glm::vec3> coefficients,
                                                    const glm::vec3& axis)
 {
@@ -221,7 +221,7 @@ std::array<glm::vec3, kMaxCoefficients> axial_part(std::span<const glm::vec3> co
     return part;
 }
 
-/// Reduces the asymmetric part until no normal of the rings has irradiance below 0.
+/// Scales down the asymmetric part until irradiance is ≥ 0 at all normals of the rings.
 void keep_positive(std::span<glm::vec3> coefficients, const glm::vec3& axis)
 {
     const auto axial = axial_part(coefficients, axis);

@@ -1,10 +1,10 @@
-// Light of sky, sun and lamps at every lumel, as coefficients of where it comes from.
+// Light of sky, sun and lamps at every lumel, as coefficients of its directions.
 //
-// Rays leave points spread over the lumel. Towards lamps, suns and the bright parts of a sky they
-// are drawn as bakes draw them (lights/sources.h): a sample that brings the irradiance dH from ω is
-// the radiance times the solid angle dH / cosθ. What is left of the sky comes along rays spread
-// evenly over the half sphere above the lumel, each of which stands for 2π / R of it. The fit of
-// directional_fit.cpp makes coefficients of both.
+// Rays start at points spread over the lumel. To lamps, suns and the bright parts of a sky they are
+// sampled as in bakes (lights/sources.h): a sample of irradiance dH from ω is the radiance times
+// the solid angle dH / cosθ. The rest of the sky is sampled uniformly over the hemisphere above the
+// lumel; each ray represents a solid angle of 2π / R. Both are added to coefficients by the fit of
+// directional_fit.cpp.
 
 #include "results/directional/light_directions.h"
 
@@ -21,10 +21,10 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Rays of a lumel to lamps, suns and bright parts of the sky together, about; and to the rest of
+/// Approximate rays per lumel: to lamps, suns and bright parts of the sky together; to the rest of
 /// the sky.
 constexpr std::uint32_t kLampRays = 32, kSkyRays = 64;
-/// Lumels that a watched step does, and least that a core takes.
+/// Lumels per progress report, and minimum per task.
 constexpr std::size_t kLumelsPerStep = 4096, kGrain = 16;
 /// Dimension pairs of a ray's random numbers, and streams of sources.
 constexpr std::uint32_t kStartPair = 0, kSourcePair = 1, kSeedPair = 2, kChoicePair = 3;
@@ -85,9 +85,9 @@ private:
             const glm::vec3 sky = sources_.dim_sky(direction);
             if (sky == glm::vec3(0.0f) || !(glm::dot(start.geometric, direction) > 0.0f))
                 continue;
-            const glm::vec3 passing =
-                rays_.passing_out(start.position, direction, samples.bits(kSeedPair));
-            add(i, direction, passing * sky * (2.0f * kPi / float(kSkyRays)), sums);
+            const glm::vec3 transmittance =
+                rays_.transmittance_out(start.position, direction, samples.bits(kSeedPair));
+            add(i, direction, transmittance * sky * (2.0f * kPi / float(kSkyRays)), sums);
         }
     }
 
@@ -119,9 +119,9 @@ private:
         const float cosine = start.cosine(sample.direction);
         if (!(cosine > 0.0f) || sample.irradiance == glm::vec3(0.0f))
             return;
-        const glm::vec3 passing =
-            rays_.passing(ray_towards(sample, start, rays_.ray_offset(), samples.bits(kSeedPair)));
-        add(i, sample.direction, passing * sample.irradiance * (weight / cosine), sums);
+        const glm::vec3 transmittance = rays_.transmittance(
+            ray_towards(sample, start, rays_.ray_offset(), samples.bits(kSeedPair)));
+        add(i, sample.direction, transmittance * sample.irradiance * (weight / cosine), sums);
     }
 
     const RayScene& rays_;
@@ -133,7 +133,7 @@ private:
     const DirectionalFit& fit_;
     std::uint32_t seed_;
     bool has_sky_;
-    std::vector<char> counts_;  ///< [sources] 1: is no surface
+    std::vector<char> counts_;  ///< [sources] 1: not a surface
 };
 
 }  // namespace

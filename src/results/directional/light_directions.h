@@ -1,5 +1,5 @@
 #pragma once
-// Where the light of sky, sun and lamps comes from. See light_directions.cpp.
+// Directions of the light of sky, sun and lamps. See light_directions.cpp.
 
 #include <functional>
 #include <vector>
@@ -16,12 +16,12 @@ struct LightDirectionsOptions {
     std::uint32_t seed = 1;
 };
 
-/// Are there lights that are no surfaces?
+/// True if there are lights other than surfaces.
 bool has_far_lights(const Scene& scene);
 
-/// Adds their light to coefficients [4 or 9][N] of radiance [cd/m²], by rays on the host. normals
-/// [N]: unit, in the world. `go_on` is given the fraction done and returns false to stop early,
-/// which leaves out the light of some lumels; then this returns false.
+/// Adds their light to coefficients [4 or 9][N] of radiance [cd/m²], by rays on the CPU. normals
+/// [N]: unit, world space. `go_on` receives the fraction done and returns false to stop early; then
+/// this returns false, and the light of some lumels is missing.
 bool add_light_directions(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                           const std::vector<glm::vec3>& normals, const DirectionalFit& fit,
                           const LightDirectionsOptions& options,

@@ -27,7 +27,7 @@ void for_texture_uses(Value& material, const Visit& visit)
     });
 }
 
-// KHR_texture_transform may overrule the number.
+// KHR_texture_transform can override the number.
 template <class Value>
 auto* texcoord_of(Value& use)
 {
@@ -46,7 +46,7 @@ void renumber_texcoord_1(Json& material, int number)
     });
 }
 
-/// What tell_of_lightmap wrote; what users say of the material stays.
+/// Removes the data of tell_of_lightmap; keeps other extras.
 void drop_told(Json& extras)
 {
     const auto own = extras.find(kOwnExtras);
@@ -88,7 +88,7 @@ std::set<std::size_t> lightmap_textures(const Json& json)
     return textures;
 }
 
-// Moves what is used to the front, and returns the new place of each.
+// Moves used elements to the front, and returns the new index of each.
 class Compactor {
 public:
     explicit Compactor(Json& array) : array_(array) {}
@@ -130,7 +130,7 @@ void drop_unused_textures(Json& json)
             json.erase(key);
 }
 
-// Black, and a perfect but rough metal: F0 is the base colour, so nothing is reflected.
+// Black, and a perfect but rough metal: F0 is the base colour, so it reflects nothing.
 Json black_material(const Json& material)
 {
     Json black = Json::object();
@@ -164,7 +164,7 @@ void erase_extensions(Json& part, bool is_texture)
     for_objects(part, [&](Json& object) {
         if (!object.contains("extensions"))
             return;
-        // A texture without a core image has nothing but its extension.
+        // A texture without a core image has only its extension.
         if (is_texture && !object.contains("source"))
             return;
         Json kept = Json::object();
@@ -177,7 +177,7 @@ void erase_extensions(Json& part, bool is_texture)
     });
 }
 
-// Channels that point by an extension have no meaning without it.
+// Channels with a pointer extension are invalid without it.
 void drop_pointer_channels(Json& json)
 {
     if (!json.contains("animations"))
@@ -240,7 +240,7 @@ std::vector<std::vector<std::size_t>> separate_materials(Json& json,
     std::map<std::tuple<std::optional<std::size_t>, int, bool, int>, std::size_t> copies;
     std::vector<std::vector<std::size_t>> all;
 
-    // The first user of a material keeps it, if nothing unbaked needs it as it is.
+    // The first user of a material keeps it, if no unbaked primitive needs it unchanged.
     const auto copy_of = [&](std::optional<std::size_t> material, const BakedPrimitive& b) {
         const auto [copy, is_new] =
             copies.try_emplace({material, b.moved_texcoord, b.back != nullptr, b.page});
@@ -250,7 +250,7 @@ std::vector<std::vector<std::size_t>> separate_materials(Json& json,
         drop_lightmap(own);
         if (b.moved_texcoord != kNotMoved)
             renumber_texcoord_1(own, b.moved_texcoord);
-        if (b.back)  // its other side is a surface of its own
+        if (b.back)  // its other side is a separate surface
             own.erase("doubleSided");
         if (material && taken.insert(*material).second) {
             copy->second = *material;
@@ -344,7 +344,7 @@ void list_extensions(Json& json, const Json& original)
     const std::set<std::string> before = extension_names(original), now = extension_names(json);
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
         Json names = Json::array();
-        // Some, like KHR_mesh_quantization, are used without an object of that name.
+        // Some, such as KHR_mesh_quantization, are used without an object of that name.
         for (const Json& name : original.value(key, Json::array()))
             if (!before.contains(name) || now.contains(name))
                 names.push_back(name);

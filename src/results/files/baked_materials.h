@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// The file's materials that a primitive can show: its own, then those of its variants.
+/// The file's materials of a primitive: its own, then those of its variants.
 std::vector<std::size_t> materials_of(const Json& primitive);
 
 /// Calls visit(mapping) for each KHR_materials_variants mapping of a primitive.
@@ -24,40 +24,39 @@ void for_variants(Value& primitive, const Visit& visit)
         visit(mapping);
 }
 
-/// Numbers n of the TEXCOORD_n that the material's textures are read through (an older lightmap
-/// aside).
+/// Numbers n of the TEXCOORD_n that the material's textures use, without an older lightmap.
 std::set<int> texcoords_read_by(const Json& material);
 
-/// Gives every baked primitive materials that nothing unbaked uses, copied only where needed,
-/// with their texture coordinates renumbered as the primitive requires. Fills `copies` and
-/// `material` of `baked` and returns all of them, page by page. Call after cut_baked_primitives.
+/// Gives every baked primitive materials that no unbaked one uses, copied only where needed, with
+/// texture coordinates renumbered as the primitive requires. Fills `copies` and `material` of
+/// `baked`; returns all materials, by page. Call after cut_baked_primitives.
 std::vector<std::vector<std::size_t>> separate_materials(Json& json,
                                                          std::vector<BakedPrimitive>& baked);
 
-/// Textures that only lightmaps of an earlier bake needed, and whose images no other texture
-/// shows. Call after separate_materials.
+/// Textures that only lightmaps of an earlier bake used, and whose images no other texture uses.
+/// Call after separate_materials.
 std::vector<std::size_t> outdated_lightmaps(const Json& json, const Json& original);
 
-/// Binds the lightmap by MOZ_lightmap. `intensity` [lx]: irradiance of a white texel.
+/// Binds the lightmap by MOZ_lightmap. intensity: irradiance of a white texel [lx].
 void bind_lightmap(Json& json, const std::vector<std::size_t>& materials, std::size_t texture,
                    float intensity);
 
-/// Names the map [lx] in the extras of materials, for viewers of a file whose MOZ_lightmap a tool
-/// has dropped.
+/// Names the map [lx] in the extras of materials, for viewers of files without MOZ_lightmap.
 void tell_of_lightmap(Json& json, const std::vector<std::size_t>& materials, const Pages& pages,
                       int page);
 
-/// Makes the materials black and everything else core glTF: extensions go, and so do textures
-/// and images that are then unused. Call before the builder releases.
+/// Makes the materials black and everything else core glTF: removes extensions, and textures and
+/// images that are then unused. Call before the builder releases.
 void reduce_to_core(Json& json, const std::vector<std::vector<std::size_t>>& materials);
 
-/// Removes all extensions but those that a kept texture needs.
+/// Removes all extensions except those that a kept texture needs.
 void erase_extensions(Json& json);
 
-/// Lets black materials emit the texture.
+/// Makes black materials emit the texture.
 void bind_emission(Json& json, const std::vector<std::size_t>& materials, std::size_t texture);
 
-/// Makes extensionsUsed and extensionsRequired name what is used, and no more of `original`'s.
+/// Updates extensionsUsed and extensionsRequired to the names in use, without unused ones of
+/// `original`.
 void list_extensions(Json& json, const Json& original);
 
 }  // namespace lumel

@@ -36,8 +36,8 @@ const Json* source_primitive(const Json& json, const BakedPrimitive& baked)
     return baked.primitive < primitives.size() ? &primitives[baked.primitive] : nullptr;
 }
 
-// Where the old TEXCOORD_1 goes: to number 0 if no texture reads that, as many viewers support only
-// two; else to the next free number, as glTF allows no gap.
+// New number of the old TEXCOORD_1: 0 if no texture uses that, as many viewers support only two;
+// else the next free number, as glTF allows no gap.
 int new_texcoord(const Json& attributes, const Json& json,
                  const std::vector<std::size_t>& materials)
 {
@@ -62,7 +62,7 @@ NodesOfMesh nodes_of_meshes(const Json& json)
     return nodes;
 }
 
-/// Places in the lightmap, once for each surface whatever the number of its parts.
+/// Lightmap coordinates, added once per surface for all its parts.
 class Places {
 public:
     Places(const Atlas& atlas, VertexGather& gather) : atlas_(atlas), gather_(gather) {}
@@ -93,7 +93,7 @@ private:
     std::map<const Surface*, std::size_t> accessors_;
 };
 
-/// Indices of the triangles that a primitive has of its surface.
+/// Indices of a primitive's triangles of its surface.
 std::vector<std::uint32_t> indices_of(const BakedPrimitive& baked, const Surface& surface)
 {
     if (baked.triangles.empty())
@@ -105,7 +105,7 @@ std::vector<std::uint32_t> indices_of(const BakedPrimitive& baked, const Surface
     return indices;
 }
 
-/// The part of each triangle, counted page by page.
+/// The part of each triangle, numbered by page.
 std::vector<std::uint32_t> parts_of_triangles(const Pages& pages, const Surface& surface)
 {
     std::vector<std::uint32_t> parts(surface.indices.size() / 3);
@@ -118,7 +118,7 @@ std::vector<std::uint32_t> parts_of_triangles(const Pages& pages, const Surface&
     return parts;
 }
 
-// The file's primitive as a triangle list with its vertices split as in the surface.
+// The file's primitive as a triangle list with vertices split as in the surface.
 Json split_primitive(const Json& original, const BakedPrimitive& baked, const Surface& surface,
                      bool turned, Places& lightmap, VertexGather& gather)
 {
@@ -144,7 +144,7 @@ Json split_primitive(const Json& original, const BakedPrimitive& baked, const Su
             for (auto& [name, accessor] : target.items())
                 accessor = gathered(accessor, name);
 
-    // glTF wants a TEXCOORD_0 where there is a TEXCOORD_1; here nothing reads it.
+    // glTF requires a TEXCOORD_0 beside a TEXCOORD_1; nothing uses it here.
     const std::size_t place = lightmap.accessor_of(surface);
     if (!attributes.contains("TEXCOORD_0"))
         attributes["TEXCOORD_0"] = place;
@@ -220,7 +220,7 @@ void cut_baked_primitives(Json& json, const std::vector<BakedPrimitive>& baked)
 void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitive>& baked,
                             const Atlas& atlas)
 {
-    // Fill a copy of the mesh for each node.
+    // Makes a copy of the mesh for each node.
     std::map<std::size_t, Json> mesh_of_node;
     VertexGather gather(builder);
     Places places(atlas, gather);
@@ -240,7 +240,7 @@ void place_baked_primitives(GlbBuilder& builder, const std::vector<BakedPrimitiv
             primitives.push_back(split_primitive(source, b, *b.back, true, places, gather));
     }
 
-    // The first copy takes the place of its mesh where nothing else needs that.
+    // The first copy replaces its mesh if nothing else needs that.
     const NodesOfMesh nodes_of_mesh = nodes_of_meshes(builder.json);
     for (const auto& [mesh, nodes] : nodes_of_mesh) {
         bool needed = std::any_of(nodes.begin(), nodes.end(),

@@ -18,7 +18,6 @@ fs::path normal(const std::string& target)
     return path.has_filename() ? path : path.parent_path();
 }
 
-// The folder of a file that can be put there.
 std::string folder_of(const std::string& target)
 {
     std::error_code ignored;
@@ -30,7 +29,7 @@ std::string folder_of(const std::string& target)
     return folder.string();
 }
 
-// The folders from the root to `path` that do not exist yet, parents first.
+// The missing folders from the root to `path`, parents first.
 std::vector<fs::path> missing_folders(const fs::path& path)
 {
     std::vector<fs::path> missing;
@@ -94,7 +93,7 @@ void OutputFolder::commit()
 
 void OutputFolder::clean_up() noexcept
 {
-    // Only folders that are still empty go: others may have put files there meanwhile.
+    // Removes only folders that are still empty: others can have put files there.
     std::error_code ignored;
     work_.reset();
     for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder)

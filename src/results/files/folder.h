@@ -1,5 +1,5 @@
 #pragma once
-// Results appear whole or not at all.
+// Atomic output: all results appear, or none.
 
 #include <optional>
 #include <string>
@@ -9,26 +9,25 @@
 
 namespace lumel {
 
-/// Collects files in a hidden folder inside `target` and puts them into it by commit(), all or
-/// none, whatever ends the program (see WorkFolder, which also says what others see meanwhile).
-/// Makes the target and its parents where they are missing. Destroyed before commit(), it leaves
-/// nothing behind, not even the folders it made. What processes that died have left in the target
-/// is finished or removed.
-/// Throws Error{output} if the place cannot be written, or another process writes there.
+/// Collects files in a hidden folder inside `target`; commit() moves all of them into it, or none,
+/// even if the program is interrupted (see WorkFolder, also for what other processes see). Creates
+/// the target and its parents. Destroyed before commit(), it leaves nothing behind, nor the folders
+/// it made. Completes or removes the leftovers of dead processes in the target. Throws
+/// Error{output} if the target cannot be written, or another process is writing there.
 class OutputFolder {
 public:
-    /// `what`: tells apart what one process writes into one folder at the same time.
+    /// `what` distinguishes simultaneous outputs of one process into one folder.
     explicit OutputFolder(const std::string& target, const std::string& what = {});
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// Where to write the file that will be called `name` in the target.
+    /// Path at which to write the file `name` of the target.
     std::string path(const std::string& name) const;
-    /// A file of that name which is in the target already goes at commit(), even if none takes its
-    /// place: it would not fit the others.
+    /// Removes an existing file of that name at commit(), even without a replacement: it would not
+    /// match the others.
     void outdate(const std::string& name) { outdated_.push_back(name); }
-    /// Puts all files written so far in place, on the disk too; older ones are replaced. Call once.
+    /// Moves all files written so far to the target, and to disk; replaces older ones. Call once.
     void commit();
 
 private:
@@ -40,15 +39,15 @@ private:
     std::vector<std::string> made_;  // folders made for this, parents first
 };
 
-/// The same for one file, in a folder that exists.
+/// Atomic output of one file, in an existing folder.
 class OutputFile {
 public:
     /// Throws Error{output} if `target` cannot be written.
     explicit OutputFile(const std::string& target);
 
-    /// Where to write it; it is called as the target is.
+    /// Path at which to write it, with the target's name.
     std::string path() const;
-    /// Puts it in place in one step; an older one is replaced. Call once.
+    /// Moves it to the target in one step; replaces an older one. Call once.
     void commit() { folder_.commit(); }
 
 private:

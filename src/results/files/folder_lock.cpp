@@ -26,7 +26,7 @@ int open_folder(const fs::path& folder, int flags = 0)
 
 enum class Got { lock, nothing, unknown };
 
-/// Nothing if another has the lock, unknown if the file system knows no locks.
+/// Got::nothing if another has the lock, Got::unknown if the file system has no locks.
 Got lock(int descriptor, int operation)
 {
     while (flock(descriptor, operation) != 0) {
@@ -38,7 +38,7 @@ Got lock(int descriptor, int operation)
     return Got::lock;
 }
 
-/// Does the path still lead to what is open?
+/// True if the path still refers to the open folder.
 bool leads_to(const fs::path& path, int descriptor)
 {
     struct stat there = {}, here = {};
@@ -50,7 +50,7 @@ bool leads_to(const fs::path& path, int descriptor)
 
 FolderLock::FolderLock(const fs::path& folder, Kind kind)
 {
-    // Another may have been put in its place while this waited.
+    // It can have been replaced while this waited.
     do {
         *this = FolderLock(open_folder(folder));
         if (descriptor_ < 0)
@@ -68,7 +68,7 @@ std::optional<FolderLock> FolderLock::try_to(const fs::path& folder)
         fail("cannot open folder", folder, errno);
     }
     const Got got = lock(result.descriptor_, LOCK_EX | LOCK_NB);
-    // Its last owner may have removed it between the two.
+    // Its last owner can have removed it between the two.
     if (got == Got::nothing || !leads_to(folder, result.descriptor_))
         return {};
     result.keeps_out_ = got == Got::lock;
@@ -101,7 +101,7 @@ void sync_to_disk(const fs::path& path)
         fail("cannot open", path, errno);
     const int reason = fsync(descriptor) == 0 ? 0 : errno;
     close(descriptor);
-    // Some file systems do not offer it, at least not for folders.
+    // Some file systems do not support it, at least for folders.
     if (reason != 0 && reason != EINVAL && reason != EROFS && reason != ENOTSUP)
         fail("cannot write", path, reason);
 }

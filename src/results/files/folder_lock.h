@@ -6,20 +6,20 @@
 
 namespace lumel {
 
-/// A folder that this process has locked. The system takes the lock back when the process ends,
-/// however it ends. Where a file system knows no locks, everybody gets one, which says so.
-/// Two computers that share a folder do not see each other's locks.
+/// Lock on a folder. The OS releases it when the process ends, even after a crash. Without support
+/// by the file system everyone gets a lock, and keeps_others_out() is false. Computers that share a
+/// folder do not see each other's locks.
 class FolderLock {
 public:
     enum class Kind { shared, exclusive };
 
-    /// Waits until nobody else has it, or only others who share it. Throws
+    /// Waits until no one else has the lock, or only shared ones. Throws
     /// std::filesystem::filesystem_error.
     FolderLock(const std::filesystem::path& folder, Kind kind);
-    /// Exclusive, without waiting: empty if another has it, or if the folder is gone. Throws
+    /// Exclusive, without waiting: empty if another has it, or the folder is gone. Throws
     /// std::filesystem::filesystem_error.
     static std::optional<FolderLock> try_to(const std::filesystem::path& folder);
-    /// False where the file system knows no locks: others may have got this one too.
+    /// False if the file system has no locks: others can have this one too.
     bool keeps_others_out() const { return keeps_out_; }
     ~FolderLock();
     FolderLock(FolderLock&& other) noexcept;
@@ -32,7 +32,7 @@ private:
     bool keeps_out_ = false;
 };
 
-/// Returns once a file, or the list of names in a folder, is on the disk. Throws
+/// Returns once a file, or a folder's list of names, is on disk. Throws
 /// std::filesystem::filesystem_error.
 void sync_to_disk(const std::filesystem::path& path);
 

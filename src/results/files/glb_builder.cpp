@@ -22,14 +22,14 @@ constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN"
 constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
-constexpr std::size_t kAlignment = 4;  // of chunks, and of every view: that of floats
+constexpr std::size_t kAlignment = 4;  // alignment of chunks and of views, for floats
 constexpr int kLinear = 9729, kClampToEdge = 33071;
 
-// Stand-ins for what is released and gets no successor; nothing refers to them.
+// Placeholders for released elements without a successor; nothing refers to them.
 const Json kEmptyAccessor = {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}};
 const Json kEmptyView = {{"buffer", 0}, {"byteLength", 1}};
 
-// What is no index is passed over: extras and unknown extensions may use the same names.
+// Ignores values that are not indices: extras and unknown extensions can use the same names.
 void insert_index(const Json& parent, const char* key, std::set<std::size_t>& indices)
 {
     const auto found = parent.find(key);
@@ -47,7 +47,7 @@ void insert_members(const Json& parent, const char* key, std::set<std::size_t>& 
             insert_index(*found, name.c_str(), indices);
 }
 
-/// Only indices below `size` remain. Parts that the reader does not look at may name others.
+/// Removes indices from `size` on, which parts of the file that are not read can have.
 void drop_from(std::set<std::size_t>& indices, std::size_t size)
 {
     indices.erase(indices.lower_bound(size), indices.end());
@@ -87,8 +87,7 @@ std::string mime_type_of(const Bytes& file)
     return {};
 }
 
-/// The PNG that stands for a WebP picture, which plain glTF does not have; nothing for what is none
-/// or cannot be decoded.
+/// A WebP image as PNG, as plain glTF lacks WebP; empty for other formats or if decoding fails.
 std::optional<Bytes> plain_picture(const Bytes& file, const std::string& place)
 {
     if (!is_webp(file))
@@ -187,7 +186,7 @@ void GlbBuilder::unpack_images()
         try {
             png = plain_picture(buffer_view_bytes(document_, view.get("bufferView")), view.place());
         } catch (const Error&) {
-            continue;  // as below
+            continue;  // see embed_images()
         }
         if (!png)
             continue;
@@ -218,7 +217,7 @@ void GlbBuilder::free_views()
 
 void GlbBuilder::copy_views()
 {
-    // Views of the same bytes go on sharing them.
+    // Views of the same bytes stay shared.
     std::map<std::tuple<std::size_t, std::size_t, std::size_t>, std::size_t> copied;
     const auto views = json.find("bufferViews");
     for (std::size_t i = 0; views != json.end() && i < views->size(); ++i) {
@@ -295,7 +294,7 @@ void GlbBuilder::retire_texture(std::size_t texture)
 {
     for (const std::size_t image : images_of(json["textures"].at(texture))) {
         if (!json.contains("images") || image >= json["images"].size())
-            continue;  // of an extension that is not read
+            continue;  // from an extension that is not read
         json["images"][image] = Json::object();
         free_images_.insert(image);
     }

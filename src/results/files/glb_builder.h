@@ -1,5 +1,5 @@
 #pragma once
-// A glTF document that is changed and written into one .glb file.
+// Edits a glTF document and writes it as one .glb file.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace lumel {
 
-/// glTF's numbers for what a bufferView is for.
+/// glTF's numbers for the use of a bufferView.
 enum class ViewTarget { none = 0, vertices = 34962, indices = 34963 };
 
-/// Starts as a copy of a document, whose JSON may then be changed at will; release() drops
-/// what the changed JSON no longer refers to; after it, new data is added. Indices never move:
-/// new data takes the numbers of released data. The document must outlive the builder.
+/// Starts as a copy of a document, whose JSON can then be changed freely. release() drops data that
+/// the JSON no longer refers to; then new data can be added. Indices never change: new data takes
+/// the indices of released data. The document must outlive the builder.
 class GlbBuilder {
 public:
     explicit GlbBuilder(const GltfDocument& document);
@@ -26,24 +26,24 @@ public:
     Json json;
     const GltfDocument& document() const { return document_; }
 
-    /// Drops the data of accessors and bufferViews that the document referred to and the JSON no
-    /// longer does, and puts the files of all images into the buffer. Images that cannot be read
-    /// keep their URI. Call once.
+    /// Drops the data of accessors and bufferViews that only the original JSON referred to, and
+    /// embeds the files of all images. Images that cannot be read keep their URI. Call once.
     void release();
 
-    /// Appends data as a bufferView of its own. `stride` [bytes]: of vertex arrays, else 0.
+    /// Appends data as a new bufferView. stride: of vertex arrays [bytes], else 0.
     std::size_t add_view(std::span<const std::uint8_t> bytes, ViewTarget target,
                          std::size_t stride = 0);
     std::size_t add_accessor(Json accessor);
-    /// Appends a PNG, a bilinear and clamping sampler, and the texture that joins them; takes the
-    /// place of the retired texture if there is one. `ktx2`: the same in KTX2, which loaders that
-    /// know KHR_texture_basisu take instead; or empty.
+    /// Appends a PNG, a bilinear clamping sampler, and a texture of both, at the index of the
+    /// retired texture if any. ktx2: the image in KTX2, for loaders with KHR_texture_basisu; or
+    /// empty.
     std::size_t add_texture(const std::string& name, std::span<const std::uint8_t> png,
                             std::span<const std::uint8_t> ktx2 = {});
-    /// Lets go of a texture and its images, which nothing else may use. Call before release().
+    /// Releases a texture and its images. Requires that nothing else uses them. Call before
+    /// release().
     void retire_texture(std::size_t texture);
 
-    /// The finished file. Throws Error{output} if it is beyond GLB's 4 GiB.
+    /// The finished file. Throws Error{output} if it exceeds GLB's 4 GiB.
     std::vector<std::uint8_t> finish();
 
 private:
@@ -62,13 +62,13 @@ private:
     std::map<std::size_t, Bytes> unpacked_images_;  ///< PNGs, by image
 };
 
-/// Every accessor that meshes, skins and animations of a glTF refer to.
+/// All accessors used by meshes, skins and animations of a glTF.
 std::set<std::size_t> used_accessors(const Json& json);
 
-/// Images that a texture shows, for itself or by extensions.
+/// Images of a texture, its own and those of extensions.
 std::set<std::size_t> images_of(const Json& texture);
 
-/// The extras of a part of a glTF as an object; extras that are none become its member "value".
+/// The extras of a part of a glTF as an object; other extras become its member "value".
 Json& extras_of(Json& part);
 
 /// Calls visit(object) for `value` and every object inside it, but not inside extras.

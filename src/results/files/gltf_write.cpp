@@ -16,14 +16,14 @@
 namespace lumel {
 namespace {
 
-// A PNG clips where exposure × irradiance is beyond this: a surface of albedo 0.25 is just below
-// white there. To store more would take its few bits away from everything else.
+// PNG clips where exposure × irradiance exceeds this: a surface of albedo 0.25 is just below white
+// there. A larger range would reduce the precision of everything else.
 constexpr float kLargestExposed = 4.0f;
-// Half floats and shared exponents have all their digits down to 2^-14: with no more than this over
-// the 99.9th percentile as the unit, a ten-thousandth of the percentile is off by 0.3 % at most.
+// Half floats and shared exponents keep all digits down to 2^-14: with at most this multiple of the
+// 99.9th percentile as the unit, a ten-thousandth of the percentile is off by 0.3 % at most.
 constexpr float kLargestOverHigh = 8.0f;
 constexpr double kHigh = 0.999;
-// Nor may the brightest be beyond what they hold.
+// Largest value that they store.
 constexpr float kLargestFloat = 65000.0f;
 
 // Irradiance of a white texel.
@@ -46,7 +46,7 @@ float lightmap_scale(const Image& map, std::optional<float> exposure)
     return std::max(scale, brightest / kLargestFloat);
 }
 
-// RGB only, multiplied by `scale`: coverage means nothing to a viewer.
+// RGB only, multiplied by `scale`: viewers do not use coverage.
 Image without_alpha(const Image& map, float scale)
 {
     Image rgb(map.width, map.height, 3);
@@ -56,7 +56,7 @@ Image without_alpha(const Image& map, float scale)
     return rgb;
 }
 
-// In asset.extras: what a viewer should know of the light that is baked.
+// Writes properties of the baked light to asset.extras.
 void tell_of_lights(Json& gltf, const SceneLighting& lights)
 {
     Json told = {{"lightmapUnit", "lx"}};
@@ -85,11 +85,10 @@ void write(const std::string& path, GlbBuilder& builder)
     write_bytes(path, std::as_bytes(std::span(file)));
 }
 
-/// Of JSON that the reader does not look at, but that what is written is based on.
+/// For errors in JSON that the reader skips, but the output depends on.
 [[noreturn]] void fail_to_rewrite(const Scene& scene, const Json::exception& error)
 {
-    throw Error(ErrorKind::input, scene.path,
-                std::string("cannot be written again as it is: ") + error.what());
+    throw Error(ErrorKind::input, scene.path, std::string("cannot be rewritten: ") + error.what());
 }
 
 }  // namespace
@@ -106,7 +105,7 @@ try {
     for (const std::size_t old : outdated_lightmaps(builder.json, document.json))
         builder.retire_texture(old);
     builder.release();
-    tell_of_lights(builder.json, lights);  // what they refer to is no longer seen from now on
+    tell_of_lights(builder.json, lights);  // data that they refer to is unused from here on
 
     place_baked_primitives(builder, baked, atlas);
     const float scale = lightmap_scale(map, lights.exposure);

@@ -1,11 +1,11 @@
 #pragma once
-// The lit glTF: the input file with a lightmap, or with its light baked in.
+// Writes the lit glTF: the input file with a lightmap, or with its light baked in.
 //
-// Both files are one self-contained .glb. All of the input's content stays (nodes, cameras,
+// Both files are one self-contained .glb. All of the input's content is kept (nodes, cameras,
 // animations, skins, extras, images), but every baked primitive of every instance becomes a
-// triangle list of its own with TEXCOORD_1 = its place in the atlas, (0, 0) at the top left.
-// Materials that read their own textures through the old TEXCOORD_1 find it under TEXCOORD_0, or
-// under the next free number where that is read too.
+// separate triangle list with TEXCOORD_1 = atlas coordinates, (0, 0) at the top left. Materials
+// that use the old TEXCOORD_1 for their own textures get it as TEXCOORD_0, or as the next free
+// number if that is used too.
 
 #include <optional>
 #include <string>
@@ -17,33 +17,32 @@
 
 namespace lumel {
 
-/// What scene.glb says of light.
+/// Light properties for scene.glb.
 struct SceneLighting {
-    bool keep = false;              ///< lamps and skies of the input
-    std::optional<float> exposure;  ///< that suits the scene [1/lx]
+    bool keep = false;              ///< keeps lamps and skies of the input
+    std::optional<float> exposure;  ///< exposure for the scene [1/lx]
     LightmapFormat format = LightmapFormat::ktx2;
 };
 
 /// scene.glb: the map is bound by MOZ_lightmap {index, texCoord: 1, intensity} on every baked
-/// material; the extension is listed in extensionsUsed only, so that a viewer without it shows
-/// the scene unlit. Texels hold irradiance / intensity. The texture has two images: a KTX2 that
-/// clips nothing, bound by KHR_texture_basisu, and for loaders without it an 8-bit linear PNG.
-/// intensity [lx] is the brightest covered texel, but at most what the exposure shows white; there
-/// the PNG clips. As in three.js, the radiance that a surface reflects is
+/// material; the extension is listed in extensionsUsed only, so that a viewer without it shows the
+/// scene unlit. Texels hold irradiance / intensity. The texture has two images: a KTX2 without
+/// clipping, bound by KHR_texture_basisu, and for loaders without it an 8-bit linear PNG. intensity
+/// [lx] is the brightest covered texel, but at most the irradiance that the exposure shows white;
+/// the PNG clips there. As in three.js, the radiance that a surface reflects is
 ///     albedo / π × texel × intensity.
-/// extras.lumel of each baked material names the map that stands beside the file too: tools that
-/// drop the extension keep extras. `map`: irradiance [lx], RGBA. Throws Error.
+/// extras.lumel of each baked material also names the map beside the file: tools that drop the
+/// extension keep extras. map: irradiance [lx], RGBA. Throws Error.
 ///
-/// Lamps and skies of the input are baked: they go to extras (see scene/gltf/baked_lights.h),
-/// unless `lights` keeps them. asset.extras.lumel says how many, and has the exposure.
+/// Lamps and skies of the input are baked: they move to extras (see scene/gltf/baked_lights.h),
+/// unless `lights` keeps them. asset.extras.lumel has their number and the exposure.
 void write_scene_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& map, const SceneLighting& lights = {});
 
 /// scene-baked.glb: core glTF that any viewer shows lit. Every baked material is black, fully
-/// metallic and rough, so that it reflects nothing, and emits a texture on TEXCOORD_1, 8
-/// bits, sRGB. Cut-outs and blending keep their alpha. Lights and material extensions are left
-/// out: the light is in the colours. `shown`: what surfaces send, as tone_map shows it, RGBA, of
-/// any density. Throws Error.
+/// metallic and rough, so that it reflects nothing, and emits an 8-bit sRGB texture on TEXCOORD_1.
+/// Cut-outs and blending keep their alpha. Lights and material extensions are removed. shown: light
+/// from surfaces, tone-mapped by tone_map, RGBA, of any density. Throws Error.
 void write_baked_glb(const std::string& path, const Scene& scene, const Atlas& atlas,
                      const Image& shown);
 

@@ -15,12 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Common players want even sides and this kind of colour.
+/// Common players require even sides and this pixel format.
 constexpr const char* kEvenSides = "pad=ceil(iw/2)*2:ceil(ih/2)*2";
 constexpr const char* kPixels = "yuv420p";
-constexpr int kNotStarted = 127;  // as shells have it
+constexpr int kNotStarted = 127;  // shells' exit code
 
-/// Runs a program in a folder, without input or output. Its exit code.
+/// Runs a program in a folder, without input or output. Returns its exit code.
 int run_silently(const std::string& folder, std::vector<std::string> words)
 {
     std::vector<char*> values;

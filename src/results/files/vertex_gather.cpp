@@ -9,7 +9,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kAlignment = 4;            // of every vertex
+constexpr std::size_t kAlignment = 4;            // per vertex
 constexpr std::size_t kShortIndexLimit = 65535;  // 65535 itself means restart
 
 std::size_t stride_of(const AccessorData& data)
@@ -25,7 +25,7 @@ double component_as(const std::uint8_t* bytes)
     return double(value);
 }
 
-// The stored number, not normalised: so glTF counts min and max.
+// The stored number, not normalised, as for glTF's min and max.
 double component(ComponentType type, const std::uint8_t* element, std::size_t c)
 {
     switch (type) {
@@ -48,13 +48,13 @@ double component(ComponentType type, const std::uint8_t* element, std::size_t c)
 template <class T>
 void negate_as(std::uint8_t* bytes)
 {
-    // The least whole number has no opposite.
+    // The minimum integer has no negative.
     const double value = std::max(component_as<T>(bytes), -double(std::numeric_limits<T>::max()));
     const T negated = static_cast<T>(-value);
     std::memcpy(bytes, &negated, sizeof negated);
 }
 
-// Of a signed format, as those of directions are.
+// For signed formats, as of directions.
 void negate(ComponentType type, std::uint8_t* element, std::size_t c)
 {
     if (type == ComponentType::i8)
@@ -135,7 +135,7 @@ std::size_t VertexGather::add_gathered(std::size_t source, std::span<const std::
             negate(data.component_type, bytes.data() + i * stride, c);
     }
 
-    // Keep the other properties of the accessor: its format, name and extras.
+    // Keeps the other properties of the accessor: format, name and extras.
     Json gathered = builder_.document().json.at("accessors")[source];
     for (const char* key : {"byteOffset", "sparse", "min", "max"})
         gathered.erase(key);

@@ -1,5 +1,5 @@
 #pragma once
-// Vertex arrays in a new order, in the number format they came in.
+// Reorders vertex arrays in their original number format.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,22 +16,22 @@
 
 namespace lumel {
 
-/// Adds accessors to a builder; each call returns an accessor's index. Arrays that come out alike,
-/// such as those of a mesh under several nodes, are added once.
+/// Adds accessors to a builder; each call returns an accessor's index. Equal arrays, such
+/// as those of a mesh under several nodes, are added once.
 class VertexGather {
 public:
     explicit VertexGather(GlbBuilder& builder) : builder_(builder) {}
 
-    /// Element i of the new accessor is element vertices[i] of `accessor` (a JSON index), byte
-    /// for byte. `semantic` POSITION also gets min and max. Throws Error{input}.
+    /// Element i of the new accessor is element vertices[i] of `accessor` (a JSON index), byte for
+    /// byte. semantic: POSITION also gets min and max. Throws Error{input}.
     std::size_t gather(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                        const std::string& semantic);
-    /// The same as seen from the back: normals and tangents, with the sense of the third vector,
-    /// are turned round, as viewers turn those of double-sided faces.
+    /// For the back side: negates normals and tangents, with the sense of the third vector, as
+    /// viewers do for double-sided faces.
     std::size_t gather_turned(const Json& accessor, const std::vector<std::uint32_t>& vertices,
                               const std::string& semantic);
     std::size_t add_texcoords(std::span<const glm::vec2> texcoords);
-    /// 16 bits where `vertex_count` allows it, else 32.
+    /// 16 bits if `vertex_count` allows it, else 32.
     std::size_t add_indices(const std::vector<std::uint32_t>& indices, std::size_t vertex_count);
 
 private:

@@ -23,14 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kWork = ".lumel-writing";
-/// In a work folder: its files belong in the target, from which the names in this list go, one in
-/// each line.
+/// In a work folder: marks its files as committed, and lists the names to remove from the target,
+/// one per line.
 constexpr const char *kList = ".committed", *kUnfinishedList = ".committing";
-/// In the work folder of a target that was exchanged for a new one: the names of its results.
+/// In the work folder of a replaced target: the names of its results.
 constexpr const char* kReplaced = ".replaced";
-/// Files of others are linked to a new target up to this number.
+/// Maximum number of other files that are linked into a new target.
 constexpr std::size_t kMaxLinks = 1000;
-/// A process that removes what another left has its lock for a moment.
+/// Retries while another process that cleans up holds the lock.
 constexpr int kTries = 20;
 constexpr std::chrono::milliseconds kBetweenTries(50);
 
@@ -51,7 +51,7 @@ std::vector<fs::path> work_folders(const fs::path& target)
     return found;
 }
 
-/// A folder of this user's, not a link to one. mode: may be null.
+/// True for a folder of this user, but not a link to one. mode: can be null.
 bool is_ours(const fs::path& folder, mode_t* mode = nullptr)
 {
     struct stat there = {};
@@ -62,7 +62,7 @@ bool is_ours(const fs::path& folder, mode_t* mode = nullptr)
     return true;
 }
 
-/// Can no other user have put anything there? In a shared folder anybody can make a folder with the
+/// True if no other user can write there. In a shared folder anyone can create a folder with the
 /// name of a work folder, and lists in it.
 bool is_only_ours(const fs::path& folder)
 {
@@ -76,7 +76,7 @@ bool is_committed(const fs::path& work)
     return is_only_ours(work) && fs::exists(work / kList, ignored);
 }
 
-/// Is it a target that was exchanged for a new one? It may be one that others can write into.
+/// True for a target that was replaced by a new one; others may have write access to it.
 bool is_replaced(const fs::path& old)
 {
     std::error_code ignored;
@@ -89,7 +89,7 @@ bool is_plain_name(const std::string& name)
     return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
-/// Names of all files in a work folder, sorted.
+/// Names of all result files in a work folder, sorted.
 std::vector<fs::path> files_in(const fs::path& work)
 {
     std::vector<fs::path> files;
@@ -101,7 +101,7 @@ std::vector<fs::path> files_in(const fs::path& work)
     return files;
 }
 
-/// The end of a commit, from any point where it may have been left.
+/// Completes a commit, from any point at which it was interrupted.
 void put_in_place(const fs::path& target, const fs::path& work)
 {
     try {
@@ -123,10 +123,10 @@ void put_in_place(const fs::path& target, const fs::path& work)
     }
 }
 
-/// Removes a work folder, whose results do not count, or a target that was replaced.
+/// Removes a work folder without valid results, or a replaced target.
 void discard(const fs::path& work) noexcept
 {
-    // The lists first: a part of the files must not pass for all.
+    // Lists first: some of the files must not count as all.
     std::error_code reason, other;
     fs::remove(work / kList, reason);
     fs::remove(work / kWork / kReplaced, other);
@@ -139,7 +139,7 @@ std::string name_in(const fs::path& folder)
     return std::string(kWork) + "-" + folder.string();
 }
 
-/// Names with the inodes of files that were linked to the new target; kNoInode for results.
+/// Names and inodes of files linked into the new target; kNoInode for results.
 using Replaced = std::map<std::string, std::uint64_t>;
 constexpr std::uint64_t kNoInode = 0;
 
@@ -178,11 +178,11 @@ void move_unless_there(const fs::path& from, const fs::path& to)
                                    std::error_code(errno, std::generic_category()));
 }
 
-/// Moves what others put into a target, before it was replaced but after its files were linked, to
-/// the new one. What they have changed or removed there since stays as it is.
+/// Moves files that others put into the replaced target, after its files were linked, to the new
+/// one, unless they changed or removed them there.
 void give_back(const fs::path& old, const fs::path& target)
 {
-    // What is removed in part must still pass for ours.
+    // A partly removed folder must still be recognised as this user's.
     std::error_code ignored;
     fs::permissions(old, fs::perms::owner_all, ignored);
     const Replaced replaced = read_replaced(old / kWork / kReplaced);
@@ -196,12 +196,12 @@ void give_back(const fs::path& old, const fs::path& target)
             move_unless_there(from, to);
         else if (known->second != kNoInode && inode_of(from) != known->second &&
                  inode_of(to) == known->second)
-            fs::rename(from, to);  // saved anew in the old one, and untouched in the new
+            fs::rename(from, to);  // saved again in the old target, unchanged in the new
     }
 }
 
-/// Finishes or removes a work folder in `target`, or a target beside its new one there, if its
-/// process is dead.
+/// If its process is dead, completes or removes a work folder in `target`, or a replaced target
+/// beside its new one there.
 void settle(const fs::path& target, const fs::path& work)
 {
     if (!is_only_ours(work) && !is_replaced(work))
@@ -220,14 +220,14 @@ void settle(const fs::path& target, const fs::path& work)
     discard(work);
 }
 
-/// Where the new target is made: beside it, whatever links lead there.
+/// Path of the new target: beside the target itself, without links.
 fs::path place_for_new(const fs::path& target)
 {
     const fs::path place = fs::canonical(target);
     return place.parent_path() / name_in(place.filename());
 }
 
-/// Finishes or removes what dead processes have left in a target, and beside it of its own.
+/// Completes or removes leftovers of dead processes in a target and beside it.
 void settle(const fs::path& target)
 {
     for (const fs::path& work : work_folders(target))
@@ -236,7 +236,7 @@ void settle(const fs::path& target)
     settle(beside.parent_path(), beside);
 }
 
-/// Makes a folder for this user alone. False if there is something of that name.
+/// Creates a folder for this user alone. Returns false if the name exists.
 bool make_folder(const fs::path& folder)
 {
     if (mkdir(folder.c_str(), S_IRWXU) == 0)
@@ -247,7 +247,7 @@ bool make_folder(const fs::path& folder)
                                std::error_code(errno, std::generic_category()));
 }
 
-/// A new folder that nobody else uses; empty if others were quicker.
+/// Creates and locks a folder; empty if another process was first.
 std::optional<FolderLock> make(const fs::path& work)
 {
     const bool is_new = make_folder(work);
@@ -257,11 +257,11 @@ std::optional<FolderLock> make(const fs::path& work)
     if (lock && !is_new && !lock->keeps_others_out())
         return {};
     if (lock && !fs::is_empty(work))
-        return {};  // left by a process that has just died: it is to be settled
+        return {};  // left by a process that has just died: must be completed
     return lock;
 }
 
-/// What is in the way of files that would go to the target.
+/// Throws if a folder has the name of a result.
 void check_places(const fs::path& target, const std::vector<fs::path>& files)
 {
     for (const fs::path& file : files)
@@ -270,7 +270,7 @@ void check_places(const fs::path& target, const std::vector<fs::path>& files)
                         "is a folder where a result must go; move it away");
 }
 
-/// Is the current folder that one, or in it?
+/// True if the current folder is that one, or in it.
 bool is_current(const fs::path& folder)
 {
     std::error_code reason;
@@ -279,8 +279,8 @@ bool is_current(const fs::path& folder)
            outer.end();
 }
 
-/// Names of what is in a target beside results and the work folder. None if a new target cannot be
-/// given the same.
+/// Names in a target other than results and the work folder; empty if they cannot be linked into a
+/// new target.
 std::optional<std::vector<fs::path>> others_in(const fs::path& target,
                                                const std::vector<fs::path>& files,
                                                const std::vector<std::string>& outdated)
@@ -295,7 +295,7 @@ std::optional<std::vector<fs::path>> others_in(const fs::path& target,
         if (type != fs::file_type::regular && type != fs::file_type::symlink)
             return {};
         if (name.string().find('\n') != std::string::npos)
-            return {};  // the list of names has one in each line
+            return {};  // the list has one name per line
         others.push_back(name);
         if (others.size() > kMaxLinks)
             return {};
@@ -314,7 +314,7 @@ bool link_all(const fs::path& from, const std::vector<fs::path>& names, const fs
     return true;
 }
 
-/// Access lists and the like. What the system's security adds, it adds to every folder.
+/// True for access lists and the like; the system adds security attributes to every folder.
 bool has_attributes(const fs::path& folder)
 {
     std::array<char, 4096> names;
@@ -328,15 +328,15 @@ bool has_attributes(const fs::path& folder)
     return size < 0 && errno != ENOTSUP;
 }
 
-/// Gives a folder the group and the rights of another. False if that cannot be done, if there
-/// is more to give, or if the owner is another.
+/// Copies group and permissions of a folder. Returns false if that fails, if there are other
+/// attributes, or if the owners differ.
 bool take_attributes(const fs::path& from, const fs::path& to)
 {
     struct stat wanted = {}, made = {};
     if (stat(from.c_str(), &wanted) != 0 || stat(to.c_str(), &made) != 0)
         return false;
     if (wanted.st_uid != made.st_uid)
-        return false;  // what is left of the old one could not be told from a stranger's
+        return false;  // leftovers could not be recognised as this user's
     if (wanted.st_gid != made.st_gid && chown(to.c_str(), wanted.st_uid, wanted.st_gid) != 0)
         return false;
     if (has_attributes(from) || has_attributes(to))
@@ -372,8 +372,8 @@ WorkFolder::WorkFolder(const fs::path& target, const std::string& what)
     if (!lock_)
         throw Error(
             ErrorKind::output, (what.empty() ? target_ : target_ / what).string(),
-            "another lumel is writing there; wait until it is done, or choose another place. If "
-            "none is, remove " +
+            "another lumel is writing there; wait for it, or choose another folder. If there is "
+            "none, remove " +
                 path_.string());
 }
 
@@ -406,8 +406,8 @@ void WorkFolder::commit(const std::vector<std::string>& outdated)
         move(gone);
 }
 
-/// Makes the target anew, beside it, and exchanges the two. False if that cannot be done: then all
-/// is as it was.
+/// Builds the new target beside the old one, and exchanges the two. Returns false, with everything
+/// unchanged, if that is impossible.
 bool WorkFolder::exchange(const std::vector<fs::path>& files,
                           const std::vector<std::string>& outdated)
 {
@@ -434,7 +434,7 @@ bool WorkFolder::exchange(const std::vector<fs::path>& files,
         write_replaced(path_ / kReplaced, replaced);
         sync_to_disk(fresh);
         sync_to_disk(fresh.parent_path());
-        // Late: one that others can write into is not known as ours until it is in place.
+        // Last: a folder that others can write into counts as this user's only in its place.
         is_made = is_made && take_attributes(target_, fresh);
     } catch (const std::exception&) {
         is_made = false;
@@ -444,7 +444,7 @@ bool WorkFolder::exchange(const std::vector<fs::path>& files,
         discard(fresh);
         return false;
     }
-    // From now on another process may have a work folder of this one's name in the new target.
+    // From here on another process can have a work folder of this name in the new target.
     is_ours_ = false;
     sync_to_disk(fresh.parent_path());
     give_back(fresh, target_);
@@ -472,7 +472,7 @@ ResultsLock::ResultsLock(const std::string& folder)
         for (;;) {
             lock_.emplace(target, FolderLock::Kind::shared);
             if (!lock_->keeps_others_out())
-                return;  // nor can it be told who is alive
+                return;  // it is unknown whether processes live
             const std::vector<fs::path> works = work_folders(target);
             if (std::none_of(works.begin(), works.end(), is_committed))
                 return;

@@ -10,7 +10,7 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// A back with no more light than this share of its front's is one that no light reaches.
+/// A back with less light than this fraction of its front's is unlit.
 constexpr double kDark = 0.01;
 
 std::vector<glm::vec3> reflected_by(const Lumels& lumels, std::span<const glm::vec3> irradiance)
@@ -25,8 +25,8 @@ std::vector<glm::vec3> reflected_by(const Lumels& lumels, std::span<const glm::v
     return reflected;
 }
 
-/// [N] 1: of a back that no light reaches. The map shows one side of its chart, the front, and the
-/// back receives next to nothing: little gets into a closed solid, by lumels that pass its edges.
+/// [N] 1: lumel of an unlit back. Its chart's map shows the front, and the back receives next to
+/// nothing: little light enters a closed solid, through lumels that cross its edges.
 std::vector<char> dark_backs(const Atlas& atlas, const Lumels& lumels,
                              std::span<const glm::vec3> irradiance)
 {
@@ -81,12 +81,12 @@ glm::vec3 ArrivingLight::met_along(const glm::vec3& position, const glm::vec3& d
     return hit.tint * reflected_[lumel];
 }
 
-glm::vec3 ArrivingLight::passing(const RayOrigin& start, const SourceSample& sample,
-                                 std::uint32_t seed) const
+glm::vec3 ArrivingLight::transmittance(const RayOrigin& start, const SourceSample& sample,
+                                       std::uint32_t seed) const
 {
     if (sample.irradiance == glm::vec3(0.0f))
         return glm::vec3(0.0f);
-    return rays_.passing(ray_towards(sample, start, rays_.ray_offset(), seed));
+    return rays_.transmittance(ray_towards(sample, start, rays_.ray_offset(), seed));
 }
 
 }  // namespace lumel

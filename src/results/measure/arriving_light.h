@@ -1,6 +1,5 @@
 #pragma once
-// What brings light to points of a solved scene: rays that meet something, and sources that rays
-// look for.
+// Incoming light at points of a solved scene, along rays and from sampled sources.
 
 #include <cstdint>
 #include <span>
@@ -15,28 +14,28 @@
 
 namespace lumel {
 
-/// Safe to use from many threads at once.
+/// Thread-safe.
 class ArrivingLight {
 public:
-    /// irradiance [N] [lx] of the lumels, as solved, taken as diffuse. All but irradiance must
+    /// irradiance: [N] solution of the lumels [lx], treated as diffuse. All other arguments must
     /// outlive this, unmoved.
     ArrivingLight(const Scene& scene, const RayScene& rays, const Atlas& atlas,
                   const Lumels& lumels, std::span<const glm::vec3> irradiance);
 
-    /// Of all sources; see lumel::allocate_rays.
+    /// Rays to all sources; see lumel::allocate_rays.
     RayAllocation allocate_rays(const glm::vec3& position, std::uint32_t rays) const
     {
         return lumel::allocate_rays(sources_, position, rays);
     }
 
-    /// π L along a ray, but for what sources send. `backs` counts rays that tell of the inside of
-    /// something: that meet the back of a single-sided surface, or one of a double-sided surface
-    /// that no light reaches.
+    /// π L along a ray, without light of sources. backs: counts rays from the inside of objects:
+    /// those that hit the back of a single-sided surface, or an unlit back of a double-sided one.
     glm::vec3 met_along(const glm::vec3& position, const glm::vec3& direction, std::uint32_t seed,
                         std::uint32_t& backs) const;
 
-    /// The part of a sample's light that gets through; no ray is cast for none.
-    glm::vec3 passing(const RayOrigin& start, const SourceSample& sample, std::uint32_t seed) const;
+    /// Transmittance to a sample; traces no ray if its light is 0.
+    glm::vec3 transmittance(const RayOrigin& start, const SourceSample& sample,
+                            std::uint32_t seed) const;
 
     const LightSources& sources() const { return sources_; }
     float ray_offset() const { return rays_.ray_offset(); }
@@ -47,7 +46,7 @@ private:
     LightSources sources_;
     HitLumels hits_;
     std::vector<glm::vec3> reflected_;  ///< [N] ρ H [lm/m²], 0 of buried lumels
-    std::vector<char> dark_;            ///< [N] 1: of a back that no light reaches
+    std::vector<char> dark_;            ///< [N] 1: lumel of an unlit back
 };
 
 }  // namespace lumel

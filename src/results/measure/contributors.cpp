@@ -1,9 +1,9 @@
 // H = ∫ L cosθ dω of a lumel, by R rays of density cosθ / π from points x on it:
 //
-//     H ≈ 1/R Σ π L = 1/R Σ (B of the surface that is met, or π L of the sky) + lamps.
+//     H ≈ 1/R Σ π L = 1/R Σ (B of the surface hit, or π L of the sky) + lamps.
 //
-// The terms are added up by instance, by the cell of a grid where they begin, and by the side of a
-// cube that the surface faces there.
+// The terms are summed by instance, by grid cell of the hit, and by the cube side that the surface
+// faces there.
 
 #include "results/measure/contributors.h"
 
@@ -27,7 +27,7 @@ namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
-/// Points of the lumel, and of a lamp's disc, that sample a lamp.
+/// Samples of a lamp, over the lumel and the lamp's disc.
 constexpr std::uint32_t kLampPoints = 256;
 /// Dimension pairs of a ray's random numbers.
 constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kSeedPair = 2;
@@ -35,7 +35,7 @@ constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kSeedPair = 2;
 /// Instance, cell, side of a cube.
 using Place = std::array<std::int64_t, 5>;
 
-/// Light of one sender, and sums weighted by its luminance.
+/// Light of one contributor, and sums weighted by its luminance.
 struct Sum {
     glm::vec3 light{0.0f}, place{0.0f};
     double weight = 0.0, distance = 0.0;
@@ -181,13 +181,13 @@ private:
             if (!(cosine > 0.0f))
                 continue;
             const glm::vec3 passes =
-                passing(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
+                transmittance(rays_, point.position, toward, 0.0f, samples.bits(kSeedPair));
             sum += cosine * passes * toward.illuminance;
         }
         return sum / float(kLampPoints);
     }
 
-    /// What a lumel's place has sent, per area of the lumels there.
+    /// Light per area of the lumels in a lumel's cell.
     std::vector<float> density() const
     {
         std::vector<Place> places;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the light of a lumel comes from.
+// Contributors to the light of a lumel.
 
 #include <cstdint>
 #include <span>
@@ -12,30 +12,29 @@
 namespace lumel {
 
 struct SenderOptions {
-    std::uint32_t rays = 16384;  ///< from the lumel, by the cosine
+    std::uint32_t rays = 16384;  ///< from the lumel, cosine-distributed
     std::uint32_t seed = 1;
-    float cells =
-        8.0f;  ///< cells along the diagonal in which senders of a surface are distinguished
+    float cells = 8.0f;  ///< cells along the diagonal that divide a surface's light
 };
 
-/// A part of a surface, the sky, or a lamp that is no surface.
+/// Part of a surface, the sky, or a lamp that is not a surface.
 struct Contributor {
     enum class Kind { surface, sky, lamp } kind = Kind::surface;
-    std::uint32_t index = 0;  ///< into Scene::instances, or Scene::lights
-    int material = -1;        ///< of a surface: what most of its light comes from
-    glm::vec3 place{0.0f};    ///< mean, in the world [m]; of a surface or a lamp that has one
+    std::uint32_t index = 0;  ///< index into Scene::instances or Scene::lights
+    int material = -1;        ///< material of a surface: that with the most light
+    glm::vec3 place{0.0f};    ///< mean position, world [m], for a surface or a lamp with one
     float distance = 0.0f;    ///< mean [m]
-    glm::vec3 light{0.0f};    ///< that arrives at the lumel [lx]
+    glm::vec3 light{0.0f};    ///< at the lumel [lx]
 };
 
 struct Senders {
-    std::vector<Contributor> list;  ///< the one of most light first, by luminance
-    std::vector<float> density;     ///< [N] luminance of a lumel's sender, per area of it [lx/m²]
-    glm::vec3 light{0.0f};          ///< of all [lx]
+    std::vector<Contributor> list;  ///< by decreasing luminance
+    std::vector<float> density;     ///< [N] luminance of a lumel's contributor per area [lx/m²]
+    glm::vec3 light{0.0f};          ///< total [lx]
 };
 
-/// Follows rays from a lumel: what they meet sends E + ρH, with H [N] [lx]; lamps are sampled
-/// apart. Light solved with gloss counts as if it were diffuse.
+/// Traces rays from a lumel: surfaces hit send E + ρH, with H [N] [lx]; lamps are sampled
+/// separately. Treats light solved with gloss as diffuse.
 Senders find_senders(const Scene& scene, const RayScene& rays, const Atlas& atlas,
                      const Lumels& lumels, std::span<const glm::vec3> irradiance,
                      std::uint32_t lumel, const SenderOptions& options);

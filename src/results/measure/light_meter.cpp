@@ -1,13 +1,12 @@
-// H = ∫ L cosθ dω of a point x by R rays of density cosθ / π, and rays towards sources:
+// H = ∫ L cosθ dω of a point x by R rays of density cosθ / π, and shadow rays to sources:
 //
 //     H ≈ 1/R Σ π L + Σ_s D_s,
 //
-// where π L is ρH of the lumel that a ray meets, or π L of the sky where it meets nothing, and D_s
-// the direct light of an emissive surface, a lamp, a sun or the bright part of a sky, sampled and
-// estimated as bakes do it (lights/sources.h, lights/source_estimate.h). What surfaces emit counts
-// in D_s alone.
+// where π L is ρH of the lumel that a ray hits, or π L of the sky, and D_s the direct light of an
+// emissive surface, a lamp, a sun or the bright part of a sky, sampled and estimated as in bakes
+// (lights/sources.h, lights/source_estimate.h). Emission of surfaces is in D_s only.
 //
-// The spread of the means of sets of rays states the noise (results/measure/ray_sets.h).
+// The spread of the means of sets of rays gives the noise (results/measure/ray_sets.h).
 
 #include "results/measure/light_meter.h"
 
@@ -79,7 +78,7 @@ glm::vec3 LightMeter::from_sources(const RayOrigin& start, const RayAllocation& 
     for_shared_rays(shares, stream, 0, shares.rest_rays,
                     [&](std::size_t source, float chance, const glm::vec2& at, std::uint32_t seed) {
                         const SourceSample sample = light_.sources().sample(source, start, at);
-                        sum += light_.passing(start, sample, seed) * sample.irradiance /
+                        sum += light_.transmittance(start, sample, seed) * sample.irradiance /
                                (chance * float(shares.rest_rays));
                     });
     return sum;
@@ -91,7 +90,7 @@ glm::vec3 LightMeter::from_source(const RayOrigin& start, const RayAllocation::O
     SourceEstimate found;
     for_rays_towards(own.source, stream, 0, own.rays, [&](const glm::vec2& at, std::uint32_t seed) {
         const SourceSample sample = light_.sources().sample(own.source, start, at);
-        found.add(sample, light_.passing(start, sample, seed));
+        found.add(sample, light_.transmittance(start, sample, seed));
     });
     return found.light();
 }

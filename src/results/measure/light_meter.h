@@ -1,39 +1,39 @@
 #pragma once
-// What a light meter shows at a point of a solved scene, in the air or on a surface.
+// Light meter at a point of a solved scene, in the air or on a surface.
 
 #include "results/measure/arriving_light.h"
 
 namespace lumel {
 
 struct LightMeterOptions {
-    std::uint32_t samples = 4096;  ///< rays by the cosine, and as many towards sources
+    std::uint32_t samples = 4096;  ///< cosine-distributed rays, and as many to sources
     std::uint32_t seed = 1;
 };
 
-/// Where a meter is held. It blocks nothing.
+/// Position and direction of a meter. It occludes nothing.
 struct MeterPoint {
     glm::vec3 position{0.0f};            ///< world [m]
-    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit: what it faces
+    glm::vec3 normal{0.0f, 1.0f, 0.0f};  ///< unit direction that it faces
 };
 
 struct Reading {
     glm::vec3 light{0.0f};  ///< H, linear RGB [lx]
     double lux = 0.0;       ///< illuminance: its luminance [lx]
-    double noise = 0.0;     ///< standard error of lux, of the rays alone [lx]
-    bool inside = false;    ///< most of what it faces tells of the inside of something
+    double noise = 0.0;     ///< standard error of lux by the rays alone [lx]
+    bool inside = false;    ///< true if it seems to be inside an object
 };
 
-/// Safe to use from many threads at once.
+/// Thread-safe.
 class LightMeter {
 public:
-    /// As of ArrivingLight.
+    /// As in ArrivingLight.
     LightMeter(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
                std::span<const glm::vec3> irradiance, const LightMeterOptions& options);
 
-    /// number: of the point; others have other random numbers.
+    /// number: of the point; selects its random numbers.
     Reading read(const MeterPoint& point, std::uint32_t number) const;
 
-    /// Is there any light but the sky's?
+    /// True if there is light other than the sky's.
     bool has_lamps() const { return light_.sources().count() > 0; }
 
 private:

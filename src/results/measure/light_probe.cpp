@@ -1,14 +1,13 @@
-// c_lm = ∫ L Y_lm dω of a point x by R rays spread evenly over the sphere, and rays towards
+// c_lm = ∫ L Y_lm dω of a point x by R rays spread evenly over the sphere, and shadow rays to
 // sources:
 //
 //     c_lm ≈ 4π/R Σ L(ω) Y_lm(ω) + Σ_s ∫ L_s Y_lm dω,
 //
-// where L is ρH/π of the lumel that a ray meets, or that of the sky where it meets nothing. L_s is
-// the light of an emissive surface, a lamp, a sun or the bright part of a sky, found by rays
-// towards it; what surfaces emit counts there alone. A lamp or a sun without size is one direction,
-// so that its part has no noise.
+// where L is ρH/π of the lumel that a ray hits, or that of the sky. L_s is the light of an emissive
+// surface, a lamp, a sun or the bright part of a sky, by shadow rays; emission of surfaces is in
+// L_s only. A lamp or a sun without size is one direction, without noise.
 //
-// The spread of the means of sets of rays states the noise (results/measure/ray_sets.h).
+// The spread of the means of sets of rays gives the noise (results/measure/ray_sets.h).
 
 #include "results/measure/light_probe.h"
 
@@ -23,12 +22,11 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Rays are doubled until the noise is at most this share of band 0, or there are so many times as
-/// many.
+/// Rays are doubled until the noise is below this fraction of band 0, or up to kMaxTimes × as many.
 constexpr double kEnough = 0.005;
 constexpr std::uint32_t kMaxTimes = 64;
 
-/// Maps the unit square evenly to the sphere.
+/// Maps the unit square uniformly to the sphere.
 glm::vec3 on_sphere(const glm::vec2& at)
 {
     const float y = 1.0f - 2.0f * at.x, angle = 2.0f * kPi * at.y;
@@ -46,7 +44,7 @@ void add(Coefficients& sums, const glm::vec3& direction, const glm::vec3& light)
         sums[i] += y[i] * light;
 }
 
-/// Half spaces that hold all of a source together: the axis, and whether its other side counts too.
+/// Half spaces that together contain a source: the axis, and whether the opposite one is included.
 struct Halves {
     glm::vec3 axis;
     bool both;
@@ -65,7 +63,7 @@ Halves halves_of(const LightSources::SourceInfo& origin, const glm::vec3& positi
                            : Halves{up, true};
 }
 
-/// The mean of the sets' sums times a factor, and its noise by their spread.
+/// Mean of the sets' sums times a factor, and its noise by their spread.
 template <class Sets>
 ProbeLight mean_of(const Sets& sets, float factor)
 {
@@ -118,7 +116,7 @@ ProbeLight LightProbe::read(const glm::vec3& position, std::uint32_t number) con
 void LightProbe::add_rays(const glm::vec3& position, std::uint32_t stream, std::uint32_t from,
                           std::uint32_t to, std::uint32_t& backs, Coefficients& sums) const
 {
-    // π L of a ray stands for L over 4π / R of the sphere.
+    // π L of a ray represents L over 4π / R of the sphere.
     const float share = 4.0f / float(rays_of_set_);
     for (std::uint32_t k = from * rays_of_set_; k < to * rays_of_set_; ++k) {
         const PathSamples samples(stream, k);
@@ -145,7 +143,7 @@ void LightProbe::add_sources(const glm::vec3& position, const RayAllocation& sha
                     });
 }
 
-/// Sources are sampled for surfaces; the cosine of such a surface is taken out again.
+/// Sources are sampled for surfaces; divides by the cosine of such a surface.
 void LightProbe::add_sample(std::size_t source, const glm::vec3& position, const glm::vec2& at,
                             std::uint32_t seed, float weight, Coefficients& sums) const
 {
@@ -159,7 +157,7 @@ void LightProbe::add_sample(std::size_t source, const glm::vec3& position, const
         const float cosine = start.cosine(sample.direction);
         if (cosine > 0.0f)
             add(sums, sample.direction,
-                light_.passing(start, sample, seed) * sample.irradiance * (weight / cosine));
+                light_.transmittance(start, sample, seed) * sample.irradiance * (weight / cosine));
     }
 }
 

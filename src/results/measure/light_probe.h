@@ -1,5 +1,5 @@
 #pragma once
-// The light that arrives at a point in the air from all around, as spherical harmonics.
+// Incoming light at a point in the air, as spherical harmonics.
 
 #include <array>
 
@@ -9,8 +9,8 @@
 namespace lumel {
 
 struct LightProbeOptions {
-    /// Rays over the sphere, and as many towards sources, at least. There are up to 64 times as
-    /// many where ProbeLight::noise is above 0.5 % of band 0.
+    /// Minimum rays over the sphere, and as many to sources; up to 64 times as many until
+    /// ProbeLight::noise is below 0.5 % of band 0.
     std::uint32_t samples = 4096;
     std::uint32_t seed = 1;
 };
@@ -18,19 +18,19 @@ struct LightProbeOptions {
 struct ProbeLight {
     /// c_lm = ∫ L Y_lm dω at l² + l + m, linear RGB [cd/m²].
     std::array<glm::vec3, kMaxCoefficients> coefficients{};
-    /// Standard error of the luminance of the noisiest coefficient, of the rays alone [cd/m²].
+    /// Standard error of the luminance of the noisiest coefficient, by the rays alone [cd/m²].
     double noise = 0.0;
-    bool inside = false;  ///< most of what it sees tells of the inside of something
+    bool inside = false;  ///< true if it seems to be inside an object
 };
 
-/// Safe to use from many threads at once.
+/// Thread-safe.
 class LightProbe {
 public:
-    /// As of ArrivingLight.
+    /// As in ArrivingLight.
     LightProbe(const Scene& scene, const RayScene& rays, const Atlas& atlas, const Lumels& lumels,
                std::span<const glm::vec3> irradiance, const LightProbeOptions& options);
 
-    /// number: of the probe; others have other random numbers.
+    /// number: of the probe; selects its random numbers.
     ProbeLight read(const glm::vec3& position, std::uint32_t number) const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
-// The rays that bring light to one point: kSets sets of low-discrepancy points, each scrambled by
-// itself, so that the sets' means are independent and their spread states the noise.
+// Rays to one point: kRaySets sets of low-discrepancy points with separate scrambling, so that the
+// sets' means are independent and their spread gives the noise.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace lumel {
 
-/// Of 16 values the spread is known to a fifth.
+/// Number of sets; the spread of 16 values is known to a fifth.
 inline constexpr std::uint32_t kRaySets = 16;
 /// Dimension pairs of a ray's random numbers.
 inline constexpr std::uint32_t kDirectionPair = 0, kSourcePair = 0, kSeedPair = 1, kChoicePair = 2;
@@ -21,26 +21,26 @@ inline std::uint32_t rays_of_set(std::uint32_t samples)
     return std::max((samples + kRaySets - 1) / kRaySets, kMin);
 }
 
-/// The random numbers of a set at a point of this number.
+/// Random stream of a set at a point of this number.
 inline std::uint32_t stream_of_set(std::uint32_t seed, std::uint32_t number, std::uint32_t set)
 {
     return PathSamples::hash(PathSamples::hash(seed, number), set);
 }
 
-/// Is a point inside of something, by its rays that tell so?
+/// True if more than half of the rays hit unlit backs: the point is inside geometry.
 inline bool tell_of_inside(std::uint32_t backs, double rays)
 {
     constexpr double kMax = 0.5;
     return double(backs) > kMax * rays;
 }
 
-/// Of a mean, by the sum of the squares of what its sets are off.
+/// Standard error of a mean, from the sum of its sets' squared deviations.
 inline double standard_error(double squares)
 {
     return std::sqrt(squares / (kRaySets * (kRaySets - 1.0)));
 }
 
-/// Visits rays `from` to `to` towards one source. visit(place on it, seed)
+/// Visits rays `from` to `to` to one source: visit(sample on it, seed)
 template <class Visit>
 void for_rays_towards(std::size_t source, std::uint32_t stream, std::uint32_t from,
                       std::uint32_t to, const Visit& visit)
@@ -53,8 +53,8 @@ void for_rays_towards(std::size_t source, std::uint32_t stream, std::uint32_t fr
     }
 }
 
-/// Visits rays `from` to `to` towards the sources that share rays: each chooses one of them by what
-/// it may send, and stands for all. visit(source, its chance, place on it, seed)
+/// Visits rays `from` to `to` to the sources that share rays: each selects one of them by sampling
+/// weight, and represents all. visit(source, its probability, sample on it, seed)
 template <class Visit>
 void for_shared_rays(const RayAllocation& shares, std::uint32_t stream, std::uint32_t from,
                      std::uint32_t to, const Visit& visit)

@@ -1,5 +1,5 @@
 #pragma once
-// Points on a horizontal plane, and the figures that lighting is specified by.
+// Points on a horizontal plane, and statistics of their illuminance.
 
 #include <optional>
 #include <span>
@@ -11,28 +11,28 @@
 
 namespace lumel {
 
-/// In the world [m].
+/// World space [m].
 struct WorkPlane {
     double height = 0.0;             ///< y
     double spacing = 0.0;            ///< between points
     glm::dvec2 low{0.0}, high{0.0};  ///< x and z of two corners
 };
 
-/// Points row by row from low z on, x fastest, the same margin on opposite sides.
+/// Points row by row from low z on, x fastest, with equal margins on opposite sides.
 struct PlaneGrid {
     int columns = 0, rows = 0;
     std::vector<glm::dvec3> points;  ///< [rows][columns] [m]
 };
 
-/// Points that a plane may have.
+/// Maximum number of points on a plane.
 inline constexpr double kMaxPlanePoints = 1e6;
 
 /// At least one point. Throws Error{input} for more than kMaxPlanePoints.
 PlaneGrid points_on(const WorkPlane& plane);
 
-/// Over the points that are not inside of things.
+/// Statistics over the points that are not inside objects.
 struct PlaneFigures {
-    std::size_t count = 0;       ///< of these points
+    std::size_t count = 0;       ///< number of these points
     double least = 0.0;          ///< [lx]
     double mean = 0.0;           ///< [lx]
     double most = 0.0;           ///< [lx]

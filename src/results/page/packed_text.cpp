@@ -9,9 +9,9 @@
 namespace lumel {
 namespace {
 
-constexpr int kGzip = 16 + MAX_WBITS;  // as deflateInit2() wants it
+constexpr int kGzip = 16 + MAX_WBITS;  // window bits for gzip in deflateInit2()
 constexpr int kMemoryLevel = 8;        // zlib's own default
-// Pictures are compressed already, and geometry hardly becomes smaller beyond this.
+// Images are compressed already, and geometry hardly shrinks beyond this.
 constexpr int kLevel = 6;
 
 std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes)
@@ -20,7 +20,7 @@ std::vector<std::uint8_t> gzip(std::span<const std::uint8_t> bytes)
     if (deflateInit2(&stream, kLevel, Z_DEFLATED, kGzip, kMemoryLevel, Z_DEFAULT_STRATEGY) != Z_OK)
         throw Error(ErrorKind::output, "", "a page cannot be compressed");
     std::vector<std::uint8_t> packed(deflateBound(&stream, uLong(bytes.size())));
-    stream.next_in = const_cast<Bytef*>(bytes.data());  // which zlib only reads
+    stream.next_in = const_cast<Bytef*>(bytes.data());  // zlib only reads it
     stream.avail_in = uInt(bytes.size());
     stream.next_out = packed.data();
     stream.avail_out = uInt(packed.size());
@@ -36,7 +36,7 @@ std::string base64(std::span<const std::uint8_t> bytes)
 {
     constexpr const char* kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    constexpr int kBits = 6;  // of a digit
+    constexpr int kBits = 6;  // per digit
     constexpr std::uint32_t kMask = (1u << kBits) - 1;
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);

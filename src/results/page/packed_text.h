@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as text within a page.
+// Binary data as text within a page.
 
 #include <cstdint>
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// Base 64 (RFC 4648) of the bytes' gzip (RFC 1952), which browsers undo without a library.
+/// Base 64 (RFC 4648) of the gzipped bytes (RFC 1952), which browsers can unpack themselves.
 std::string packed_text(std::span<const std::uint8_t> bytes);
 
 }  // namespace lumel

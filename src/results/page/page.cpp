@@ -25,10 +25,10 @@ namespace fs = std::filesystem;
 constexpr const char *kReport = "report.json", *kScene = "scene.glb";
 constexpr const char* kLightmap = "MOZ_lightmap";
 
-/// Texels go up to this: shared exponents hold 65408, and have all their digits down to 2^-15.
+/// Maximum texel value: shared exponents hold 65408, and have all their digits down to 2^-15.
 constexpr float kBrightestTexel = 1000.0f;
 
-/// scene.glb without its lightmap: the page has one of its own.
+/// scene.glb without its lightmap: the page has its own.
 std::vector<std::uint8_t> without_lightmap(const std::string& path)
 {
     const GltfDocument document = load_gltf_document(path);
@@ -46,7 +46,7 @@ std::vector<std::uint8_t> without_lightmap(const std::string& path)
     return builder.finish();
 }
 
-/// The pages of a lightmap, beside and below each other as Pages has them.
+/// All pages of a lightmap, arranged as in Pages.
 Image whole_map(const std::string& folder, const Pages& pages)
 {
     Image map;
@@ -65,8 +65,8 @@ Image whole_map(const std::string& folder, const Pages& pages)
     return map;
 }
 
-/// A lightmap as shared exponents in KTX2, a fourth of its floats, and the irradiance of a texel
-/// of 1 [lx].
+/// A lightmap as KTX2 with shared exponents, a quarter of its floats' size, and the irradiance of
+/// texel value 1 [lx].
 std::pair<std::vector<unsigned char>, float> small_lightmap(Image map)
 {
     float brightest = 0.0f;
@@ -85,7 +85,7 @@ int pages_in(const std::optional<JsonView>& sizes)
     return pages ? int(pages->integer(1, kMaxPages)) : 1;
 }
 
-/// What viewer/bakes.js reads.
+/// Data for viewer/bakes.js.
 Json page_data(const std::string& folder, const std::string& name)
 {
     const auto in_folder = [&](const char* file) { return (fs::path(folder) / file).string(); };
@@ -100,7 +100,7 @@ Json page_data(const std::string& folder, const std::string& name)
             {"unit", shortest(unit)}};
 }
 
-/// What to call the bakes: their folders' names, or all of the paths where these are the same.
+/// Names of the bakes: their folders' names, or their paths if these are equal.
 std::vector<std::string> names_of(std::span<const std::string> folders)
 {
     std::vector<std::string> names;
@@ -111,7 +111,7 @@ std::vector<std::string> names_of(std::span<const std::string> folders)
     return names;
 }
 
-/// JSON that cannot end the element it is in.
+/// JSON that cannot close its HTML element.
 std::string within_html(const Json& json)
 {
     std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace), safe;
@@ -136,8 +136,7 @@ void check_viewer()
     if (page_viewer().empty())
         throw Error(ErrorKind::input, "",
                     "this lumel was built without three.js, which its pages need; run tools/web "
-                    "where npm's packages "
-                    "can be had, and build again");
+                    "with access to npm packages, and build again");
 }
 
 std::size_t write_page(const std::string& path, std::span<const std::string> folders)

@@ -1,4 +1,4 @@
-// The files of a page as bytes of the program.
+// Files of a page, embedded in the program.
     .section .rodata
 
     .global lumel_page_frame, lumel_page_frame_end

@@ -1,5 +1,5 @@
 #pragma once
-// A solved scene, looked up where rays hit.
+// Light of a solved scene at ray hits.
 
 #include <cstdint>
 
@@ -11,15 +11,14 @@
 
 namespace lumel {
 
-/// Looks up a scene's lightmap and lumels where a ray hit. Everything passed in must outlive
-/// it.
+/// Looks up a scene's lightmap and lumels at ray hits. All arguments must outlive this.
 class LitScene {
 public:
-    /// The maps hold the finished irradiance [lx] of each side; `back` empty: as `front`.
+    /// The maps hold the finished irradiance of each side [lx]; back: empty if equal to `front`.
     LitScene(const Scene& scene, const Atlas& atlas, const Lumels& lumels, const Image& front,
              const Image& back);
 
-    /// H [lx] on the side that was hit, bilinear.
+    /// H on the side that was hit, bilinear [lx].
     glm::vec3 irradiance(const RayHit& hit) const;
 
     /// Radiance of the sky in a unit direction [cd/m²].
@@ -27,7 +26,7 @@ public:
 
     const Lamps& lamps() const { return lamps_; }
 
-    /// Index of the lumel, on the side that was hit; HitLumels::kNone where there is none.
+    /// Index of the lumel on the side that was hit; HitLumels::kNone if there is none.
     std::uint32_t lumel(const RayHit& hit) const { return lumels_.lumel(hit); }
 
 private:

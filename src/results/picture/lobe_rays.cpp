@@ -1,14 +1,14 @@
-// A point x reflects to the eye  ∫ L(y → x) ρ_s f_r cosθ dω.  With ω drawn from the lobe itself,
-// whose density is q_B = f_r max(cosθ, cosθ_eye), one ray estimates it as
+// A point x reflects to the eye  ∫ L(y → x) ρ_s f_r cosθ dω.  With ω drawn from the lobe itself, of
+// density q_B = f_r max(cosθ, cosθ_eye), one ray estimates it as
 //
 //     w ρ_s L(y → x) cosθ / max(cosθ, cosθ_eye),        w = n_B q_B / (n_A q_A + n_B q_B).
 //
-// What y sends is what it emits and reflects diffusely, from the lightmap. What its lobe sends the
-// ray looks for in turn, along that: shooters leave it out (eye_image.receive.comp). There, and at
-// x if there are no shooters, a second ray to a point drawn by what it sends takes the shooters'
-// place in the weights: Russian roulette makes what few rays go on carry much, and small lamps
-// would be met by few of those. Lamps, which no ray meets, get a ray of their own at each of these
-// points; the sky is what a ray along the lobe finds.
+// The emission and diffuse reflection of y come from the lightmap. The light of its lobe is
+// estimated recursively along that lobe: shooters leave it out (eye_image.receive.comp). There, and
+// at x without shooters, a second ray to a point drawn by power replaces the shooters in the
+// weights: Russian roulette gives the few surviving rays large weights, and few of those would hit
+// small lamps. Lamps, which no ray hits, get a shadow ray at each of these points; the sky is found
+// by rays along the lobe only.
 
 #include "results/picture/lobe_rays.h"
 
@@ -27,17 +27,16 @@ namespace lumel {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-/// Lobes that one ray follows at most: mirrors that face each other would hold it for ever.
+/// Maximum lobes per ray: facing mirrors would reflect it forever.
 constexpr std::uint32_t kMaxLobes = 16;
-/// Throughput below which a ray takes part in Russian roulette: what glazed surfaces reflect. With
-/// more, the few narrow lobes behind one that lead to a lamp would show.
+/// Throughput below which a ray takes part in Russian roulette: reflectance of glazed surfaces. A
+/// larger value makes the few narrow second lobes that lead to a lamp visible as noise.
 constexpr float kRouletteBelow = 0.04f;
-/// Dimension pairs of a ray's random numbers: its direction, roulette, the point it aims at, and
-/// which lamp, and where on it.
+/// Dimension pairs of a ray's random numbers: direction, roulette, target point, lamp, and point on
+/// the lamp.
 constexpr std::uint32_t kPairsPerLobe = 6;
-/// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 64;
-/// Points between two progress reports.
+/// Points between progress reports.
 constexpr std::size_t kPointsPerStep = 65536;
 
 class LobeRays {
@@ -53,7 +52,7 @@ public:
     {
     }
 
-    /// One estimate of what a point reflects to the eye.
+    /// One estimate of the light that a point reflects to the eye.
     glm::vec3 estimate(EyePoint x, const PathSamples& samples) const
     {
         glm::vec3 sum(0.0f), throughput(1.0f);
@@ -82,7 +81,7 @@ public:
                               samples.bits(pair), hit);
             throughput *= hit.tint;
             if (!met) {
-                sum += throughput * lit_.sky(direction);  // no other technique finds it
+                sum += throughput * lit_.sky(direction);  // found by no other technique
                 break;
             }
             const Shading there = surfaces_.shade(hit);
@@ -108,11 +107,11 @@ public:
     }
 
 private:
-    /// The techniques that choose y from a point.
+    /// Techniques that select y from a point.
     struct Techniques {
-        float rays;    ///< how many along its lobe
-        float others;  ///< how many drawn by what they send
-        bool seeks;    ///< the latter by a ray, one for each along the lobe; else by the shooters
+        float rays;    ///< number along its lobe
+        float others;  ///< number drawn by power
+        bool seeks;    ///< the latter by one ray each; false: by the shooters
     };
 
     Techniques techniques_at(std::uint32_t lobe) const
@@ -123,13 +122,13 @@ private:
         return {1.0f, seeks ? 1.0f : 0.0f, seeks};
     }
 
-    /// What y sends equally in all directions [cd/m²].
+    /// Diffuse radiance of y [cd/m²].
     glm::vec3 sent(const Shading& there, const RayHit& hit) const
     {
         return there.luminance + there.reflectance.diffuse * lit_.irradiance(hit) / kPi;
     }
 
-    /// q_A of what a ray hit: with which y is drawn by what it sends [1/sr].
+    /// q_A of a hit: density of drawing y by power [1/sr].
     float density(const RayHit& hit, const glm::vec3& direction) const
     {
         const std::uint32_t j = lit_.lumel(hit);
@@ -139,7 +138,7 @@ private:
         return senders_.density(j) * hit.distance * hit.distance / cos_there;
     }
 
-    /// What x reflects to the eye of a y drawn by what it sends, weighted against one along the
+    /// Light that x reflects to the eye from a y drawn by power, weighted against rays along the
     /// lobe.
     glm::vec3 sought(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
                      std::uint32_t pair) const
@@ -167,7 +166,7 @@ private:
                (reflects / (drawn + along));
     }
 
-    /// What x reflects to the eye of the lamps: one of them, chosen by that.
+    /// Light that x reflects to the eye from the lamps: one of them, selected by it.
     glm::vec3 lamplight(const EyePoint& x, const glm::vec3& mirror, const PathSamples& samples,
                         std::uint32_t pair) const
     {
@@ -187,10 +186,11 @@ private:
         }
         if (choice.empty())
             return glm::vec3(0.0f);
-        return choice.light() * passing(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
+        return choice.light() *
+               transmittance(rays_, origin, choice.lamp(), 0.0f, samples.bits(pair + 4));
     }
 
-    /// Russian roulette before another lobe: 0, or what makes up for those that end.
+    /// Weight by Russian roulette before another lobe: 0 for rays that end.
     static float survival(const glm::vec3& throughput, const glm::vec3& specular,
                           const glm::vec2& random)
     {
@@ -216,7 +216,8 @@ std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, cons
 {
     const LobeRays lobes(rays, surfaces, lit, senders, options);
     std::vector<glm::vec3> radiance(points.size(), glm::vec3(0.0f));
-    // One ray of every point at a time: weighted for the requested number, fewer are as correct.
+    // One ray of every point at a time: with the weights of the requested number, fewer are correct
+    // too.
     std::uint32_t taken = 0;
     for (bool stopped = false; taken < options.rays && !stopped; ++taken) {
         const auto follow = [&](std::size_t first, std::size_t last) {

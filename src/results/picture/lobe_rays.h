@@ -1,7 +1,6 @@
 #pragma once
-// Light that rays along the lobes of glossy points find: y is chosen by what x reflects instead
-// of by what y sends. Shooters (methods/glossy/eye_image.h) are good at wide lobes and
-// lamps, rays at narrow lobes.
+// Light along the lobes of glossy points: selects y by the reflection of x instead of the power of
+// y. Shooters (methods/glossy/eye_image.h) suit wide lobes and lamps, rays suit narrow lobes.
 
 #include <functional>
 #include <span>
@@ -15,15 +14,14 @@
 namespace lumel {
 
 struct LobeRayOptions {
-    std::uint32_t rays = 16;  ///< n_B, for each point
-    float shooters = 0.0f;    ///< n_A that a point met on the device; 0: rays do it alone
+    std::uint32_t rays = 16;  ///< n_B, per point
+    float shooters = 0.0f;    ///< n_A that a point received from on the device; 0: rays alone
     std::uint32_t seed = 1;
 };
 
 /// [P] cd/m² toward the eye, weighted against the shooters by the balance heuristic [VG95].
-/// senders: with the brightness that the shooters were weighted with. `progress` receives the
-/// fraction done and returns false to stop, which leaves each point as many rays as the others, one
-/// at least.
+/// senders: with the brightness of the shooters' weights. `progress` receives the fraction done and
+/// returns false to stop; all points then have equally many rays, at least one.
 std::vector<glm::vec3> gather_along_lobes(std::span<const EyePoint> points, const RayScene& rays,
                                           const Surfaces& surfaces, const LitScene& lit,
                                           const PowerDraw& senders, const LobeRayOptions& options,

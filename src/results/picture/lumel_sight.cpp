@@ -13,7 +13,7 @@ glm::vec3 toward_eye(const View& view, const glm::vec3& from)
                                            : glm::normalize(glm::vec3(view.transform[3]) - from);
 }
 
-/// Unit normal of the piece that is nearest to the lumel's centre.
+/// Unit normal of the piece nearest to the lumel's centre.
 glm::vec3 facing_of(const WorldLumels& world, const WorldLumel& lumel)
 {
     glm::vec3 normal = lumel.normal;

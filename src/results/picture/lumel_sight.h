@@ -1,6 +1,6 @@
 #pragma once
-// The accumulation texture of [BSS05]: what lumels reflect to an eye, found once for each and not
-// for the points behind pixels.
+// The accumulation texture of [BSS05]: light that lumels reflect to an eye, computed per lumel
+// instead of per pixel.
 
 #include <span>
 #include <vector>
@@ -14,20 +14,20 @@
 
 namespace lumel {
 
-/// The centres of those lumels that have lobes and face the eye.
+/// Centres of the lumels that have lobes and face the eye.
 struct LumelSight {
     std::vector<EyePoint> points;       ///< [P]
-    std::vector<std::uint32_t> lumels;  ///< [P] whose they are
+    std::vector<std::uint32_t> lumels;  ///< [P] lumel of each
 };
 
 LumelSight see_lumels(const View& view, const WorldLumels& world, const Lumels& lumels);
 
-/// radiance [P] of a sight as a value for each lumel [N]; 0 for those left out.
+/// radiance [P] of a sight as a value per lumel [N]; 0 for lumels not in it.
 std::vector<glm::vec3> by_lumel(const LumelSight& sight, std::span<const glm::vec3> radiance,
                                 std::size_t lumel_count);
 
-/// What the texture says of the glossy points that an eye sees [G] [cd/m²]. front, back: its maps,
-/// as LitScene takes them.
+/// The texture's light at the glossy points that an eye sees [G] [cd/m²]. front, back: its maps, as
+/// in LitScene.
 std::vector<glm::vec3> look_up(const Seen& seen, const Scene& scene, const Atlas& atlas,
                                const Lumels& lumels, const Image& front, const Image& back);
 

@@ -7,7 +7,6 @@
 namespace lumel {
 namespace {
 
-/// Fewest points worth a task.
 constexpr std::size_t kPointsPerTask = 1024;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of a solved scene, gloss and all.
+// Image of a solved scene, with gloss.
 
 #include <span>
 
@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// Radiance toward the eye [cd/m²], RGBA (alpha: share of the pixel where something is): what is
-/// emitted, ρ_d H / π, and `reflected` [G], what the lobes add at seen.glossy.
+/// Radiance toward the eye [cd/m²], RGBA (alpha: covered fraction of the pixel): emission, ρ_d H /
+/// π, and `reflected` [G], the light of the lobes at seen.glossy.
 Image compose(const Seen& seen, const LitScene& lit, std::span<const glm::vec3> reflected);
 
 }  // namespace lumel

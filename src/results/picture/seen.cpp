@@ -10,22 +10,21 @@
 namespace lumel {
 namespace {
 
-/// Rows of pixels worth a task.
 constexpr std::size_t kRowsPerTask = 4;
-/// Rows between two progress reports.
+/// Rows between progress reports.
 constexpr std::size_t kRowsPerStep = 64;
 
-/// Place k of S within a pixel: each has a column and a row of its own.
+/// Position k of S within a pixel: each has a different column and row.
 glm::vec2 place(std::uint32_t k, std::uint32_t sets)
 {
-    // Steps of about the golden ratio that leave out no row.
+    // Steps near the golden ratio that leave out no row.
     std::uint32_t step = std::max(std::uint32_t(std::lround(0.618 * sets)), 1u);
     while (std::gcd(step, sets) != 1)
         ++step;
     return (glm::vec2(float(k), float(k * step % sets)) + 0.5f) / float(sets);
 }
 
-/// What is behind a place of a pixel. `eye`: left alone where nothing is.
+/// The surface point behind a position of a pixel. `eye` is unchanged if there is none.
 SeenPoint see(const Ray& ray, std::uint32_t seed, const RayScene& rays, const Surfaces& surfaces,
               const Sky& sky, EyePoint& eye)
 {

@@ -99,7 +99,7 @@ std::optional<Stretch> DrawnMesh::place(const Scene& scene)
 
 float DrawnMesh::farthest_from(const glm::vec3& point) const
 {
-    constexpr float kMin = 1e-6f;  // [m] of a scene that is a point
+    constexpr float kMin = 1e-6f;  // [m] for a scene that is a point
     float most = 0.0f;
     for (const glm::vec3& position : positions_)
         most = std::max(most, glm::dot(position - point, position - point));

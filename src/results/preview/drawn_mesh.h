@@ -1,5 +1,5 @@
 #pragma once
-// A scene as triangles of the world, ordered by material, as the preview's shaders take them.
+// World-space triangles of a scene, ordered by material, for the preview's shaders.
 
 #include <cstdint>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace lumel {
 
-/// Of an array: elements [first, last).
+/// Elements [first, last) of an array.
 struct Stretch {
     std::size_t first, last;
 };
@@ -26,19 +26,19 @@ public:
 
     DrawnMesh(const Scene& scene, const Atlas& atlas);
 
-    /// Takes instances to where the scene has them now; their shapes stay. What has changed of the
-    /// positions, if anything has.
+    /// Updates positions from the instances' transforms; shapes must not change. Returns the
+    /// changed range of positions, if any.
     std::optional<Stretch> place(const Scene& scene);
 
     const std::vector<glm::vec3>& positions() const { return positions_; }
-    const std::vector<glm::vec4>& looks() const { return looks_; }  ///< places in textures
+    const std::vector<glm::vec4>& looks() const { return looks_; }  ///< texture coordinates
     const std::vector<glm::vec2>& lightmap() const { return lightmap_; }
     const std::vector<glm::vec4>& colors() const { return colors_; }
     const std::vector<std::uint32_t>& indices() const { return indices_; }
-    /// Of indices, by material and kBack…
+    /// Ranges of indices, by material and kBack…
     const std::map<std::pair<int, std::uint32_t>, Range>& ranges() const { return ranges_; }
 
-    /// To the vertex that is farthest from a point [m]; 1e-6 at least.
+    /// Distance to the vertex farthest from a point [m]; at least 1e-6.
     float farthest_from(const glm::vec3& point) const;
 
 private:

@@ -22,7 +22,7 @@ namespace {
 
 constexpr float kNearOfDiagonal = 1e-3f;
 
-/// World to clip space with reversed z, y down as Vulkan has it.
+/// World to clip space with reversed z, y down as in Vulkan.
 glm::mat4 projection(const View& view, float diagonal)
 {
     const glm::mat4 to_view = glm::inverse(view.transform);
@@ -52,7 +52,7 @@ std::uint32_t level_count(int width, int height)
     return levels;
 }
 
-/// The scene's textures on the device; one white texel stands in for none.
+/// The scene's textures on the device; a white texel replaces missing ones.
 class TextureSet {
 public:
     TextureSet(const gpu::Device& device, const Scene& scene) : device_(&device)
@@ -137,13 +137,13 @@ PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::
             .host = shapes + (texels + 2 * pixels) * kOfPixel};
 }
 
-/// All that is kept between pictures.
+/// State kept between images.
 struct Preview::Parts {
-    /// What a picture was drawn with: where all of it is as it was, so is the picture.
+    /// Inputs of an image: if all are equal, so is the image.
     struct Drawn {
         glm::uvec2 size{0u};
         bool nearest = false;
-        std::vector<PreviewParams> params;  ///< of each range
+        std::vector<PreviewParams> params;  ///< per range
 
         bool is(const Drawn& other) const
         {
@@ -169,7 +169,7 @@ struct Preview::Parts {
         gpu::Array<glm::vec4> colors;
         gpu::Array<std::uint32_t> indices;
     };
-    /// What is drawn into.
+    /// Render targets.
     struct Canvas {
         Canvas(const gpu::Device& device, const glm::ivec2& size)
             : color(device, gpu::Pixel::rgba32, std::uint32_t(size.x) * kSupersample,
@@ -180,7 +180,7 @@ struct Preview::Parts {
         }
 
         gpu::Target color, depth;
-        gpu::Array<glm::vec4> pixels;  ///< of the picture
+        gpu::Array<glm::vec4> pixels;  ///< the image
     };
 
     Parts(const gpu::Device& device, const Scene& scene, const Atlas& atlas)
@@ -220,12 +220,12 @@ struct Preview::Parts {
     Streams streams;
     std::optional<Canvas> canvas;
     std::optional<gpu::Target> lightmap;
-    Image map;  ///< that the lightmap holds
+    Image map;  ///< contents of the lightmap
     std::optional<Drawn> drawn;
     Image picture;
 };
 
-/// True if anything has moved.
+/// True if an instance has moved.
 bool Preview::Parts::take_places(const Scene& scene)
 {
     const std::optional<Stretch> moved = mesh.place(scene);
@@ -236,7 +236,7 @@ bool Preview::Parts::take_places(const Scene& scene)
     return moved.has_value();
 }
 
-/// True if it is not the one of before: rows from the first to the last that differ are uploaded.
+/// True if the map differs: uploads the rows from the first to the last that differ.
 bool Preview::Parts::take_map(const gpu::Device& device, const Image& given)
 {
     if (!lightmap || map.width != given.width || map.height != given.height) {
@@ -271,7 +271,7 @@ std::vector<PreviewParams> Preview::Parts::params_of(const Scene& scene, const V
     std::vector<PreviewParams> all;
     for (const auto& [key, range] : mesh.ranges()) {
         const Material& material = scene.materials[std::size_t(key.first)];
-        // Blended surfaces are drawn where they are more there than not.
+        // Blended surfaces are drawn where opacity exceeds one half.
         const float cutoff = material.alpha_mode == AlphaMode::opaque ? -1.0f
                              : material.alpha_mode == AlphaMode::mask ? material.alpha_cutoff
                                                                       : 0.5f;

@@ -1,7 +1,7 @@
 #version 460
 #include "results/preview/preview.glsl"
 
-// All materials: of what is cut out, and of a back that is a face of its own, not all is there.
+// All materials: discards cut-outs, and backs that have their own face.
 
 uniform sampler2D base_color;
 uniform sampler2D emissive;

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of the lit scene, drawn on the device that solved it.
+// Image of the lit scene, rendered on the GPU.
 
 #include <memory>
 
@@ -10,37 +10,37 @@
 
 namespace lumel {
 
-/// What a picture shows of the scene.
+/// Content of an image.
 enum class PreviewShows {
     light,   ///< radiance [cd/m²]
-    map,     ///< the map on its surfaces, such as irradiance, whatever their paint
-    texels,  ///< the same, each texel of one colour
+    map,     ///< the map on its surfaces, such as irradiance, without materials
+    texels,  ///< the map with nearest-texel filtering
 };
 
-/// Bytes that it takes to draw a picture.
+/// Memory to render an image [bytes].
 struct PreviewMemory {
     std::uint64_t device = 0, host = 0;
 };
 PreviewMemory preview_memory(const Scene& scene, const Atlas& atlas, const glm::ivec2& size);
 
-/// Pixels of a picture of that width, narrower where the device cannot draw that.
+/// Size of an image of that width [pixels], smaller if the device cannot render it.
 glm::ivec2 preview_size(const gpu::Device& device, const View& view, int width);
 
-/// Pictures of one scene, one after another. What stays is kept on the device: pipelines, textures,
-/// meshes, and of the map what has not changed. The device must outlive it.
+/// Renders several images of one scene. Pipelines, textures, meshes and unchanged parts of the map
+/// stay on the device, which must outlive this.
 class Preview {
 public:
     Preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas);
     ~Preview();
 
-    /// Shows other surfaces of the same scene from now on.
+    /// Replaces the surfaces of the scene.
     void show(const Scene& scene, const Atlas& atlas);
 
-    /// Radiance [cd/m²] as seen from `view`, RGBA (alpha 0: nothing there), `width` pixels wide
-    /// (narrower where the device cannot draw that). The lightmap is sampled bilinearly, material
-    /// textures with mipmaps. `map`: finished [lx], RGBA. One pixel is the mean of 2 × 2. What
-    /// `shows` says may be shown instead. `scene`: as before, but for places of instances, which
-    /// keep their shape, and for colours and emission of materials. Good until the next call.
+    /// Radiance from `view` [cd/m²], RGBA (alpha 0: no surface), `width` pixels wide (smaller if
+    /// the device cannot render it). Samples the lightmap bilinearly, material textures with
+    /// mipmaps. map: finished [lx], RGBA. A pixel is the mean of 2 × 2. shows: selects other
+    /// content. scene: as before, except transforms of instances, and colours and emission of
+    /// materials. Valid until the next call.
     const Image& draw(const Scene& scene, const Image& map, const View& view, int width,
                       PreviewShows shows = PreviewShows::light);
 
@@ -51,7 +51,6 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// One such picture alone.
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
                      const Image& irradiance, const View& view, int width,
                      PreviewShows shows = PreviewShows::light);

@@ -1,7 +1,7 @@
 #version 460
 #include "results/preview/preview.glsl"
 
-// The same without textures, each of which takes as long as all else of a pixel.
+// Without textures, each of which takes as long as the rest of a pixel.
 
 void main()
 {

@@ -4,14 +4,14 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
-LUMEL_CONST uint kBackIsAlike = 1u;    ///< they show the light of the front
-LUMEL_CONST uint kBackIsAnother = 2u;  ///< a face of its own shows it
+LUMEL_CONST uint kBackIsAlike = 1u;    ///< back faces show the light of the front
+LUMEL_CONST uint kBackIsAnother = 2u;  ///< a separate face shows it
 
-/// A pixel of a picture is the mean of so many times so many.
+/// A pixel of the image is the mean of kSupersample × kSupersample samples.
 LUMEL_CONST uint kSupersample = 2u;
 LUMEL_CONST uint kShrinkGroup = 64u;
 
-LUMEL_CONST uint kShowsLight = 0u;  ///< what surfaces send, L = ρ H / π + L_e
+LUMEL_CONST uint kShowsLight = 0u;  ///< light from surfaces, L = ρ H / π + L_e
 LUMEL_CONST uint kShowsMap = 1u;    ///< the map as it is
 
 /// Push constants of preview.vert and preview.frag: one material.
@@ -26,7 +26,7 @@ struct PreviewParams {
 
 /// Push constants of preview.shrink.comp.
 struct ShrinkParams {
-    uint width, height;  ///< of the picture [pixels]
+    uint width, height;  ///< size of the image [pixels]
 };
 
 LUMEL_SHARED_END

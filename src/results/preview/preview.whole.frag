@@ -1,7 +1,7 @@
 #version 460
 #include "results/preview/preview.glsl"
 
-// Opaque surfaces: what they hide takes no shading.
+// Opaque surfaces: occluded fragments are not shaded.
 
 uniform sampler2D base_color;
 uniform sampler2D emissive;

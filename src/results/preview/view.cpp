@@ -6,8 +6,8 @@
 namespace lumel {
 namespace {
 
-constexpr float kRoomFov = 1.15f;                   ///< [rad] wide, as interiors are photographed
-constexpr int kProbeColumns = 16, kProbeRows = 10;  ///< rays that judge a candidate view
+constexpr float kRoomFov = 1.15f;                   ///< [rad] horizontal, as for interiors
+constexpr int kProbeColumns = 16, kProbeRows = 10;  ///< rays that score a candidate view
 
 glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target)
 {
@@ -18,7 +18,7 @@ glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target)
             glm::vec4(eye, 1)};
 }
 
-/// Rewards deep views of front faces; empty space counts nothing and backs count against.
+/// Scores a view: deep views of front faces count, empty space counts nothing, backs are negative.
 float judge(const View& view, const RayScene& rays, float diagonal)
 {
     const float tan_half = std::tan(0.5f * view.vertical_fov);
@@ -38,12 +38,12 @@ float judge(const View& view, const RayScene& rays, float diagonal)
     return score;
 }
 
-/// Camera places in the corners and along the walls at eye height, looking across.
+/// Cameras in the corners and along the walls at eye height, facing across.
 std::vector<View> inside_views(const glm::vec3& low, const glm::vec3& high)
 {
     std::vector<View> views;
     const glm::vec3 centre = 0.5f * (low + high), extent = high - low;
-    // From the walls inwards: a building's middle may be what is open.
+    // From the walls inwards: a building's centre can be a courtyard.
     for (const float height : {0.55f, 0.35f, 0.2f})
         for (const float reach : {0.44f, 0.3f, 0.15f})
             for (int i = 0; i < 8; ++i) {
@@ -59,7 +59,7 @@ std::vector<View> inside_views(const glm::vec3& low, const glm::vec3& high)
     return views;
 }
 
-/// Camera places around the bounding box.
+/// Cameras around the bounding box.
 std::vector<View> outside_views(const glm::vec3& low, const glm::vec3& high)
 {
     std::vector<View> views;
@@ -89,7 +89,7 @@ View choose_view(const Scene& scene, const RayScene& rays)
     const View& from_outside = *std::max_element(outside.begin(), outside.end(), better);
     if (inside.empty())
         return from_outside;
-    // A building's dark outer walls fill a view from outside, so an inside wins if there is one.
+    // A building's dark outer walls fill a view from outside, so inside views are preferred.
     constexpr float kInsideWorth = 4.0f;
     const View& from_inside = *std::max_element(inside.begin(), inside.end(), better);
     return kInsideWorth * judge(from_inside, rays, diagonal) > judge(from_outside, rays, diagonal)

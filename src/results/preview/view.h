@@ -1,5 +1,5 @@
 #pragma once
-// A view that shows what a scene is.
+// Chooses a view of the scene.
 
 #include "rays/cast/ray_scene.h"
 #include "scene/values/scene.h"
@@ -7,8 +7,7 @@
 
 namespace lumel {
 
-/// The scene's first camera, or one chosen to show most of what is there: inside of a room,
-/// before an object.
+/// The scene's first camera, or one that shows most of it: inside a room, or in front of an object.
 View choose_view(const Scene& scene, const RayScene& rays);
 
 }  // namespace lumel

@@ -17,7 +17,7 @@ constexpr Limits kSides{0.0, 65536.0};  // [texels]
 constexpr Limits kPages{1.0, kMaxPages};
 constexpr Limits kDensities{0.0, 1e9};  // [1/m]
 constexpr Limits kCounts{0.0, 1e15};
-constexpr int kMaxLinks = 256;  // rays of a lumel that are kept
+constexpr int kMaxLinks = 256;  // stored rays per lumel
 constexpr Limits kErrors{0.0, std::numeric_limits<double>::max()};
 
 template <class Options, class Visit>
@@ -30,7 +30,7 @@ void each_atlas_setting(Options& options, const Visit& visit)
     visit("sides", options.sides);
 }
 
-/// Left out where nothing is set: reports of older bakes have none either.
+/// Omitted if nothing is set, as in reports of older bakes.
 void write_densities(const AtlasOptions& options, Json& settings)
 {
     if (options.coarse_afar)
@@ -59,7 +59,7 @@ void read_densities(const JsonView& settings, AtlasOptions& options)
     });
 }
 
-/// Left out where none are kept: reports of older bakes have no such setting either.
+/// Omitted if there are none, as in reports of older bakes.
 void write_kept_links(const BakeRecord& record, Json& settings)
 {
     if (record.keep_links > 0)
@@ -178,7 +178,7 @@ BakeRecord read_bake_record(const std::string& folder)
     for (const char* file : {kReportFile, kSceneFile, kSolutionFile})
         if (!fs::is_regular_file(fs::path(folder) / file, ignored))
             refuse(folder, std::string("has no ") + file +
-                               ": it is not the folder of a finished lumel bake; bake it first");
+                               ": it is not the folder of a finished lumel bake");
     const std::string path = (fs::path(folder) / kReportFile).string();
     const Json report = read_json(path);
     return record_of(JsonView(path, report), folder);
@@ -187,8 +187,7 @@ BakeRecord read_bake_record(const std::string& folder)
 void check_whole(const std::string& folder, const BakeRecord& baked)
 {
     if (baked.parts != Parts::all)
-        refuse(folder, "holds a part of the light, of which no more can be told; bake it again "
-                       "without --only");
+        refuse(folder, "has only part of the light; bake it again without --only");
 }
 
 void check_correctable(const std::string& folder, const BakeRecord& baked)

@@ -1,5 +1,5 @@
 #pragma once
-// Choices by the words that options and reports have for them.
+// Names of enum values in options and reports.
 
 #include <array>
 #include <string>
@@ -19,7 +19,6 @@ struct EnumName {
     Value value;
 };
 
-/// All words of an enumeration.
 template <class Value>
 inline constexpr std::array<EnumName<Value>, 0> kWords{};
 
@@ -54,7 +53,7 @@ std::string word_of(Value value)
     return {};
 }
 
-/// Throws Error{input} for any other word.
+/// Throws Error{input} for an unknown name.
 template <class Value>
 Value value_of_word(const JsonView& view)
 {

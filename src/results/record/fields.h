@@ -1,6 +1,6 @@
 #pragma once
-// Named fields of plain structures, as members of a JSON object: one list of them is both read and
-// written.
+// Named fields of plain structures as members of a JSON object: one list serves reading and
+// writing.
 
 #include <cstdint>
 #include <string>
@@ -11,12 +11,12 @@
 
 namespace lumel {
 
-/// Numbers that a field may have.
+/// Range of a field's value.
 struct Limits {
     double low = 0.0, high = 1e9;
 };
 
-/// Puts fields into an object.
+/// Writes fields to an object.
 class FieldWriter {
 public:
     explicit FieldWriter(Json& object) : object_(&object) {}
@@ -36,8 +36,8 @@ private:
     Json* object_;
 };
 
-/// Takes them from one. Throws Error{input} with file and JSON pointer for a field that is missing,
-/// of another type or outside its limits.
+/// Reads fields from an object. Throws Error{input} with file and JSON pointer for a field that is
+/// missing, of another type or out of range.
 class FieldReader {
 public:
     explicit FieldReader(const JsonView& object) : object_(object) {}

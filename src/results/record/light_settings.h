@@ -1,5 +1,5 @@
 #pragma once
-// The lights that the command line adds to a scene, as a report has them.
+// Lights that options add to a scene, in a report.
 
 #include <string>
 
@@ -8,15 +8,15 @@
 
 namespace lumel {
 
-/// Named as the options are; what was left alone is left out. Angles in degrees, in as few digits
-/// as give the angle back; files by their absolute paths, so that they are found from any folder.
+/// Named as the options; defaults are omitted. Angles in degrees, with as few digits as convert
+/// back exactly; files by absolute paths.
 Json light_settings(const LightOptions& options);
 
-/// Inverse of light_settings(). folder: that paths which are relative begin at. Throws Error{input}
-/// with the place of what is wrong.
+/// Inverse of light_settings(). folder: base of relative paths. Throws Error{input} with the
+/// location of the error.
 LightOptions light_options_of(const JsonView& settings, const std::string& folder);
 
-/// Throws Error{input} if a file of a bake's lights is not there any more.
+/// Throws Error{input} if a file of a bake's lights no longer exists.
 void check_light_files(const LightOptions& options);
 
 }  // namespace lumel

@@ -1,5 +1,5 @@
 #pragma once
-// report.json: what was baked or shown, how, and what it took.
+// report.json: scene, settings, results and cost of a bake or animation.
 
 #include <cstdint>
 #include <map>
@@ -14,109 +14,109 @@
 
 namespace lumel {
 
-/// Of the form of report.json, in its member "format". What reads it back refuses all others. 1,
-/// which the file did not say, had all settings as strings.
+/// Format of report.json, in its member "format"; readers refuse all others. 1, which the file did
+/// not state, had all settings as strings.
 inline constexpr int kReportFormat = 4;
 
 /// One stage of the bake, in order.
 struct StageTime {
     std::string name;
     double wall_seconds = 0.0;
-    double cpu_seconds = 0.0;  ///< of all threads
+    double cpu_seconds = 0.0;  ///< over all threads
 };
 
-/// The estimate of the solver after a number of shooters.
+/// The solver's error estimate after a number of shooters.
 struct ConvergencePoint {
     std::uint64_t shots = 0;
-    double seconds = 0.0;  ///< of solving
+    double seconds = 0.0;  ///< solving time
     double error = 0.0;    ///< estimated relative error
 };
 
-/// What a picture took over kept links.
+/// Work done for one frame by --solver links.
 struct LinksRow {
     std::uint64_t retraced = 0;  ///< links
-    double direct = 0.0;         ///< share of direct light that was found again
+    double direct = 0.0;         ///< fraction of direct light recomputed
     std::uint64_t sweeps = 0;
 };
 
-/// A picture of a moving scene.
+/// One image of an animation.
 struct FrameRow {
     std::string file;
-    double seconds = 0.0;           ///< of the scene's own time
-    double update_ms = 0.0;         ///< that the light took to follow
-    std::uint64_t hemicubes = 0;    ///< for it
-    double residual = 0.0;          ///< light still to be shot, as a part of all
-    bool at_rest = false;           ///< nothing was left to do
-    std::optional<LinksRow> links;  ///< in place of hemicubes
+    double seconds = 0.0;           ///< scene time
+    double update_ms = 0.0;         ///< duration of the light's update
+    std::uint64_t hemicubes = 0;    ///< during the update
+    double residual = 0.0;          ///< unshot light relative to all
+    bool at_rest = false;           ///< converged
+    std::optional<LinksRow> links;  ///< instead of hemicubes
 };
 
-/// Form factors between patches, as they were found, before reciprocity and row sums were enforced.
+/// Statistics of form factors before reciprocity and row sums were enforced.
 struct FormFactorRow {
     std::uint64_t patches = 0;
-    std::uint64_t closed = 0;    ///< of them: those whose row has to add up to 1
-    double voxel = 0.0;          ///< side of the voxels that made the patches [m]
+    std::uint64_t closed = 0;    ///< patches whose row must sum to 1
+    double voxel = 0.0;          ///< voxel side of the patches [m]
     double reciprocity = 0.0;    ///< Σ |A_i F_ij - A_j F_ji| / Σ A_i F_ij
-    double row_sum = 0.0;        ///< root mean square of Σ_j F_ij - 1 of closed rows
-    double worst_row_sum = 0.0;  ///< the largest of these
+    double row_sum = 0.0;        ///< RMS of Σ_j F_ij - 1 over closed rows
+    double worst_row_sum = 0.0;  ///< largest |Σ_j F_ij - 1| over these
 };
 
-/// What became of a bake whose scene was edited.
+/// Corrections of a bake for an edited scene.
 struct UpdateRow {
     std::uint64_t moved = 0, appeared = 0, vanished = 0;  ///< instances
     std::uint64_t recoloured = 0;  ///< instances that reflect or emit differently
-    bool relit = false;            ///< sky or lamps that are no surfaces are others
-    std::uint64_t rays = 0;        ///< followed to find the change of arriving light
-    std::uint64_t particles = 0;   ///< that carried it on
-    std::uint64_t links = 0;       ///< kept, of which `rays` were traced again; 0: none are kept
-    bool solved_anew = false;      ///< too much changed for these; Report::shots is their solver's
-    double residual = 0.0;         ///< error of the correction, as a part of all light
-    double error_before = -1.0;    ///< estimated relative error of what was corrected, < 0: unknown
+    bool relit = false;            ///< sky or lamps that are not surfaces changed
+    std::uint64_t rays = 0;        ///< traced for changes of incoming light
+    std::uint64_t particles = 0;   ///< transporting it
+    std::uint64_t links = 0;       ///< stored; `rays` of them were retraced; 0: none are stored
+    bool solved_anew = false;      ///< too much changed for these; Report::shots are the solver's
+    double residual = 0.0;         ///< error of the correction relative to all light
+    double error_before = -1.0;    ///< estimated relative error before the correction, < 0: unknown
 
     bool any() const { return moved + appeared + vanished + recoloured > 0 || relit; }
 };
 
-/// From where preview.png shows the scene.
+/// View of preview.png.
 struct PreviewRow {
     glm::dvec3 eye{0.0};        ///< [m], in the file's own coordinates
     glm::dvec3 direction{0.0};  ///< unit
-    double vertical_fov = 0.0;  ///< of the picture [degrees]
+    double vertical_fov = 0.0;  ///< vertical [degrees]
 };
 
-/// All contents of report.json. Empty strings, empty lists and negative numbers: not known; left
-/// out of the file.
+/// All contents of report.json. Empty strings, empty lists and negative numbers are unknown values,
+/// omitted from the file.
 struct Report {
     std::string lumel_version;
-    std::string date;  ///< with its offset, as of local_time()
+    std::string date;  ///< with offset, see local_time()
     std::map<std::string, std::string> library_versions;
 
     std::string scene;                ///< name of the file, without its folder
     std::string scene_hash;           ///< Scene::hash
-    Json settings = Json::object();   ///< values of options by their names
-    std::optional<Json> lights = {};  ///< as of light_settings()
-    std::optional<Json> solver = {};  ///< as of solver_settings(), as far as it applies
+    Json settings = Json::object();   ///< option values by name
+    std::optional<Json> lights = {};  ///< see light_settings()
+    std::optional<Json> solver = {};  ///< see solver_settings(), as far as it applies
 
-    std::string device;  ///< name of the GPU, or of what was used in its place
+    std::string device;  ///< name of the GPU or its replacement
     std::string driver;
     std::string vulkan;  ///< API version
 
     int atlas_width = 0;   ///< [texels]
     int atlas_height = 0;  ///< [texels]
-    int pages = 1;         ///< equal squares of it, in rows, each a file
+    int pages = 1;         ///< equal squares of the atlas, in rows, one file each
     double texels_per_metre = 0.0;
     std::uint64_t charts = 0, lumels = 0, pieces = 0, triangles = 0, instances = 0;
     std::uint64_t buried_lumels = 0;
-    std::optional<std::uint64_t> near_pairs;  ///< of lumels, solved exactly
-    int picture_width = 0;                    ///< [pixels], 0: maps were made, no picture
+    std::optional<std::uint64_t> near_pairs;  ///< solved exactly
+    int picture_width = 0;                    ///< [pixels], 0: maps, no image
     int picture_height = 0;                   ///< [pixels]
 
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
     std::uint64_t directional_shots = 0;  ///< 0: no directional layers
-    std::string rays;                     ///< what cast the method's: "host", "query" or "raster"
-    double estimated_error = -1.0;        ///< relative, < 0: not known
-    double estimated_dark_error = -1.0;   ///< of lumels below a third of the mean, of their own
+    std::string rays;                     ///< ray tracing backend: "host", "query" or "raster"
+    double estimated_error = -1.0;        ///< relative, < 0: unknown
+    double estimated_dark_error = -1.0;   ///< see SolverState::dark_error
     bool interrupted = false;
-    std::optional<float> exposure;  ///< of the map's or the pictures' PNG [1/lx or m²/cd]
+    std::optional<float> exposure;  ///< exposure of the map's or images' PNG [1/lx or m²/cd]
     std::vector<ConvergencePoint> convergence;
     std::vector<FrameRow> frames;
     std::optional<FormFactorRow> form_factors;
@@ -131,12 +131,12 @@ struct Report {
     std::int64_t peak_host_bytes = -1;
     std::int64_t peak_gpu_bytes = -1;
 
-    std::vector<std::string> files;     ///< written beside the report
+    std::vector<std::string> files;     ///< beside the report
     std::vector<std::string> warnings;  ///< sentences for the user
     std::vector<std::string> notes;
 };
 
-/// Units and encodings are added; members come in a fixed order. See docs/report.md.
+/// JSON in fixed order, with units and encodings. See docs/report.md.
 Json to_json(const Report& report);
 
 }  // namespace lumel

@@ -19,7 +19,7 @@ void each_limit(Options& options, const Visit& visit)
     visit("dark_error", options.target_dark_error);
 }
 
-/// Numbers as numbers, words as strings.
+/// Numbers as numbers, names as strings.
 Json json_of(const OptionInfo& option, const MethodOptions& method)
 {
     const std::string text = option.get(method);
@@ -27,7 +27,7 @@ Json json_of(const OptionInfo& option, const MethodOptions& method)
     return option.is_number && number ? Json(std::int64_t(*number)) : Json(text);
 }
 
-/// As OptionInfo::set reads it, which refuses what is neither.
+/// For OptionInfo::set, which rejects other types.
 std::string text_of(const Json& value)
 {
     return value.is_string() ? value.get<std::string>() : value.dump();

@@ -1,5 +1,5 @@
 #pragma once
-// The options of a solver as a report has them.
+// Options of a solver in a report.
 
 #include "base/json/json_view.h"
 #include "methods/methods.h"
@@ -10,7 +10,7 @@ namespace lumel {
 /// Options are named as on the command line.
 Json solver_settings(const SolverOptions& options);
 
-/// Inverse of solver_settings(). Throws Error{input} with the place of what is wrong.
+/// Inverse of solver_settings(). Throws Error{input} with the location of the error.
 SolverOptions solver_options_of(const JsonView& settings);
 
 }  // namespace lumel

@@ -8,9 +8,9 @@ namespace lumel {
 
 namespace {
 
-/// More elements than any real mesh; keeps count × size far from overflow.
+/// More elements than any real mesh; count × size cannot overflow.
 constexpr std::int64_t kLargestCount = std::int64_t(1) << 40;
-/// An accessor without data stands for zeros; a small file must not claim gigabytes of them.
+/// Limit for accessors without data, which are zeros: a small file must not allocate gigabytes.
 constexpr std::int64_t kLargestImplicitCount = std::int64_t(1) << 24;
 constexpr std::int64_t kLargestOffset = std::int64_t(1) << 50;
 
@@ -29,7 +29,7 @@ constexpr std::array<ElementType, 7> kElementTypes = {{
     {"MAT4", 4, 4},
 }};
 
-/// A run of equally spaced elements in a buffer.
+/// Equally spaced elements in a buffer.
 struct Run {
     const std::uint8_t* first = nullptr;
     std::size_t stride = 0;
@@ -45,7 +45,7 @@ struct SparseLayout {
 /// An accessor, resolved to memory.
 struct AccessorLayout {
     AccessorData head;  ///< all but the bytes
-    Run run;            ///< first is null: zeros
+    Run run;            ///< zeros if `first` is null
     std::optional<SparseLayout> sparse;
 };
 
@@ -103,8 +103,8 @@ std::int64_t offset_of(const JsonView& view)
     return offset ? offset->integer(0, kLargestOffset) : 0;
 }
 
-/// Resolves `count` elements of `element_size` bytes that `view` (accessor, sparse.indices or
-/// sparse.values) places in its bufferView. The bufferViews themselves are sound.
+/// Memory of `count` elements of `element_size` bytes that `view` (accessor, sparse.indices or
+/// sparse.values) describes. The bufferViews are already checked.
 Run run_of(const GltfDocument& document, const JsonView& view, std::size_t count,
            std::size_t element_size, bool may_interleave)
 {

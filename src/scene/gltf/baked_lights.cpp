@@ -11,7 +11,7 @@ constexpr const char* kLights[] = {"KHR_lights_punctual", "EXT_lights_ies",
 constexpr const char *kExtensions = "extensions", *kExtras = "extras",
                      *kBaked = "lumel_baked_lights";
 
-/// Moves lights from one member of an object to another. Returns if there were any.
+/// Moves lights from one member of an object to another. Returns true if there were any.
 bool move_lights(Json& from, Json& into)
 {
     bool any = false;
@@ -36,14 +36,14 @@ bool put_away(Json& object)
         return false;
     if (extensions->empty())
         object.erase(kExtensions);
-    Json& extras = object[kExtras];  // moves all that is in `object`
+    Json& extras = object[kExtras];  // invalidates references into `object`
     if (!extras.is_null() && !extras.is_object())
         extras = Json{{"value", std::move(extras)}};
     extras[kBaked] = std::move(lights);
     return true;
 }
 
-/// The lights that were put away from an object, or null.
+/// The hidden lights of an object, or null.
 Json* put_away_from(Json& object)
 {
     if (!object.is_object())
@@ -66,10 +66,11 @@ void bring_back(Json& object)
     extras.erase(kBaked);
     if (extras.empty())
         object.erase(kExtras);
-    move_lights(lights, object[kExtensions]);  // moves all that is in `object`
+    move_lights(lights, object[kExtensions]);  // invalidates references into `object`
 }
 
-/// Has a program changed the lists of lights since? What nodes refer to is then not known.
+/// True if a program has changed the lists of lights since; the references of nodes are then
+/// invalid.
 bool is_outdated(Json& gltf)
 {
     const Json* lists = put_away_from(gltf);
@@ -85,7 +86,7 @@ bool is_outdated(Json& gltf)
     });
 }
 
-/// Calls visit(list) for the lists of objects that lights can be in, beside the root.
+/// Calls visit(list) for the lists of objects, beside the root, that may have lights.
 template <class Visit>
 void for_lists(Json& gltf, const Visit& visit)
 {

@@ -23,7 +23,7 @@ bool is_index(const Json& value, std::size_t index)
     return whole_number(value) == std::int64_t(index);
 }
 
-/// True if all nodes behind a group are its children.
+/// True if all nodes after a group are its children.
 bool ends_with(const Json& nodes, std::size_t group)
 {
     const auto children = nodes[group].find(kChildren);

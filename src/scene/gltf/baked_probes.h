@@ -1,16 +1,16 @@
 #pragma once
-// Light probes in a baked glTF: nodes that engines find beside what they light. They are no part of
-// the scene: a later bake, or a correction, leaves them out.
+// Light probes in a baked glTF: nodes for engines to find. They are not part of the scene: later
+// bakes and corrections omit them.
 
 #include "base/json/json_file.h"
 
 namespace lumel {
 
-/// Appends a node called "light probes" to the default scene, and as its children `probes`, which
-/// are nodes. Nothing where there is no scene to show them. `gltf`: as a bake has written it.
+/// Appends the nodes `probes` to the default scene, as children of a node "light probes". No effect
+/// without a scene. `gltf`: a bake's document.
 void add_light_probes(Json& gltf, Json probes);
 
-/// Takes them out again, if they are still the last nodes. `gltf` may be any JSON object.
+/// Removes the probes if they are still the last nodes. `gltf` may be any JSON object.
 void drop_light_probes(Json& gltf);
 
 }  // namespace lumel

@@ -8,18 +8,18 @@
 
 namespace lumel {
 
-/// Where the parts of a .glb stand in its bytes.
+/// Byte ranges of the parts of a .glb.
 struct GlbChunks {
     std::size_t json_offset = 0;
     std::size_t json_size = 0;
-    std::optional<std::size_t> binary_offset;  ///< absent without a BIN chunk
+    std::optional<std::size_t> binary_offset;  ///< nullopt without a BIN chunk
     std::size_t binary_size = 0;
 };
 
-/// True if the bytes start like a .glb.
+/// True if the bytes begin as a .glb.
 bool is_glb(const Bytes& bytes);
 
-/// Throws Error{input} if header or chunks contradict each other or the file is cut short.
+/// Throws Error{input} if header and chunks are inconsistent or the file is truncated.
 GlbChunks split_glb(const std::string& path, const Bytes& bytes);
 
 }  // namespace lumel

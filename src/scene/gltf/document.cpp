@@ -21,10 +21,10 @@ namespace lumel {
 
 namespace {
 
-/// glTF bounds the step between interleaved elements.
+/// glTF's limits of the stride of interleaved elements.
 constexpr std::int64_t kSmallestStride = 4;
 constexpr std::int64_t kLargestStride = 252;
-/// A byte count beyond any real file, small enough that sums of two never overflow.
+/// Larger than any real file; sums of two do not overflow.
 constexpr std::int64_t kLargestSize = std::int64_t(1) << 50;
 
 /// "major.minor" as two numbers.
@@ -53,7 +53,7 @@ void check_asset(const JsonView& root)
                       ", but only 2.0 is read");
 }
 
-/// Every list of the file that is read must be a list of objects.
+/// Checks that the top-level lists are lists of objects.
 void check_collections(const JsonView& root)
 {
     for (const char* key : {"accessors", "buffers", "bufferViews", "cameras", "images", "materials",
@@ -61,7 +61,7 @@ void check_collections(const JsonView& root)
         root.each(key, [](const JsonView& element, std::size_t) { element.as_object(); });
 }
 
-/// Every texture that materials name is there, also where it is not read: a written scene has it.
+/// Checks all texture references of materials, even of unread ones: a written scene has them.
 void check_texture_uses(const JsonView& object, std::size_t textures)
 {
     for (const auto& [name, value] : object.json().items()) {
@@ -119,7 +119,7 @@ void check_buffer_views(const GltfDocument& document)
 
 GltfDocument load_gltf_document(const std::string& path)
 {
-    // Separate the JSON from the binary chunk.
+    // Separates the JSON from the binary chunk.
     const Bytes file = read_file(path, path);
     GlbChunks chunks{0, file.size(), std::nullopt, 0};
     if (is_glb(file))
@@ -140,7 +140,7 @@ GltfDocument load_gltf_document(const std::string& path)
     check_collections(root);
     check_extensions(root);
 
-    // Bring in the data, then prove that every view and accessor lies inside it.
+    // Loads the data, then verifies that every view and accessor is inside it.
     Bytes binary_chunk;
     if (chunks.binary_offset)
         binary_chunk.assign(file.begin() + *chunks.binary_offset,

@@ -1,5 +1,5 @@
 #pragma once
-// The low level of a glTF file: its JSON, its buffers, and accessors as plain bytes.
+// Low-level glTF access: JSON, buffers, and accessors as plain bytes.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,45 +11,45 @@
 
 namespace lumel {
 
-/// A .gltf or .glb file whose buffers, bufferViews and accessors are known to be sound: every
-/// reference resolves and every byte that an accessor names is there. What extensions compress or
-/// repeat is plain: the JSON is that of the plain file, and what is new is at the end of its lists.
+/// A .gltf or .glb file whose buffers, bufferViews and accessors are verified: all references
+/// resolve and all bytes of accessors exist. Data that extensions compress or instance are
+/// expanded: the JSON is that of the plain file, with additions at the end of its lists.
 struct GltfDocument {
     std::string path;
-    Json json;                   ///< the file's JSON, members in the file's order
-    std::vector<Bytes> buffers;  ///< buffers[i] holds exactly json["buffers"][i]["byteLength"]
-                                 ///< bytes, or none if only compressed bufferViews named it
+    Json json;                   ///< the file's JSON, in its order
+    std::vector<Bytes> buffers;  ///< [i] has exactly json["buffers"][i]["byteLength"] bytes,
+                                 ///< or none if only compressed bufferViews use it
 
     JsonView root() const { return {path, json}; }
 };
 
 /// Reads a file, its external buffers and data URIs. Throws Error{input} with file, JSON pointer
-/// and reason for anything unsound, and for extensions that are required but not supported.
+/// and reason for invalid data and for unsupported required extensions.
 GltfDocument load_gltf_document(const std::string& path);
 
 enum class ComponentType { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-/// The elements of an accessor, tightly packed in file order (interleaving removed, sparse
-/// values applied): element i starts at bytes[i * element_size].
+/// The elements of an accessor, tightly packed in file order, without interleaving and with sparse
+/// values applied: element i starts at bytes[i * element_size].
 struct AccessorData {
     ComponentType component_type = ComponentType::f32;
     std::string type;            ///< "SCALAR", "VEC2" …
     std::size_t components = 1;  ///< per element: SCALAR 1 … MAT4 16
     bool normalized = false;
     std::size_t count = 0;
-    std::size_t element_size = 0;  ///< [bytes], with the padding that glTF puts into small matrices
+    std::size_t element_size = 0;  ///< [bytes], including glTF's padding of small matrices
     Bytes bytes;                   ///< [count][element_size], little-endian
 };
 
 /// `accessor`: index into json["accessors"].
 AccessorData read_accessor(const GltfDocument& document, std::size_t accessor);
 
-/// The file that an object of the document names by "uri" or "bufferView".
-/// Throws Error{input} if it cannot be read or lies outside the scene's folder.
+/// Contents of the file that "uri" or "bufferView" of an object refers to. Throws Error{input} if
+/// it cannot be read or lies outside the scene's folder.
 Bytes read_linked_bytes(const GltfDocument& document, const JsonView& view);
 
-/// The encoded file (PNG, JPEG, WebP) of an image. `image`: index into json["images"].
-/// Throws Error{input} if it cannot be read or lies outside the scene's folder.
+/// Encoded image file (PNG, JPEG, WebP). `image`: index into json["images"]. Throws Error{input} if
+/// it cannot be read or lies outside the scene's folder.
 Bytes read_image_bytes(const GltfDocument& document, std::size_t image);
 
 }  // namespace lumel

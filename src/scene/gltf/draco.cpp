@@ -15,16 +15,16 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr std::int64_t kTriangles = 4, kTriangleStrip = 5;
-constexpr std::size_t kAlignment = 4;  // of every vertex
+constexpr std::size_t kAlignment = 4;  // alignment of vertices
 constexpr std::array<const char*, 4> kTypeNames = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
-/// Where a primitive stands in the document.
+/// Location of a primitive in the document.
 struct Place {
     std::size_t mesh = 0;
     std::size_t primitive = 0;
 };
 
-/// An accessor that a primitive names, and the bufferView that it reads from now on.
+/// An accessor of a primitive, and its new bufferView.
 struct Filled {
     Place place;
     std::string attribute;  ///< empty: the indices
@@ -39,15 +39,15 @@ bool has_data(const JsonView& root, const JsonView& reference)
     return accessor.find("bufferView") || accessor.find("sparse");
 }
 
-/// Does it bring all its data in plain accessors too?
+/// True if the primitive also has all its data in plain accessors.
 bool has_plain_data(const JsonView& root, const JsonView& primitive)
 {
     const auto indices = primitive.find("indices");
     if (indices && !has_data(root, *indices))
         return false;
     const JsonView attributes = primitive.get("attributes");
-    for (const auto& [name, id] :
-         primitive.extension(kDraco)->get("attributes").as_object().json().items())
+    const JsonView compressed = primitive.extension(kDraco)->get("attributes").as_object();
+    for (const auto& [name, id] : compressed.json().items())
         if (!has_data(root, attributes.get(name.c_str())))
             return false;
     return true;
@@ -63,7 +63,7 @@ void check_mode(const JsonView& primitive)
         mode->fail("is " + std::to_string(value) + ", but Draco only holds triangles");
 }
 
-/// Vertices at the alignment that glTF wants of them.
+/// Pads vertices to glTF's alignment.
 Bytes aligned(const Bytes& packed, std::size_t count, std::size_t stride)
 {
     const std::size_t size = packed.size() / count;
@@ -87,7 +87,8 @@ public:
 
     void unpack()
     {
-        // JsonViews keep places in the JSON, which therefore changes only when all are decoded.
+        // JsonViews refer to locations in the JSON, so it changes only after all streams are
+        // decoded.
         std::map<std::size_t, std::vector<Place>> streams;
         root_.each("meshes", [&](const JsonView& mesh, std::size_t m) {
             mesh.each("primitives", [&](const JsonView& primitive, std::size_t p) {
@@ -120,11 +121,11 @@ private:
         const Bytes stream = buffer_view_bytes(document_, index);
         const DracoMesh mesh = decode_draco_stream(index, stream, allowance_);
 
-        // The indices take the place of the stream, which nothing refers to any more.
+        // The indices replace the stream, which is no longer referenced.
         Bytes indices(mesh.indices.size() * sizeof(std::uint32_t));
         std::memcpy(indices.data(), mesh.indices.data(), indices.size());
         stored_[view] = {std::move(indices), 0};
-        std::map<std::uint32_t, std::size_t> views;  // of attributes, by their ids
+        std::map<std::uint32_t, std::size_t> views;  // view of each attribute id
         for (const Place& place : places) {
             filled_.push_back({place, {}, view, mesh.indices.size()});
             const JsonView names = primitive_at(place).extension(kDraco)->get("attributes");
@@ -142,7 +143,7 @@ private:
         }
     }
 
-    /// The attribute of the stream that `id` names, of the kind that the accessor says.
+    /// The attribute `id` of the stream; checks that it matches the accessor.
     const DracoAttribute& attribute_of(const Place& place, const std::string& name,
                                        const JsonView& id, const DracoMesh& mesh) const
     {
@@ -185,7 +186,7 @@ private:
             document_.json["meshes"][filled.place.mesh]["primitives"][filled.place.primitive];
         const bool is_index = filled.attribute.empty();
         if (is_index)
-            primitive.erase("mode");  // strips are lists now
+            primitive.erase("mode");  // strips are now lists
         Json& reference =
             is_index ? primitive["indices"] : primitive["attributes"][filled.attribute];
         if (reference.is_null()) {
@@ -196,7 +197,7 @@ private:
         const auto [known, is_new] = view_of_.try_emplace(index, filled.view);
         const bool has_other =
             is_new ? accessors.at(index).contains("bufferView") : known->second != filled.view;
-        if (has_other) {  // for others that share the accessor
+        if (has_other) {  // other primitives share the accessor
             Json copy = accessors[index];
             index = accessors.size();
             reference = index;
@@ -220,7 +221,7 @@ private:
     std::size_t next_view_ = 0;
     std::map<std::size_t, std::pair<Bytes, std::size_t>> stored_;  ///< by view: bytes, stride
     std::vector<Filled> filled_;
-    std::map<std::size_t, std::size_t> view_of_;  ///< of accessors that are filled
+    std::map<std::size_t, std::size_t> view_of_;  ///< view of each filled accessor
 };
 
 }  // namespace

@@ -1,13 +1,13 @@
 #pragma once
-// KHR_draco_mesh_compression: primitives whose vertices and triangles are coded.
+// KHR_draco_mesh_compression: primitives with encoded vertices and triangles.
 
 #include "scene/gltf/document.h"
 
 namespace lumel {
 
-/// Decodes every coded primitive, unless its accessors have plain data, into accessors over buffers
-/// of their own, and takes the extension out of the document. BufferViews are sound, accessors not
-/// checked yet. Throws Error{input}.
+/// Decodes every encoded primitive whose accessors have no plain data into new buffers, and removes
+/// the extension from the document. Requires valid bufferViews; accessors are unchecked. Throws
+/// Error{input}.
 void decode_draco(GltfDocument& document);
 
 }  // namespace lumel

@@ -19,13 +19,13 @@ namespace lumel {
 
 namespace {
 
-/// Faces that a file of any size may have, and those for each byte of it. A flat grid of two
-/// million triangles takes a byte for 38 of them; of ordinary meshes each triangle takes a byte.
+/// Faces allowed for any file, and per byte. A flat grid of two million triangles takes one byte
+/// per 38 of them; ordinary meshes take one byte per triangle.
 constexpr std::size_t kFreeFaces = std::size_t(1) << 20;
 constexpr std::size_t kFacesPerByte = 256;
-/// Numbers of all attributes for each face that is allowed.
+/// Attribute values allowed per face.
 constexpr std::size_t kNumbersPerFace = 8;
-/// glTF asks for this bitstream; what came before is coded in other ways.
+/// glTF requires this bitstream; earlier ones use other encodings.
 constexpr std::pair<int, int> kOldestVersion = {2, 2};
 
 constexpr std::array<std::pair<draco::DataType, ComponentType>, 6> kTypes = {{
@@ -37,12 +37,12 @@ constexpr std::array<std::pair<draco::DataType, ComponentType>, 6> kTypes = {{
     {draco::DT_FLOAT32, ComponentType::f32},
 }};
 
-/// What a stream may take, and whether it wanted more.
+/// Limit of faces that a stream may decode, and whether it was exceeded.
 struct Bound {
     std::size_t faces = 0;
     bool exceeded = false;
 
-    /// False if it is more than is left.
+    /// Subtracts `wanted`. Returns false if it exceeds the rest.
     bool take(std::uint64_t wanted)
     {
         exceeded = wanted > faces;
@@ -52,8 +52,8 @@ struct Bound {
     }
 };
 
-/// Faces that a stream is about to decode, each counted once more for every set of attributes that
-/// has a connectivity of its own. Nothing if it ends before it says so.
+/// Faces that a stream is about to decode, counted once more for every attribute set with its own
+/// connectivity. nullopt if the stream ends early.
 std::optional<std::uint64_t> claimed_faces(const draco::DecoderBuffer& buffer, bool edgebreaker)
 {
     draco::DecoderBuffer ahead;
@@ -68,7 +68,7 @@ std::optional<std::uint64_t> claimed_faces(const draco::DecoderBuffer& buffer, b
     return std::uint64_t(faces) * (1u + sets);
 }
 
-/// A decoder of the library that looks at what it is about to take memory for.
+/// A decoder of the library that checks sizes before allocating memory.
 template <class Decoder, bool kEdgebreaker>
 class BoundedDecoder : public Decoder {
 public:
@@ -107,7 +107,7 @@ std::unique_ptr<draco::MeshDecoder> decoder_for(std::uint8_t method, Bound& boun
     return nullptr;
 }
 
-/// False if the stream is broken.
+/// Returns false if the stream is broken.
 bool decode(std::span<const std::uint8_t> stream, std::uint8_t method, Bound& bound,
             draco::Mesh& mesh)
 try {
@@ -122,10 +122,10 @@ try {
 } catch (const std::bad_alloc&) {
     throw;
 } catch (const std::exception&) {
-    return false;  // the library gave a container an impossible length
+    return false;  // the library requested an impossible container size
 }
 
-/// Values of all points in their order. False if the stream has not said all of them.
+/// Reads the values of all points in order. Returns false if the stream lacks some.
 bool read_values(const draco::PointAttribute& from, std::size_t points, Bytes& bytes)
 {
     if (!from.is_mapping_identity() && from.indices_map_size() < points)

@@ -1,5 +1,5 @@
 #pragma once
-// One stream of Draco: a mesh as triangles and attributes.
+// A Draco stream: one mesh as triangles and attributes.
 
 #include <cstdint>
 #include <optional>
@@ -11,8 +11,8 @@
 namespace lumel {
 
 struct DracoAttribute {
-    std::uint32_t id = 0;               ///< what a file calls it by
-    std::optional<ComponentType> type;  ///< none: one that glTF does not have
+    std::uint32_t id = 0;               ///< identifier in the file
+    std::optional<ComponentType> type;  ///< nullopt if glTF does not have it
     std::size_t components = 0;
     Bytes bytes;  ///< [points][components]
 };
@@ -23,14 +23,13 @@ struct DracoMesh {
     std::vector<DracoAttribute> attributes;
 };
 
-/// What streams of `bytes` bytes may decode to, all together [faces]. Equal symbols take no bytes
-/// at all, so that the bytes alone are no bound: the bound is generous, and small files have it
-/// too.
+/// Total limit of faces for streams of `bytes` bytes. Equal symbols take no bytes, so the size
+/// alone gives no bound; the limit is generous, for small files too.
 std::size_t draco_allowance(std::size_t bytes);
 
-/// Decodes a stream and takes what it needed off the allowance. `place` names the stream. Throws
-/// Error{input} if it is broken, older than bitstream 2.2, or needs more than is left; memory is
-/// taken only for what is allowed.
+/// Decodes a stream and subtracts its faces from the allowance. `place` names the stream. Throws
+/// Error{input} if it is broken, older than bitstream 2.2, or exceeds the allowance. Allocates
+/// memory only within it.
 DracoMesh decode_draco_stream(const JsonView& place, std::span<const std::uint8_t> stream,
                               std::size_t& allowance);
 

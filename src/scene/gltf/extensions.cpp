@@ -8,7 +8,7 @@ namespace lumel {
 
 namespace {
 
-/// Read, or without effect on diffuse light, so a file may require them.
+/// Extensions that are read or do not affect diffuse light; files may require them.
 constexpr std::array<std::string_view, 27> kSupported = {
     "EXT_lights_ies",
     "EXT_lights_image_based",

@@ -1,20 +1,20 @@
 #pragma once
-// Which glTF extensions Lumel understands.
+// Supported glTF extensions.
 
 #include "base/json/json_view.h"
 
 namespace lumel {
 
-/// Throws Error{input} naming the first extension that the file requires and Lumel cannot honour.
+/// Throws Error{input} with the first required extension that is not supported.
 void check_extensions(const JsonView& root);
 
-/// Refuses an extension that the file needs at this place.
+/// Throws Error{input} for an unsupported extension at this location.
 [[noreturn]] void refuse_extension(const JsonView& place, const std::string& name);
 
-/// Takes an extension out of an object of the document, if it is there.
+/// Removes an extension from an object of the document, if present.
 void erase_extension(Json& object, const char* name);
 
-/// Takes its name out of extensionsUsed and extensionsRequired of a document: nothing has it now.
+/// Removes the name from extensionsUsed and extensionsRequired of a document.
 void forget_extension(Json& gltf, const char* name);
 
 /// True if extensionsUsed names it.

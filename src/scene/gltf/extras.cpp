@@ -5,7 +5,7 @@ namespace {
 
 constexpr double kMin = 1e-6, kMax = 1e9;  // [texels/m]
 
-/// A member that is an object. Extras may be anything.
+/// An object member, or nullopt. Extras may have any type.
 std::optional<JsonView> object_in(const JsonView& parent, const char* key)
 {
     const auto found = parent.find(key);

@@ -41,7 +41,7 @@ std::string percent_decoded(const JsonView& uri, std::string_view text)
     return decoded;
 }
 
-/// RFC 4648, with or without padding.
+/// Base64 of RFC 4648, with or without padding.
 Bytes base64_decoded(const JsonView& uri, std::string_view text)
 {
     while (!text.empty() && text.back() == '=')
@@ -121,7 +121,7 @@ Bytes read_uri(const JsonView& uri, const std::string& scene_path)
         uri.fail("has the scheme " + quoted(std::string(text.substr(0, length))) +
                  "; only files in the scene's folder and data: URIs are read");
 
-    // A path counts as inside only after its links and its ".." are resolved.
+    // The path is checked after links and ".." are resolved.
     const std::string name = percent_decoded(uri, text);
     if (name.empty() || name.find('\0') != std::string::npos)
         uri.fail("does not name a file");

@@ -1,5 +1,5 @@
 #pragma once
-// Bytes behind URIs, never from outside the scene's folder.
+// Reads the data of URIs, only from the scene's folder.
 
 #include <string>
 
@@ -8,9 +8,8 @@
 
 namespace lumel {
 
-/// What a glTF "uri" stands for: a data: URI, or a file (percent-encoded, relative) that lies
-/// in the folder of `scene_path` or below it once symbolic links are resolved.
-/// Throws Error{input} for all else.
+/// Contents of a glTF "uri": a data: URI, or a percent-encoded relative path to a file inside the
+/// folder of `scene_path` after symbolic links are resolved. Throws Error{input} for all others.
 Bytes read_uri(const JsonView& uri, const std::string& scene_path);
 
 }  // namespace lumel

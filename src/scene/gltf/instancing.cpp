@@ -14,12 +14,12 @@ namespace lumel {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-/// A node takes some hundred bytes, and one such list may serve many nodes of a small file.
+/// A node takes some hundred bytes, and many nodes of a small file may use one such list.
 constexpr std::size_t kMaxInstances = std::size_t(1) << 20;
-/// Rotations may be written in 8 bits; what is farther from unit length is no rotation.
+/// Tolerance for unit quaternions, which may have 8 bits per component.
 constexpr double kUnitTolerance = 0.02;
 
-/// Where instances stand, as members of a node.
+/// A transform attribute of instances, and the node member it becomes.
 struct Channel {
     const char* attribute;
     const char* member;
@@ -38,7 +38,7 @@ struct Values {
     std::vector<float> numbers;  ///< [instances][components]
 };
 
-/// Whole numbers miss the unit length; floats stay as they are.
+/// Normalises quaternions stored as integers; floats are unchanged.
 void normalise(const JsonView& view, std::vector<float>& numbers, bool floats)
 {
     for (std::size_t i = 0; i < numbers.size(); i += 4) {
@@ -72,7 +72,7 @@ Values read_values(const GltfDocument& document, const JsonView& view, const Cha
     return values;
 }
 
-/// The node of one instance, without its place.
+/// The node of one instance, without its transform.
 Json instance_of(const JsonView& node, std::size_t number)
 {
     Json instance = Json::object();
@@ -87,7 +87,7 @@ Json instance_of(const JsonView& node, std::size_t number)
     return instance;
 }
 
-/// A node with instances, and those.
+/// A node with its instances.
 struct Crowd {
     std::size_t node = 0;
     std::vector<Json> instances;
@@ -115,7 +115,7 @@ Crowd read_crowd(const GltfDocument& document, const JsonView& node, std::size_t
     if (count > room)
         attributes.fail("makes more than " + std::to_string(kMaxInstances) +
                         " instances in the file");
-    node.count("children");  // is a list if it is there
+    node.count("children");  // throws unless it is a list or absent
 
     Crowd crowd{index, {}};
     for (std::size_t i = 0; i < count && node.find("mesh"); ++i) {
@@ -134,7 +134,7 @@ Crowd read_crowd(const GltfDocument& document, const JsonView& node, std::size_t
 
 void expand_instances(GltfDocument& document)
 {
-    // JsonViews keep places in the JSON, which therefore changes only when all are read.
+    // JsonViews refer to locations in the JSON, so it changes only after all nodes are read.
     std::vector<Crowd> crowds;
     std::size_t room = kMaxInstances;
     document.root().each("nodes", [&](const JsonView& node, std::size_t i) {

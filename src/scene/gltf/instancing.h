@@ -1,13 +1,13 @@
 #pragma once
-// EXT_mesh_gpu_instancing: a node that shows its mesh many times.
+// EXT_mesh_gpu_instancing: nodes that instance their mesh.
 
 #include "scene/gltf/document.h"
 
 namespace lumel {
 
-/// Gives every instance a node of its own, a child of the node that has the instances, at the end
-/// of the list of nodes; takes the extension out of the document. Accessors are sound. Attributes
-/// beside the places are dropped. Throws Error{input}.
+/// Appends a node for every instance, as a child of the instancing node, and removes the extension
+/// from the document. Drops attributes other than transforms. Requires valid accessors. Throws
+/// Error{input}.
 void expand_instances(GltfDocument& document);
 
 }  // namespace lumel

@@ -20,7 +20,8 @@ constexpr std::int64_t kLargestStride = 256;
 constexpr std::int64_t kLargestCount = std::int64_t(1) << 40;
 constexpr std::int64_t kLargestSize = std::int64_t(1) << 50;
 constexpr std::size_t kCornersOfTriangle = 3;
-/// Each component of 64 vertices takes a byte at least, and so does each triangle or index.
+/// Upper bounds of the compression: one byte per component of 64 vertices, per triangle and per
+/// index.
 constexpr std::size_t kVerticesPerByte = 64;
 /// First byte of vertices in the newer bitstream of KHR_meshopt_compression.
 constexpr std::uint8_t kNewerVertices = 0xA1;
@@ -28,7 +29,7 @@ constexpr std::uint8_t kNewerVertices = 0xA1;
 enum class Mode { attributes, triangles, indices };
 enum class Filter { none, octahedral, quaternion, exponential };
 
-/// What the extension says of a bufferView.
+/// Parameters of an encoded bufferView.
 struct Coded {
     const std::uint8_t* bytes = nullptr;
     std::size_t size = 0;
@@ -72,7 +73,7 @@ Filter filter_of(const JsonView& extension)
     extension.get("filter").fail("is " + quoted(filter) + ", which is not read");
 }
 
-/// Strides that the decoders and filters take.
+/// True for strides that the decoders and filters support.
 bool fits(Mode mode, Filter filter, std::size_t stride)
 {
     if (mode != Mode::attributes)
@@ -89,7 +90,7 @@ bool fits(Mode mode, Filter filter, std::size_t stride)
     return stride % 4 == 0;
 }
 
-/// Throws unless the coded bytes can hold that much.
+/// Throws if the encoded bytes are too few for the stated count.
 void check_claim(const JsonView& extension, const Coded& coded)
 {
     const std::size_t most = coded.mode == Mode::attributes  ? coded.size * kVerticesPerByte
@@ -101,7 +102,7 @@ void check_claim(const JsonView& extension, const Coded& coded)
                                     std::to_string(coded.size) + " bytes can hold");
 }
 
-/// The stretch of a buffer that is coded.
+/// The encoded range of a buffer.
 std::pair<const std::uint8_t*, std::size_t> stretch_of(const GltfDocument& document,
                                                        const JsonView& extension)
 {
@@ -142,7 +143,7 @@ Coded read_coded(const GltfDocument& document, const JsonView& view, const JsonV
     return coded;
 }
 
-/// False if the data is broken.
+/// Returns false if the data is broken.
 bool decode(const Coded& coded, Bytes& plain)
 {
     switch (coded.mode) {
@@ -201,7 +202,7 @@ bool is_fallback(const JsonView& buffer)
 
 void decode_meshopt(GltfDocument& document)
 {
-    // Views keep places in the JSON, which therefore changes only when all are decoded.
+    // JsonViews refer to locations in the JSON, so it changes only after all views are decoded.
     std::vector<std::pair<std::size_t, Bytes>> views;
     document.root().each("bufferViews", [&](const JsonView& view, std::size_t i) {
         const auto extension = extension_of(view);
@@ -226,7 +227,7 @@ void decode_meshopt(GltfDocument& document)
 
 std::string meshoptimizer_version()
 {
-    constexpr int kMajor = 1000, kMinor = 10;  // as the header counts
+    constexpr int kMajor = 1000, kMinor = 10;  // factors of the header's version number
     return std::to_string(MESHOPTIMIZER_VERSION / kMajor) + "." +
            std::to_string(MESHOPTIMIZER_VERSION % kMajor / kMinor) + "." +
            std::to_string(MESHOPTIMIZER_VERSION % kMinor);

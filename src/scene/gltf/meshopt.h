@@ -1,16 +1,16 @@
 #pragma once
-// EXT_meshopt_compression and KHR_meshopt_compression: bufferViews whose bytes are coded.
+// EXT_meshopt_compression and KHR_meshopt_compression: encoded bufferViews.
 
 #include "scene/gltf/document.h"
 
 namespace lumel {
 
-/// True for a buffer that only stands for what coded bufferViews decode to, and has no data.
+/// True for a placeholder buffer without data, for decoded bufferViews.
 bool is_fallback(const JsonView& buffer);
 
-/// Decodes every coded bufferView into a buffer of its own, unless its buffer has the plain data,
-/// and takes the extension out of the document. Buffers are loaded, bufferViews not checked yet.
-/// Throws Error{input}.
+/// Decodes every encoded bufferView whose buffer has no plain data into a new buffer, and removes
+/// the extension from the document. Requires loaded buffers; bufferViews are unchecked. Throws
+/// Error{input}.
 void decode_meshopt(GltfDocument& document);
 
 }  // namespace lumel

@@ -10,7 +10,7 @@ namespace lumel {
 namespace {
 
 constexpr const char *kExtras = "extras", *kPart = "lumel_part", *kWhole = "of", *kPage = "page";
-/// Runs of triangles of one part: its number, how many; and so on.
+/// Runs of triangles of one part: part, count, part, count, …
 constexpr const char* kRuns = "runs";
 constexpr const char *kIndices = "indices", *kPages = "pages";
 constexpr std::int64_t kMaxTriangles = std::int64_t(1) << 31;
@@ -35,7 +35,7 @@ Json& new_mark(Json& primitive)
     return extras[kPart];
 }
 
-/// A whole number of 0 to `most` behind a key.
+/// An integer of 0 to `most` at `key`.
 std::optional<std::int64_t> number_at(const Json& object, const char* key, std::int64_t most)
 {
     const auto found = object.find(key);
@@ -45,7 +45,7 @@ std::optional<std::int64_t> number_at(const Json& object, const char* key, std::
     return number && *number >= 0 && *number <= most ? number : std::nullopt;
 }
 
-/// Triangles of a list; nothing for what is none.
+/// Triangle count of a list; nullopt for other primitives.
 std::optional<std::int64_t> triangles_of(const Json& gltf, const Json& primitive)
 {
     if (primitive.contains("mode") && number_at(primitive, "mode", kTriangleMode) != kTriangleMode)
@@ -59,7 +59,7 @@ std::optional<std::int64_t> triangles_of(const Json& gltf, const Json& primitive
     return count && *count % 3 == 0 ? std::optional(*count / 3) : std::nullopt;
 }
 
-/// Same vertices, and nothing but pages tells them apart.
+/// True if two primitives have equal vertices and differ only by page.
 bool share_vertices(const Json& a, const Json& b)
 {
     const auto same = [&](const char* key) {
@@ -72,7 +72,7 @@ bool share_vertices(const Json& a, const Json& b)
     return same("attributes") && same("targets") && !packed(a) && !packed(b);
 }
 
-/// Triangles of each part by the runs; empty where they are not sound.
+/// Triangles of each part according to the runs; empty if they are invalid.
 std::vector<std::int64_t> sums_of_runs(const Json& mark, std::size_t parts)
 {
     const auto runs = mark.find(kRuns);

@@ -30,7 +30,7 @@ void erase_mark(Json& primitive)
         primitive.erase(kExtras);
 }
 
-/// `user` names a material, as primitives do, and what maps variants to materials.
+/// `user`: an object with a material index, i.e. a primitive or a mapping of material variants.
 void make_double_sided(Json& materials, const Json& user)
 {
     if (!user.is_object() || !user.contains("material") || !user["material"].is_number_unsigned())

@@ -1,7 +1,6 @@
 #pragma once
-// Double-sided surfaces in a baked glTF. Where the sides have different light, and texels of their
-// own, they are two single-sided primitives; marks in their extras tell a later bake, or a
-// correction, that they are one.
+// Double-sided surfaces in a baked glTF. If the sides have separate light and texels, they are two
+// single-sided primitives; marks in their extras let later bakes and corrections join them.
 
 #include "base/json/json_file.h"
 
@@ -9,11 +8,11 @@ namespace lumel {
 
 enum class MarkedSide { front, back };
 
-/// Marks one of two primitives that are the sides of one surface.
+/// Marks one of the two primitives of a double-sided surface.
 void mark_side(Json& primitive, MarkedSide side);
 
-/// Makes them one again, where a document has marks: backs are left out, materials of fronts are
-/// double-sided. `gltf` may be any JSON object.
+/// Joins marked primitives: removes backs and makes the materials of fronts double-sided. `gltf`
+/// may be any JSON object.
 void join_sides(Json& gltf);
 
 }  // namespace lumel

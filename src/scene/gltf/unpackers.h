@@ -1,11 +1,11 @@
 #pragma once
-// The libraries that unpack meshes.
+// Versions of the mesh decompression libraries.
 
 #include <string>
 
 namespace lumel {
 
-/// Of the headers that it was built with: "1.5.5".
+/// Compile-time version: "1.5.5".
 std::string draco_version();
 std::string meshoptimizer_version();
 

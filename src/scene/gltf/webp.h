@@ -1,12 +1,12 @@
 #pragma once
-// EXT_texture_webp, by which textures name WebP pictures.
+// EXT_texture_webp: WebP images of textures.
 
 #include "scene/gltf/document.h"
 
 namespace lumel {
 
-/// Textures name their WebP picture as any other, unless they have another; the extension is gone
-/// from the document. Throws Error{input}.
+/// Makes the WebP image the source of textures that have no other, and removes the extension from
+/// the document. Throws Error{input}.
 void name_webp_images(GltfDocument& document);
 
 }  // namespace lumel

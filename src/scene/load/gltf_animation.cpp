@@ -16,12 +16,12 @@ namespace lumel {
 
 namespace {
 
-/// Rotations may be written in 8 bits; what is farther from unit length is no rotation.
+/// Tolerance for unit quaternions, which may have 8 bits per component.
 constexpr double kUnitTolerance = 0.02;
 constexpr const char* kPointer = "KHR_animation_pointer";
 constexpr const char* kStrength = "KHR_materials_emissive_strength";
 
-/// What a channel changes.
+/// Kind of an animated property.
 enum class Quantity { vector, rotation, colour, strength };
 
 /// Accessor type of one value.
@@ -32,13 +32,13 @@ const char* type_of(Quantity quantity)
     return quantity == Quantity::rotation ? "VEC4" : "VEC3";
 }
 
-/// A property of a material that a JSON pointer names.
+/// A material property addressed by a JSON pointer.
 struct MaterialPointer {
     std::size_t material = 0;
     Quantity quantity = Quantity::colour;
 };
 
-/// "/materials/3/emissiveFactor" and the strength; nothing for other pointers.
+/// Parses "/materials/3/emissiveFactor" and the strength; nullopt for other pointers.
 std::optional<MaterialPointer> parse_pointer(const std::string& pointer)
 {
     constexpr std::string_view kStart = "/materials/";
@@ -101,7 +101,7 @@ private:
     void read(const JsonView& channel)
     {
         const JsonView target = channel.get("target");
-        const std::string& path = target.get("path").string();
+        const std::string path = target.get("path").string();
         if (path == "pointer")
             read_pointer(channel, target);
         else if (path == "translation" || path == "rotation" || path == "scale")
@@ -113,7 +113,7 @@ private:
     void read_node(const JsonView& channel, const JsonView& target, const std::string& path)
     {
         const auto reference = target.find("node");
-        if (!reference)  // for extensions, by the format
+        if (!reference)  // reserved for extensions
             return;
         AnimatedNode& node = animation_.nodes[reference->index(animation_.nodes.size(), "nodes")];
         if (node.rest.matrix)

@@ -12,14 +12,14 @@ namespace lumel {
 
 namespace {
 
-/// A format in which an attribute can be stored.
+/// A storage format of an attribute.
 struct Encoding {
     ComponentType type;
     bool normalized;
     bool quantized;  ///< only with KHR_mesh_quantization
 };
 
-/// What an attribute may look like.
+/// Allowed types and formats of an attribute.
 struct AttributeRule {
     const char* types;  ///< "VEC3" or "VEC3 VEC4"
     std::vector<Encoding> encodings;
@@ -100,7 +100,7 @@ public:
         attributes.as_object();
     }
 
-    /// Vectors of N floats, or none if the attribute is absent.
+    /// Vectors of N floats; empty if the attribute is absent.
     template <int N>
     std::vector<glm::vec<N, float>> read(const char* name, const AttributeRule& rule) const
     {
@@ -118,7 +118,7 @@ public:
         return vectors;
     }
 
-    /// The same, where NaN and infinity are an error and the length is given.
+    /// Reads finite vectors of the given number, else throws.
     template <int N>
     std::vector<glm::vec<N, float>> read_finite(const char* name, const AttributeRule& rule,
                                                 std::size_t length) const

@@ -1,5 +1,5 @@
 #pragma once
-// Vertex attributes of one primitive, checked and as floats.
+// Vertex attributes of a primitive, checked and converted to floats.
 
 #include "scene/gltf/document.h"
 #include "scene/load/gltf_mesh.h"
@@ -8,8 +8,8 @@
 namespace lumel {
 
 /// Fills positions, normals, texcoords and colors of `primitive` from the JSON primitive `view`.
-/// `weights`: default weights of the mesh's morph targets. Normals are as in the file.
-/// Throws Error{input}: missing POSITION, wrong types, lengths that differ, NaN or infinity.
+/// `weights`: default weights of the mesh's morph targets. Normals are not normalised. Throws
+/// Error{input} for a missing POSITION, wrong types, different lengths, NaN or infinity.
 void read_attributes(const GltfDocument& document, const JsonView& view,
                      const std::vector<float>& weights, Primitive& primitive);
 

@@ -15,11 +15,11 @@ namespace lumel {
 
 namespace {
 
-/// Larger textures do not fit common GPUs either.
+/// Common GPUs do not support larger textures.
 constexpr int kLargestSide = 16384;
-/// Deflate cannot pack better than 1032 : 1, so a shorter PNG lies about its size.
+/// Deflate's maximum ratio is 1032 : 1; a shorter PNG has a false size.
 constexpr std::uint64_t kLargestPngRatio = 1032;
-/// A Huffman-coded JPEG spends at least one bit on each block of 8 × 8 pixels.
+/// A Huffman-coded JPEG has at least one bit per block of 8 × 8 pixels.
 constexpr std::uint64_t kLargestJpegPixelsPerByte = 8 * 64;
 
 constexpr std::uint8_t kPngSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
@@ -49,7 +49,7 @@ std::uint32_t big_endian(const Bytes& bytes, std::size_t offset)
 struct Claim {
     std::uint64_t width = 0;
     std::uint64_t height = 0;
-    bool possible = true;  ///< the file has enough bytes to encode that much
+    bool possible = true;  ///< the file has enough bytes for that size
 };
 
 Claim png_claim(const Bytes& bytes, const std::string& place)
@@ -69,10 +69,10 @@ Claim png_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
-/// True if every chunk is as long as it says. The decoder takes memory by what they say.
+/// True if every chunk has its stated length. The decoder allocates by it.
 bool png_is_complete(const Bytes& bytes)
 {
-    constexpr std::size_t kFrame = 12;  // its length, its type and its checksum
+    constexpr std::size_t kFrame = 12;  // length, type and checksum
     for (std::size_t at = sizeof kPngSignature; at < bytes.size();) {
         const std::size_t left = bytes.size() - at;
         if (left < kFrame || big_endian(bytes, at) > left - kFrame)
@@ -84,7 +84,7 @@ bool png_is_complete(const Bytes& bytes)
     return false;
 }
 
-/// What stb says of the last failure; it does not know all of them. It may quote the file.
+/// Reason of the last failure according to stb, if it has one; may quote the file.
 std::string why_not()
 {
     const char* reason = stbi_failure_reason();
@@ -106,7 +106,7 @@ Claim jpeg_claim(const Bytes& bytes, const std::string& place)
     return claim;
 }
 
-/// Where the texels of a Radiance picture begin, behind the line that gives its size.
+/// Offset of the texels of a Radiance image, after the size line.
 std::size_t hdr_data_begin(const Bytes& bytes)
 {
     constexpr std::uint8_t kBlankLine[] = {'\n', '\n'};
@@ -118,12 +118,12 @@ std::size_t hdr_data_begin(const Bytes& bytes)
     return std::size_t(size_line - bytes.begin()) + (size_line != bytes.end());
 }
 
-/// Where a run-length coded row of a Radiance picture ends; nothing if it is broken or cut short.
-/// The decoder would go round for ever on runs of length 0.
+/// End of a run-length coded row of a Radiance image; nullopt if it is broken or truncated. The
+/// decoder would loop forever on runs of length 0.
 std::optional<std::size_t> hdr_row_end(const Bytes& bytes, std::size_t at, int width)
 {
     constexpr int kChannels = 4;
-    constexpr int kLongestDump = 128;  // a greater count is a run of what is above it
+    constexpr int kLongestDump = 128;  // larger counts are runs
     if (at + 4 > bytes.size() || bytes[at] != 2 || bytes[at + 1] != 2 ||
         (bytes[at + 2] << 8 | bytes[at + 3]) != width)
         return std::nullopt;
@@ -141,8 +141,8 @@ std::optional<std::size_t> hdr_row_end(const Bytes& bytes, std::size_t at, int w
     return at;
 }
 
-/// Rows of 8 to 32767 texels that begin with 2 2 are run-length coded by channel, others take four
-/// bytes a texel.
+/// Rows of 8 to 32767 texels that begin with 2 2 are run-length coded by channel; others take four
+/// bytes per texel.
 Claim hdr_claim(const Bytes& bytes, const std::string& place)
 {
     int width = 0;
@@ -150,7 +150,7 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     int channels = 0;
     if (!stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())) ||
         !stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        fail(place, "is not a Radiance picture that can be read");
+        fail(place, "is not a readable Radiance image");
     Claim claim{std::uint64_t(width), std::uint64_t(height)};
     std::optional<std::size_t> at = hdr_data_begin(bytes);
     const bool packed = width >= 8 && width < 32768 && *at + 2 < bytes.size() && bytes[*at] == 2 &&
@@ -161,11 +161,11 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     else
         claim.possible = 4 * claim.width * claim.height <= bytes.size() - *at;
     if (!at)
-        fail(place, "is a Radiance picture that is broken or cut short");
+        fail(place, "is a Radiance image that is broken or cut short");
     return claim;
 }
 
-/// Throws unless a claimed size can be true.
+/// Throws if a claimed size is impossible.
 void check_claim(const Claim& claim, std::size_t bytes, const std::string& place)
 {
     const std::string size = std::to_string(claim.width) + " x " + std::to_string(claim.height);
@@ -179,10 +179,10 @@ void check_claim(const Claim& claim, std::size_t bytes, const std::string& place
                         " bytes can hold");
 }
 
-/// The decoder fills what is missing with grey; an end marker after the last scan proves the rest.
+/// Looks for an end marker after the last scan: the decoder fills missing data with grey.
 bool jpeg_is_complete(const Bytes& bytes)
 {
-    // Walk the segments to the first scan; only after it does FF D9 mean the end of this image.
+    // FF D9 is the end of this image only after the first scan, so segments are skipped up to it.
     std::size_t at = 2;
     while (at + 4 <= bytes.size() && bytes[at] == 0xFF && bytes[at + 1] != 0xDA) {
         if (bytes[at + 1] == 0xFF) {
@@ -210,7 +210,7 @@ Texture decode_image(const Bytes& bytes, const std::string& place)
     if (is_webp(bytes))
         return decode_webp(bytes, place);
 
-    // Believe the claimed size only if it can be true, before any memory is taken for it.
+    // Verifies the claimed size before memory is allocated for it.
     const Claim claim = png ? png_claim(bytes, place) : jpeg_claim(bytes, place);
     check_claim(claim, bytes.size(), place);
     if (png ? !png_is_complete(bytes) : !jpeg_is_complete(bytes))
@@ -245,7 +245,7 @@ Image decode_hdr(const Bytes& bytes, const std::string& place)
                                &channels_in_file, image.channels),
         stbi_image_free);
     if (!pixels)
-        fail(place, std::string("cannot be decoded as Radiance picture (") + why_not() + ")");
+        fail(place, std::string("cannot be decoded as Radiance image (") + why_not() + ")");
     const std::size_t count =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
     image.values.assign(pixels.get(), pixels.get() + count);

@@ -9,13 +9,13 @@
 
 namespace lumel {
 
-/// Decodes a PNG, JPEG or WebP file to 8-bit RGBA. `place` names the image in messages.
-/// Throws Error{input} if it is none of them, broken, cut short, or claims more pixels than
-/// 16384 a side or than its bytes can encode.
+/// Decodes a PNG, JPEG or WebP file to 8-bit RGBA. `place` names the image in messages. Throws
+/// Error{input} if it is of another type, broken, truncated, or claims more than 16384 pixels a
+/// side or more than its bytes can encode.
 Texture decode_image(const Bytes& bytes, const std::string& place);
 
-/// Decodes a Radiance picture (.hdr, RGBE from the top left) to 3 channels of linear light, in the
-/// file's own unit. Throws Error{input} as decode_image does.
+/// Decodes a Radiance image (.hdr, RGBE, top left first) to 3 channels of linear light, in the
+/// file's unit. Throws Error{input} as decode_image does.
 Image decode_hdr(const Bytes& bytes, const std::string& place);
 
 }  // namespace lumel

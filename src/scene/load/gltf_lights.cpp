@@ -21,7 +21,7 @@ void read_cone(const JsonView& view, PunctualLight& light)
     const JsonView spot = view.get("spot");
     light.inner_cone = spot.number_or("innerConeAngle", light.inner_cone);
     light.outer_cone = spot.number_or("outerConeAngle", light.outer_cone);
-    // Exporters write π/2 with few digits.
+    // Exporters round π/2.
     constexpr float kAngleTolerance = 1e-4f;
     if (!(light.inner_cone >= 0.0f && light.inner_cone <= light.outer_cone &&
           light.outer_cone <= glm::half_pi<float>() + kAngleTolerance))
@@ -81,12 +81,12 @@ Camera read_camera(const JsonView& view)
     return camera;
 }
 
-/// IES files of EXT_lights_ies, each read when a node first names it.
+/// IES files of EXT_lights_ies, read on first use.
 class ProfileList {
 public:
     ProfileList(const GltfDocument& document, Scene& scene) : document_(document), scene_(scene) {}
 
-    /// Where it is in Scene::profiles.
+    /// Index into Scene::profiles.
     int find(const JsonView& reference)
     {
         const auto list = document_.root().extension(kProfiles);
@@ -105,10 +105,10 @@ public:
 private:
     const GltfDocument& document_;
     Scene& scene_;
-    std::vector<int> known_;  ///< by the file's index, -1: not read yet
+    std::vector<int> known_;  ///< by index in the file; -1: not read yet
 };
 
-/// A number of an object's extras; nothing if there is none, as anything may stand there.
+/// A number in an object's extras; nullopt if absent. Extras may have any type.
 std::optional<float> extra(const JsonView& view, const char* key)
 {
     const auto extras = view.find("extras");
@@ -123,7 +123,8 @@ std::optional<float> extra(const JsonView& view, const char* key)
     return number;
 }
 
-/// How large it is, which no extension defines: {"radius": m} or {"angle": rad} of node or light.
+/// Reads the size of a light, which no extension defines: {"radius": m} or {"angle": rad} of node
+/// or light.
 void read_size(const JsonView& view, PunctualLight& light)
 {
     constexpr float kLargestAngle = glm::quarter_pi<float>();
@@ -133,8 +134,8 @@ void read_size(const JsonView& view, PunctualLight& light)
         light.radius = extra(view, "radius").value_or(light.radius);
 }
 
-/// EXT_lights_ies: the profile's candela times "multiplier", tinted. A punctual light on the same
-/// node is the same lamp: it keeps its kind, cone, range and colour.
+/// EXT_lights_ies: the profile's candela times "multiplier", tinted. Modifies the punctual light
+/// on the same node, if any, which keeps its kind, cone, range and colour.
 void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLight& light)
 {
     glm::vec3 color(1.0f);
@@ -148,7 +149,7 @@ void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLigh
     light.profile = profiles.find(extension.get("light"));
 }
 
-/// The light on a node, if there is one; without its place.
+/// The light of a node, if any, without its transform.
 std::optional<PunctualLight> read_light_of(const JsonView& root, const JsonView& node,
                                            ProfileList& profiles)
 {
@@ -176,7 +177,7 @@ std::optional<PunctualLight> read_light_of(const JsonView& root, const JsonView&
     return light;
 }
 
-/// A node's place and turn; its scale does not count. Flattened ones shine as if unturned.
+/// A node's transform without its scale. Flattened ones get no rotation.
 glm::mat4 without_scale(const glm::dmat4& world)
 {
     glm::dmat4 rigid(1.0);

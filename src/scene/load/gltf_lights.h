@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// Lights of KHR_lights_punctual and cameras on the placed nodes, into scene.lights and
-/// scene.cameras. Throws Error{input}.
+/// Reads the lights of KHR_lights_punctual and the cameras of the placed nodes into scene.lights
+/// and scene.cameras. Throws Error{input}.
 void read_lights_and_cameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
                              Scene& scene);
 

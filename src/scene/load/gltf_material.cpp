@@ -59,7 +59,7 @@ private:
             ++list_.transmission_textures;
     }
 
-    /// Metals and dielectrics alike reflect their base colour, here diffusely.
+    /// Metals and dielectrics alike reflect their base colour diffusely here.
     void read_base_color(const JsonView& view, Material& material)
     {
         if (const auto specular = view.extension("KHR_materials_pbrSpecularGlossiness")) {
@@ -87,7 +87,7 @@ private:
         }
         if (const auto extension = view.extension("KHR_materials_ior")) {
             const float ior = extension->number_or("ior", 1.5f);
-            // 0 means a mirror at all angles.
+            // An ior of 0 means a mirror at all angles.
             const float root = ior >= 1.0f ? (ior - 1.0f) / (ior + 1.0f) : 1.0f;
             material.dielectric_specular = glm::vec3(root * root);
         }
@@ -157,7 +157,7 @@ private:
         return int(std::min(set, kLargest));
     }
 
-    /// Place of a texture's image in Scene::textures; images are shared.
+    /// Index of a texture's image in Scene::textures; images are shared.
     int texture_slot(const JsonView& texture)
     {
         const auto source = texture.find("source");
@@ -203,7 +203,7 @@ private:
         view.numbers("offset", &offset.x, 2);
         view.numbers("scale", &scale.x, 2);
         const float rotation = view.number_or("rotation", 0.0f);
-        // Scaled, then turned counter-clockwise as seen with v pointing down, then moved.
+        // Scale, then rotation (counter-clockwise with v pointing down), then translation.
         const float c = std::cos(rotation);
         const float s = std::sin(rotation);
         use.transform = glm::mat3(glm::vec3(c, -s, 0.0f) * scale.x, glm::vec3(s, c, 0.0f) * scale.y,
@@ -241,7 +241,7 @@ std::vector<Texture> read_textures(const GltfDocument& document,
             }
         }
     });
-    // Which thread failed first must not decide what the user reads.
+    // Rethrows in order, so that the message does not depend on thread timing.
     for (const std::exception_ptr& failure : failures)
         if (failure)
             std::rethrow_exception(failure);

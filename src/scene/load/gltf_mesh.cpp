@@ -14,10 +14,10 @@ namespace {
 
 enum Mode { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, kTriangleFan };
 
-/// A small file can name the same data many times; beyond this no scene can be baked anyway.
+/// A small file can repeat the same data; larger scenes cannot be baked anyway.
 constexpr std::size_t kLargestVertexTotal = std::size_t(1) << 28;
 
-/// The vertices that an accessor of indices names.
+/// Reads an accessor of vertex indices.
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, const JsonView& indices,
                                         std::size_t vertex_count)
 {
@@ -36,7 +36,7 @@ std::vector<std::uint32_t> read_indices(const GltfDocument& document, const Json
                 .find("byteStride"))
             indices.fail("must not refer to a bufferView with a byteStride");
 
-    // The largest value of the type would mean "primitive restart", which glTF forbids.
+    // glTF forbids the largest value of the type ("primitive restart").
     const std::uint32_t restart = data.component_type == ComponentType::u8    ? 0xFFu
                                   : data.component_type == ComponentType::u16 ? 0xFFFFu
                                                                               : 0xFFFFFFFFu;
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> read_corners(const GltfDocument& document, const Json
     return corners;
 }
 
-/// The same of one that a bake had put on several pages, and the page of each vertex.
+/// Vertices of a primitive that a bake divided among pages; sets the page of each vertex.
 std::vector<std::uint32_t> read_joined(const GltfDocument& document, const JsonView& view,
                                        const JoinedParts& joined, Primitive& primitive)
 {
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> read_joined(const GltfDocument& document, const JsonV
     return corners;
 }
 
-/// Unrolls to three corners per triangle, with the winding of the glTF specification.
+/// Expands strips and fans to three corners per triangle, with glTF's winding.
 std::vector<std::uint32_t> triangle_list(std::vector<std::uint32_t> corners, Mode mode,
                                          MeshNotes& notes)
 {

@@ -1,12 +1,12 @@
 #pragma once
-// Meshes of a glTF file as clean triangle lists.
+// Meshes of a glTF file as valid triangle lists.
 
 #include "scene/gltf/document.h"
 #include "scene/values/scene.h"
 
 namespace lumel {
 
-/// What reading meshes came across, for the warnings.
+/// Statistics for warnings.
 struct MeshNotes {
     std::size_t vertices = 0;             ///< read so far
     std::size_t zero_area_triangles = 0;  ///< dropped
@@ -16,8 +16,8 @@ struct MeshNotes {
     std::size_t morphed_meshes = 0;       ///< with morph targets, read at their default weights
 };
 
-/// Reads json["meshes"][mesh]. Primitives without a triangle are left out; those without a
-/// material get the index `default_material`. Throws Error{input}.
+/// Reads json["meshes"][mesh]. Omits primitives without triangles; those without a material get
+/// `default_material`. Throws Error{input}.
 Mesh read_mesh(const GltfDocument& document, std::size_t mesh, int default_material,
                MeshNotes& notes);
 

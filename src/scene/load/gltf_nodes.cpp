@@ -8,10 +8,10 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
-/// Rotations are written with few digits; what is farther from unit length is no rotation.
+/// Tolerance for unit quaternions, which are often written with few digits.
 constexpr float kUnitTolerance = 0.01f;
 
-/// Parents and children, known to be a forest.
+/// Parents and children, verified to be a forest.
 struct Hierarchy {
     std::vector<std::vector<std::size_t>> children;
     std::vector<std::size_t> parent;  ///< kNone: root
@@ -33,7 +33,7 @@ Hierarchy read_hierarchy(const JsonView& root)
         });
     });
 
-    // With one parent each, nodes that no root leads to form cycles.
+    // Every node has at most one parent, so nodes without a path to a root form cycles.
     std::vector<bool> reached(count, false);
     std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < count; ++i)
@@ -147,7 +147,7 @@ std::vector<PlacedNode> place_nodes(const GltfDocument& document)
     const JsonView root = document.root();
     const Hierarchy tree = read_hierarchy(root);
 
-    // A list instead of recursion: hierarchies may be thousands deep.
+    // Iterative: hierarchies may be thousands of levels deep.
     std::vector<glm::dmat4> world(tree.parent.size(), glm::dmat4(1.0));
     std::vector<bool> reached(tree.parent.size(), false);
     std::vector<std::size_t> pending = scene_roots(root, tree);

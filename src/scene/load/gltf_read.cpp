@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::max();
 
-/// Facts gathered while reading, that end in warnings.
+/// Counts for warnings.
 struct Notes {
     MeshNotes mesh;
     std::size_t flattened_instances = 0;
@@ -43,7 +43,7 @@ float density_of(const JsonView& node, const JsonView& mesh)
     return own > 0.0f ? own : density_in_extras(mesh);
 }
 
-/// Meshes and instances: only meshes that the default scene shows are read.
+/// Reads meshes and instances of the default scene; other meshes are skipped.
 void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& nodes, Scene& scene,
                    Notes& notes)
 {
@@ -80,7 +80,7 @@ void read_geometry(const GltfDocument& document, const std::vector<PlacedNode>& 
     scene.dropped_triangles = notes.mesh.zero_area_triangles;
 }
 
-/// Puts a scene that lies far out around 0. Its places are known as doubles yet.
+/// Centres a scene that lies far from 0, before its transforms become floats.
 void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
 {
     Bounds whole{glm::dvec3(kFar), glm::dvec3(-kFar)};
@@ -105,7 +105,7 @@ void recentre(Scene& scene, std::vector<PlacedNode>& nodes)
         instance.transform = world_of(instance);
 }
 
-/// Materials and textures that the primitives name.
+/// Materials and textures used by the primitives.
 MaterialList read_looks(const GltfDocument& document, MaterialModel model, Scene& scene,
                         Notes& notes)
 {

@@ -1,9 +1,9 @@
-// EXT_lights_image_based. Only the first, sharpest cube of "specularImages" is used: what is
-// blurred for rough surfaces, and the irradiance, follow from it by solving.
+// EXT_lights_image_based. Only the first, sharpest cube of "specularImages" is used: solving
+// replaces the blurred levels and the irradiance.
 //
-// The extension stores the faces +x -x +y -y +z -z as OpenGL orders and turns them, each mirrored
-// left to right: as they look from inside the cube. With p the direction over its largest
-// coordinate, and (s, t) from a face's left and top in −1…1:
+// The extension stores the faces +x -x +y -y +z -z in OpenGL's order and orientation, each mirrored
+// left to right, as seen from inside the cube. With p the direction divided by its largest
+// coordinate, and (s, t) in −1…1 from a face's left and top:
 //
 //     +x: s = p.z, t = −p.y     +y: s = −p.x, t =  p.z     +z: s = −p.x, t = −p.y
 //     -x: s = −p.z, t = −p.y    -y: s = −p.x, t = −p.z     -z: s =  p.x, t = −p.y
@@ -27,15 +27,15 @@ namespace {
 
 constexpr const char* kLights = "EXT_lights_image_based";
 constexpr int kFaces = 6;
-constexpr int kLargestFace = 1024;  ///< of which the sky has all texels; larger ones are averaged
-constexpr int kFine = 4;            ///< places along each side of a texel of the sky
+constexpr int kLargestFace = 1024;  ///< larger faces are averaged
+constexpr int kFine = 4;            ///< samples along each side of a sky texel
 
 struct Cube {
     std::array<std::vector<glm::vec3>, kFaces> faces;  ///< [size][size] radiance
     int size = 0;
 };
 
-/// RGBD: colour as textures code it, over alpha; without transparency it is plain colour.
+/// RGBD: sRGB colour over alpha; opaque images are plain colour.
 glm::vec3 radiance_of(const std::uint8_t* rgba)
 {
     const auto& linear = srgb_to_linear();
@@ -81,7 +81,7 @@ glm::vec3 radiance_towards(const Cube& cube, const glm::vec3& d)
     return face[std::size_t(texel(place.y)) * std::size_t(cube.size) + std::size_t(texel(place.x))];
 }
 
-/// Radiance of a texel of the sky, averaged over the directions in it.
+/// Mean radiance over the directions of a sky texel.
 glm::vec3 mean_radiance(const Cube& cube, const Sky& sky, const glm::mat3& into_cube, int row,
                         int column)
 {

@@ -6,9 +6,9 @@
 
 namespace lumel {
 
-/// The light that EXT_lights_image_based gives the default scene; empty without one. Its sharpest
-/// cube of images is taken as radiance [cd/m²] times its intensity; PNG with alpha as RGBD.
-/// Throws Error{input}.
+/// The light of EXT_lights_image_based in the default scene; empty without one. The sharpest cube
+/// is radiance [cd/m²] times the extension's intensity; PNG with alpha is RGBD. Throws
+/// Error{input}.
 Sky read_image_based_light(const GltfDocument& document);
 
 }  // namespace lumel

@@ -1,12 +1,11 @@
-// IES LM-63 as ANSI/IES LM-63-19 and its forerunners describe it: lines of text up to TILT=, then
-// numbers in any number of lines:
-//
+// IES LM-63 according to ANSI/IES LM-63-19 and its predecessors: lines of text up to TILT=, then
+// numbers, distributed over any number of lines:
 //     lamps  lumens-per-lamp  multiplier  V  H  type  units  width  length  height
 //     ballast-factor  second-factor  watts
 //     V vertical angles, H horizontal angles, and for each of these V values in candela
 //
-// Angles of type C: vertical 0° is the nadir, 180° the zenith; horizontal angles stop at 0° where
-// all directions are alike, at 90° or 180° where the rest follows by reflection, else at 360°.
+// Type C angles: vertical 0° is the nadir, 180° the zenith. Horizontal angles end at 0° for
+// rotational symmetry, at 90° or 180° for mirror symmetry, else at 360°.
 
 #include "scene/load/ies.h"
 
@@ -21,9 +20,9 @@
 namespace lumel {
 namespace {
 
-constexpr int kMaxAngles = 10000;  ///< a table of hundredths of a degree has no use
+constexpr int kMaxAngles = 10000;  ///< finer than hundredths of a degree is not useful
 
-/// The words of a text and the lines they stand in. Commas count as blanks.
+/// The words of a text with their lines. Commas are blanks.
 class Words {
 public:
     Words(std::string_view text, const std::string& place) : text_(text), place_(place) {}
@@ -46,7 +45,7 @@ public:
         return line;
     }
 
-    /// The next word, in whatever line; empty at the end.
+    /// The next word on this or a later line; empty at the end.
     std::string_view next()
     {
         while (position_ >= line_text_.size() && !at_end()) {
@@ -89,13 +88,13 @@ public:
     }
 
 private:
-    static constexpr const char* kBlanks = " \t,\f\v\x1A";  // DOS ended files with 1A
+    static constexpr const char* kBlanks = " \t,\f\v\x1A";  // DOS files end with 1A
 
     std::string_view text_;
     const std::string& place_;
     std::size_t at_ = 0;
     int line_ = 1;
-    bool begun_ = false;  ///< a line was taken
+    bool begun_ = false;  ///< a line was read
     std::string_view line_text_;
     std::size_t position_ = 0;
 };
@@ -113,8 +112,8 @@ struct Table {
     std::vector<double> candela;     ///< [H][V]
 };
 
-/// Passes over the lines before the numbers. True for the editions whose second factor, after that
-/// of the ballast, changes the candela: later it is reserved, or describes how the file was made.
+/// Skips the lines before the numbers. Returns true for editions in which the second factor scales
+/// the candela; in later ones it is reserved or describes how the file was made.
 bool skip_head(Words& words)
 {
     bool both_factors = true;
@@ -198,14 +197,14 @@ Table read_table(Words& words)
     return table;
 }
 
-/// Where a value lies among growing ones.
+/// Interpolation between two of a sorted list of values.
 struct Place {
     std::size_t before = 0;
     std::size_t after = 0;
-    double rest = 0.0;  ///< of the distance from one to the other
+    double rest = 0.0;  ///< fraction of the distance between them
 };
 
-/// `value` lies within the angles.
+/// Requires `value` within the range of the angles.
 Place place_of(const std::vector<double>& angles, double value)
 {
     const auto above = std::upper_bound(angles.begin(), angles.end(), value);
@@ -217,7 +216,7 @@ Place place_of(const std::vector<double>& angles, double value)
     return {before, after, width > 0.0 ? (value - angles[before]) / width : 0.0};
 }
 
-/// The angle of the file that stands for a horizontal angle in [0°, 360°).
+/// Maps a horizontal angle in [0°, 360°) to the file's range, by symmetry.
 double folded(const Table& table, double angle)
 {
     const double last = table.horizontal.back();
@@ -231,7 +230,7 @@ double folded(const Table& table, double angle)
     return last == 90.0 && half > 90.0 ? 180.0 - half : half;
 }
 
-/// No light where the file has no vertical angle.
+/// 0 outside the file's vertical angles.
 double candela_at(const Table& table, double vertical, double horizontal)
 {
     if (vertical < table.vertical.front() || vertical > table.vertical.back())

@@ -1,5 +1,5 @@
 #pragma once
-// Places for light probes that a file names.
+// Light probe positions defined by a file.
 
 #include <string>
 #include <vector>
@@ -9,12 +9,12 @@
 namespace lumel {
 
 struct ProbePlace {
-    std::string name;          ///< of its node, may be empty
-    glm::dvec3 position{0.0};  ///< in the world, as the file has it [m]
+    std::string name;          ///< node name, may be empty
+    glm::dvec3 position{0.0};  ///< world space of the file [m]
 };
 
-/// Nodes of the default scene with extras.lumel.probe, in file order, at their origins. Throws
-/// Error{input} as reading the scene does.
+/// Origins of the default scene's nodes with extras.lumel.probe, in file order. Throws Error{input}
+/// as read_gltf does.
 std::vector<ProbePlace> probe_places(const std::string& path);
 
 }  // namespace lumel

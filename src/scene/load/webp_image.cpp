@@ -9,9 +9,9 @@
 namespace lumel {
 namespace {
 
-/// Equal pixels take no bytes at all, so that the bytes alone are no bound: a picture of 4096 x
-/// 4096 may be of any size, and a larger one has these pixels for each byte. Lossy pictures spend
-/// three bits on a block of 16 x 16 pixels.
+/// Equal pixels take no bytes, so the size gives no bound: any file may have 4096 x 4096 pixels,
+/// and larger images this number per byte. Lossy images take three bits per block of 16 x 16
+/// pixels.
 constexpr std::uint64_t kFreePixels = std::uint64_t(1) << 24;
 constexpr std::uint64_t kPixelsPerByte = 1024;
 constexpr std::size_t kChannels = 4;
@@ -52,7 +52,7 @@ Texture decode_webp(const Bytes& bytes, const std::string& place)
 
 std::string webp_version()
 {
-    const int version = WebPGetDecoderVersion();  // a byte each
+    const int version = WebPGetDecoderVersion();  // one byte each
     return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xff) + "." +
            std::to_string(version & 0xff);
 }

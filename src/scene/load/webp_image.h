@@ -1,5 +1,5 @@
 #pragma once
-// Decoding of WebP.
+// WebP decoder.
 
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace lumel {
 
-/// True if the bytes start like a WebP picture.
+/// True if the bytes begin as a WebP image.
 bool is_webp(const Bytes& bytes);
 
-/// Decodes a WebP picture to 8-bit RGBA. `place` names it in messages. Throws Error{input} if it is
-/// broken, cut short, animated, or claims far more pixels than its bytes can be expected to hold.
+/// Decodes a WebP image to 8-bit RGBA. `place` names it in messages. Throws Error{input} if it is
+/// broken, truncated, animated, or claims far more pixels than its bytes plausibly encode.
 Texture decode_webp(const Bytes& bytes, const std::string& place);
 
-/// Of the library that is linked: "1.2.4".
+/// Version of the linked library: "1.2.4".
 std::string webp_version();
 
 }  // namespace lumel

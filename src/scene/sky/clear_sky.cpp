@@ -1,5 +1,5 @@
-// The sky of a cloudless day. Luminance is spread as the CIE standard clear sky of low turbidity
-// gives it ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
+// Sky of a cloudless day. The luminance distribution is the CIE standard clear sky of low turbidity
+// ([CIE03] type 12), with Z the angle from the zenith and χ from the sun:
 //
 //     L ∝ (1 + a exp(b / cos Z)) (1 + c (exp(d χ) − exp(d π/2)) + e cos²χ)
 //     a = −1,  b = −0.32,  c = 10,  d = −3,  e = 0.45
@@ -29,10 +29,10 @@ namespace lumel {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
-constexpr int kWidth = 512;   ///< of the image: texels of 0.7°, where the sky varies over 10°
+constexpr int kWidth = 512;   ///< texels of 0.7°; the sky varies over 10°
 constexpr int kHeight = 256;  ///< the lower half is the ground
 constexpr double kTurbidity = 2.5;
-constexpr double kLux = 1000.0;  ///< in a klx
+constexpr double kLux = 1000.0;  ///< per klx
 
 double relative_luminance(double cos_zenith, double from_sun)
 {
@@ -42,8 +42,8 @@ double relative_luminance(double cos_zenith, double from_sun)
                         0.45 * cosine * cosine);
 }
 
-/// One chromaticity coordinate of [PSS99]. Perez coefficients are slope × turbidity + offset, the
-/// zenith a cubic in the sun's angle whose coefficients are quadratic in turbidity.
+/// A chromaticity coordinate of [PSS99]. Perez coefficients are slope × turbidity + offset; the
+/// zenith is a cubic in the sun's angle with coefficients quadratic in turbidity.
 struct Chromaticity {
     std::array<double, 5> slope;
     std::array<double, 5> offset;
@@ -88,11 +88,11 @@ constexpr Chromaticity kY{{-0.01669, -0.09495, -0.00792, -0.04405, -0.01092},
                             {-0.04214, 0.08970, -0.04153, 0.00516},
                             {0.15346, -0.26756, 0.06670, 0.26688}}}};
 
-/// Linear Rec. 709 of luminance 1; what lies outside its gamut is clipped.
+/// Linear Rec. 709 of luminance 1, clipped to the gamut.
 glm::vec3 color_of(double x, double y)
 {
     const glm::dvec3 xyz(x / y, 1.0, (1.0 - x - y) / y);
-    // IEC 61966-2-1, by columns.
+    // IEC 61966-2-1, column-major.
     const glm::dmat3 rgb_from_xyz(3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986,
                                   0.0415, 1.0570);
     const glm::vec3 rgb = glm::max(rgb_from_xyz * xyz, 0.0);
@@ -143,7 +143,7 @@ PunctualLight sun_light(const SunPosition& sun)
     light.intensity = float(sun_illuminance(sun.elevation));
     light.angle = kSunAngle;
     const glm::vec3 to_sun = direction_of(sun);
-    // Any up will do for a round disc, but along its axis.
+    // The disc is round, so any up vector that is not parallel will do.
     const glm::vec3 up = std::abs(to_sun.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     light.transform = glm::inverse(glm::lookAt(glm::vec3(0.0f), -to_sun, up));
     return light;

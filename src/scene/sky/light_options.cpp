@@ -37,7 +37,7 @@ std::vector<std::string> split(const std::string& text)
     return parts;
 }
 
-/// Alike from everywhere. As fine as is good for those who take a sky texel by texel.
+/// Uniform sky. Its resolution suits methods that sample the sky by texel.
 Sky even_sky(const glm::vec3& radiance)
 {
     Sky sky{.width = 64, .height = 32};
@@ -45,11 +45,11 @@ Sky even_sky(const glm::vec3& radiance)
     return sky;
 }
 
-constexpr const char* kOvercast = "overcast";  ///< as --sky has it
-/// More light than this comes from no sky [lx]: an open plane under kMaxLuminance all over.
+constexpr const char* kOvercast = "overcast";  ///< argument of --sky
+/// Maximum illuminance of a sky [lx]: an open plane under uniform kMaxLuminance.
 constexpr double kMaxLux = glm::pi<double>() * double(kMaxLuminance);
 
-/// Of "overcast" or "overcast:LUX".
+/// Parses "overcast" or "overcast:LUX".
 float overcast_lux(const std::string& text)
 {
     if (text == kOvercast)
@@ -62,7 +62,7 @@ float overcast_lux(const std::string& text)
     return float(*lux);
 }
 
-/// The sun where --sky-rotation puts it: azimuths grow clockwise.
+/// The sun after --sky-rotation; azimuths are clockwise.
 SunPosition placed_sun(const LightOptions& options)
 {
     SunPosition sun = *options.sun;
@@ -70,7 +70,7 @@ SunPosition placed_sun(const LightOptions& options)
     return sun;
 }
 
-/// The sky asked for, or else the scene's own, turned and scaled.
+/// Sets the requested sky, if any; rotates and scales it.
 void add_sky(Scene& scene, const LightOptions& options)
 {
     if (!options.sky_file.empty())
@@ -112,11 +112,11 @@ bool can_have_profile(const PunctualLight& light)
     return light.kind != PunctualLight::Kind::directional;
 }
 
-/// Names of lights that can have a profile, each once: "\"a\", \"b\"", and how many more.
-/// without_one: only of those that have none.
+/// Names of lights that can have a profile, without duplicates: "\"a\", \"b\"", and the number of
+/// others. without_one: only lights without a profile.
 std::string names_of(const Scene& scene, bool without_one)
 {
-    constexpr std::size_t kMax = 12;  // that a sentence can hold
+    constexpr std::size_t kMax = 12;  // names per sentence
     std::vector<std::string> names;
     for (const PunctualLight& light : scene.lights)
         if (can_have_profile(light) && !(without_one && light.profile >= 0) &&
@@ -130,7 +130,7 @@ std::string names_of(const Scene& scene, bool without_one)
     return list;
 }
 
-/// True if the pattern, in which each * stands for any letters or none, is the whole name.
+/// True if the pattern matches the whole name; * matches any letters or none.
 bool matches(std::string_view pattern, std::string_view name)
 {
     const std::size_t star = pattern.find('*');
@@ -152,7 +152,7 @@ void attach_profile(Scene& scene, const LightProfile& profile)
         if (can_have_profile(light) &&
             (light.name == profile.light || matches(profile.light, light.name))) {
             light.profile = int(scene.profiles.size());
-            light.intensity = 1.0f;  // the file's candela stand in for it
+            light.intensity = 1.0f;  // the file's candela replace it
             found = true;
         }
     if (!found) {
@@ -164,8 +164,8 @@ void attach_profile(Scene& scene, const LightProfile& profile)
         read_ies(read_file(profile.path, profile.path), profile.path, profile.light));
 }
 
-/// Lamps that a profile was meant for too, such as the copies that editors number.
-void tell_left_out(Scene& scene)
+/// Warns of lights without a profile, such as copies that editors number.
+void warn_of_left_out(Scene& scene)
 {
     if (const std::string names = names_of(scene, true); !names.empty())
         scene.warnings.push_back("--ies leaves out " + names +
@@ -181,7 +181,7 @@ void add_lights(Scene& scene, const LightOptions& options)
     for (const LightProfile& profile : options.profiles)
         attach_profile(scene, profile);
     if (!options.profiles.empty())
-        tell_left_out(scene);
+        warn_of_left_out(scene);
     if (options.sun)
         add_sun(scene, options);
     give_sizes(scene, options);

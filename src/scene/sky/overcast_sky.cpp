@@ -1,10 +1,9 @@
-// Luminance at the elevation θ, as ISO 15469 has it for type 16 (the traditional overcast sky):
+// Luminance at the elevation θ according to ISO 15469, type 16 (the traditional overcast sky):
 //
 //     L(θ) = L_z (1 + 2 sin θ) / 3
 //
-// The solid angle of a row of texels is in proportion to its span of sin θ, so that the mean
-// radiance of a row is that of its mean sin θ, exactly. The level makes the irradiance of the image
-// what was asked for, exactly too.
+// The solid angle of a row of texels is proportional to its range of sin θ, so its mean radiance is
+// that at its mean sin θ, exactly. The level makes the irradiance of the image exact too.
 
 #include "scene/sky/overcast_sky.h"
 
@@ -17,8 +16,8 @@
 namespace lumel {
 namespace {
 
-constexpr int kWidth = 64;    ///< of the image: alike all around, as fine as an even sky
-constexpr int kHeight = 128;  ///< rows of 1.4°, over which the luminance varies by 2 % at most
+constexpr int kWidth = 64;    ///< independent of azimuth; as in a uniform sky
+constexpr int kHeight = 128;  ///< rows of 1.4°, over which the luminance varies by at most 2 %
 
 double relative_luminance(double sine)
 {

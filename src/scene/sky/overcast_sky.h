@@ -1,15 +1,15 @@
 #pragma once
-// The CIE overcast sky, by which daylight factors are defined.
+// The CIE overcast sky, which defines daylight factors.
 
 #include "scene/values/sky.h"
 
 namespace lumel {
 
-/// What it gives an open horizontal plane if nothing else is asked for [lx].
+/// Default illuminance of an open horizontal plane [lx].
 inline constexpr float kOvercastLux = 10'000.0f;
 
-/// White, alike in all azimuths, three times as bright at the zenith as at the horizon, black below
-/// it. lux: of an open horizontal plane that faces up.
+/// White, independent of azimuth, three times as bright at the zenith as at the horizon, black
+/// below it. lux: illuminance of an open horizontal plane facing up.
 Sky overcast_sky(float lux);
 
 }  // namespace lumel

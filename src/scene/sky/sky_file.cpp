@@ -15,7 +15,7 @@
 namespace lumel {
 namespace {
 
-constexpr float kBrightest = 65504.0f;  ///< the largest half, which infinity in an EXR stands for
+constexpr float kBrightest = 65504.0f;  ///< the largest half, for infinity in an EXR
 
 std::string lower_extension(const std::string& path)
 {
@@ -60,8 +60,7 @@ Sky read_sky(const std::string& path)
 
 Sky turned(const Sky& sky, double angle)
 {
-    // What stood at azimuth φ + angle of the image comes to stand at φ. Between columns the two
-    // that a new one covers share it.
+    // Azimuth φ of the result is φ + angle of the image. Interpolates between two columns.
     const double turns = angle / glm::two_pi<double>();
     const double shift = (turns - std::floor(turns)) * sky.width;
     const int whole = int(shift);

@@ -1,5 +1,5 @@
 #pragma once
-// Skies from image files, and turned.
+// Skies from image files, and their rotation.
 
 #include <string>
 
@@ -8,12 +8,11 @@
 namespace lumel {
 
 /// Reads a latitude-longitude image of radiance: OpenEXR (.exr) or Radiance (.hdr), as linear RGB
-/// in cd/m². What is negative or not a number becomes 0, what is infinite the largest half.
-/// Throws Error{input}.
+/// in cd/m². Negative values and NaN become 0, infinity the largest half. Throws Error{input}.
 Sky read_sky(const std::string& path);
 
-/// The same sky turned about +y, counter-clockwise as seen from above, by an angle [rad]. Every
-/// row keeps its light.
+/// The sky rotated about +y, counter-clockwise from above, by an angle [rad]. Preserves the
+/// light of each row.
 Sky turned(const Sky& sky, double angle);
 
 }  // namespace lumel

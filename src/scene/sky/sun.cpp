@@ -1,5 +1,5 @@
-// The sun's place by the low-precision formulas of the Astronomical Almanac [AA]. With n days since
-// noon of 1 January 2000:
+// Position of the sun by the low-precision formulas of the Astronomical Almanac [AA]. With n days
+// since noon of 1 January 2000:
 //
 //     L = 280.460° + 0.9856474° n          mean longitude
 //     g = 357.528° + 0.9856003° n          mean anomaly
@@ -38,11 +38,11 @@ constexpr double kSecondsPerDay = 86400.0;
                                     "2024-06-21T14:00:00+02:00");
 }
 
-/// How far local time is ahead of UTC [s]: "+02:00", "+0200" or "+02", or "Z" or nothing for UTC.
+/// Local time minus UTC [s]: "+02:00", "+0200" or "+02", or "Z" or nothing for UTC.
 std::optional<int> offset_of(std::string text)
 {
-    constexpr std::size_t kHours = 3, kWithMinutes = 5;  // characters, the sign among them
-    constexpr int kMaxHours = 14;                        // of any place on earth
+    constexpr std::size_t kHours = 3, kWithMinutes = 5;  // characters, including the sign
+    constexpr int kMaxHours = 14;                        // maximum on earth
     if (text.empty() || text == "Z")
         return 0;
     if (text.size() == kWithMinutes + 1 && text[kHours] == ':')

@@ -6,11 +6,11 @@ namespace lumel {
 
 namespace {
 
-/// Where a time lies among the keys.
+/// Position of a time between keys.
 struct KeySpan {
-    std::size_t key = 0;   ///< the one before, or at, the time
-    double part = 0.0;     ///< of the time to the next key, 0…1
-    double seconds = 0.0;  ///< from this key to the next, 0: there is none to go to
+    std::size_t key = 0;   ///< last key at or before the time
+    double part = 0.0;     ///< fraction of the time to the next key, 0…1
+    double seconds = 0.0;  ///< from this key to the next; 0 if there is none
 };
 
 KeySpan span_at(const Track& track, double time)
@@ -25,7 +25,7 @@ KeySpan span_at(const Track& track, double time)
     return {key, (time - track.times[key]) / seconds, seconds};
 }
 
-/// A key's own value, beside which cubic splines keep slopes.
+/// A key's value; cubic splines store slopes beside it.
 const glm::dvec4& key_value(const Track& track, std::size_t key)
 {
     return track.values[track.interpolation == Interpolation::cubic_spline ? 3 * key + 1 : key];
@@ -60,7 +60,7 @@ NodePlace place_at(const AnimatedNode& node, double time)
     return place;
 }
 
-/// Does the node move, or one above it?
+/// True if the node or an ancestor moves.
 bool is_moved(const Animation& animation, int node)
 {
     for (; node >= 0; node = animation.nodes[std::size_t(node)].parent)
@@ -69,7 +69,7 @@ bool is_moved(const Animation& animation, int node)
     return false;
 }
 
-/// Largest value of the keys, component by component.
+/// Component-wise maximum of the keys.
 glm::dvec4 most_of(const Track& track)
 {
     glm::dvec4 most(0.0);
@@ -113,7 +113,7 @@ glm::vec3 emitted_at(const AnimatedMaterial& material, double time)
         material.factor ? glm::dvec3(value_at(*material.factor, time)) : material.rest_factor;
     const double strength =
         material.strength ? value_at(*material.strength, time).x : material.rest_strength;
-    // Splines may swing below 0 between their keys.
+    // Splines may be negative between keys.
     return glm::max(factor, 0.0) * std::max(strength, 0.0);
 }
 

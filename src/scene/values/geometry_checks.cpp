@@ -7,9 +7,9 @@
 namespace lumel {
 namespace {
 
-/// Relative to its longest edge squared, twice the area that float coordinates cannot resolve.
+/// Twice the smallest area that float coordinates resolve, relative to the squared longest edge.
 constexpr double kSmallestRelativeArea = 1e-7;
-/// Twice an area [mesh units²] whose square still is a normal float.
+/// Twice an area [mesh units²] whose square is a normal float.
 constexpr double kSmallestArea = 1e-18;
 
 bool has_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)

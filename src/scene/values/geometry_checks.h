@@ -1,5 +1,5 @@
 #pragma once
-// What geometry must be like to be lit, whoever brings it.
+// Checks and repairs of geometry, for all readers.
 
 #include <cstddef>
 
@@ -7,32 +7,32 @@
 
 namespace lumel {
 
-/// Coordinates beyond this [m or mesh units] would overflow the float arithmetic of areas.
+/// Larger coordinates [m or mesh units] would overflow areas in float arithmetic.
 inline constexpr float kLargestCoordinate = 1e9f;
 
-/// Drops triangles whose area floats cannot resolve. Returns how many.
+/// Drops triangles whose area floats cannot resolve. Returns their number.
 std::size_t drop_zero_area(Primitive& primitive);
 
-/// Makes every normal a unit vector. Those that have no direction get that of their faces. Returns
-/// how many had none.
+/// Normalises all normals; those without a direction get that of their faces. Returns the number of
+/// the latter.
 std::size_t repair_normals(Primitive& primitive);
 
-/// A matrix whose columns (nearly) lie in a plane leaves no volume, nor normals.
+/// True if the columns of the matrix (nearly) lie in a plane: it leaves no volume and no normals.
 bool is_flat(const glm::dmat4& matrix);
 
-/// Corners of a box along the axes, in doubles: of coordinates as a file has them.
+/// Axis-aligned box in doubles, for coordinates as in a file.
 struct Bounds {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
 };
 
-/// In mesh space; empty for a mesh without primitives.
+/// Bounds in mesh space; empty for a mesh without primitives.
 Bounds bounds_of(const Mesh& mesh);
 
-/// Of a box so placed, in the world.
+/// Bounds of a transformed box in the world.
 Bounds placed_box(const Bounds& box, const glm::dmat4& world);
 
-/// True if float arithmetic breaks down somewhere in a box so placed.
+/// True if float arithmetic would fail somewhere in the transformed box.
 bool reaches_too_far(const Bounds& box, const glm::dmat4& world);
 
 }  // namespace lumel

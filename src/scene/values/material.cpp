@@ -9,7 +9,7 @@ namespace lumel {
 
 namespace {
 
-/// Column or row of a texel that may lie outside the image.
+/// Column or row inside the image, by the wrap mode.
 int wrapped(long long texel, int size, Wrap wrap)
 {
     if (wrap == Wrap::clamp)
@@ -19,7 +19,7 @@ int wrapped(long long texel, int size, Wrap wrap)
     return int(within < size ? within : period - 1 - within);
 }
 
-/// What the bytes of a texture stand for.
+/// Encoding of texture bytes.
 enum class Coding { srgb, linear };
 
 glm::vec4 texel_at(const Texture& texture, int x, int y, Coding coding)
@@ -32,7 +32,7 @@ glm::vec4 texel_at(const Texture& texture, int x, int y, Coding coding)
     return {linear[rgba[0]], linear[rgba[1]], linear[rgba[2]], float(rgba[3]) / 255.0f};
 }
 
-/// The two texels around a coordinate, and how far it is from the first.
+/// The two texels around a coordinate, and its fraction between them.
 struct TexelSpan {
     int first;
     int second;
@@ -41,7 +41,7 @@ struct TexelSpan {
 
 TexelSpan span_of(float coordinate, int size, Wrap wrap)
 {
-    // Beyond this the coordinate has no sub-texel precision left, nor a meaning.
+    // Larger coordinates have no sub-texel precision.
     constexpr double kFar = 1e12;
     const double position = std::clamp(double(coordinate) * size - 0.5, -kFar, kFar);
     const double floor = std::floor(position);
@@ -49,7 +49,7 @@ TexelSpan span_of(float coordinate, int size, Wrap wrap)
     return {wrapped(texel, size, wrap), wrapped(texel + 1, size, wrap), float(position - floor)};
 }
 
-/// Bilinear, decoded: white where there is no texture.
+/// Bilinear sample, decoded; white without a texture.
 glm::vec4 sample_texture(const Scene& scene, const TextureUse& use,
                          const glm::vec2 texcoord[kTexcoordSets], Coding coding = Coding::srgb)
 {
@@ -68,7 +68,7 @@ glm::vec4 sample_texture(const Scene& scene, const TextureUse& use,
     return glm::mix(top, bottom, y.fraction);
 }
 
-/// Opacity of the surface, by its alpha.
+/// Coverage of the surface by its alpha.
 float share_there(const Material& look, float alpha)
 {
     switch (look.alpha_mode) {
@@ -99,8 +99,8 @@ MaterialSample sample_material(const Scene& scene, int material,
         const glm::vec3 color = glm::clamp(glm::vec3(look.base_color * texel), 0.0f, 1.0f);
         sample.tint = (1.0f - there + glass * color) / (1.0f - there + glass);
     }
-    // glTF's metals reflect their base colour as a mirror does; what others reflect so is missing
-    // from their diffuse light.
+    // glTF's metals reflect their base colour specularly; other materials lose their specular share
+    // from diffuse light.
     const glm::vec4 gloss =
         sample_texture(scene, look.metallic_roughness_texture, texcoord, Coding::linear);
     const float metallic = std::clamp(look.metallic * gloss.b, 0.0f, 1.0f);
@@ -115,8 +115,8 @@ MaterialSample sample_material(const Scene& scene, int material,
 
 float shininess_of(double roughness)
 {
-    // The half-vector lobe of roughness r has the exponent 2 / r⁴ - 2, and one about the mirror
-    // direction a quarter of that.
+    // A half-vector lobe of roughness r has the exponent 2 / r⁴ - 2; the lobe about the mirror
+    // direction has a quarter of it.
     constexpr double kMin = 1.0, kMax = kMaxShininess;
     const double alpha2 = std::pow(std::max(roughness, 1e-3), 4.0);
     return float(std::clamp((2.0 / alpha2 - 2.0) / 4.0, kMin, kMax));

@@ -1,5 +1,5 @@
 #pragma once
-// Where a node stands relative to its parent.
+// Transform of a node relative to its parent.
 
 #include <optional>
 
@@ -9,12 +9,12 @@
 
 namespace lumel {
 
-/// Scaled, then turned, then shifted [m]; or else a matrix.
+/// Scale, then rotation, then translation [m]; or a matrix.
 struct NodePlace {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    std::optional<glm::dmat4> matrix;  ///< if there, the others do not count
+    std::optional<glm::dmat4> matrix;  ///< replaces the others if set
 };
 
 inline glm::dmat4 to_matrix(const NodePlace& place)

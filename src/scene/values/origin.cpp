@@ -5,8 +5,8 @@
 namespace lumel {
 namespace {
 
-/// A scene this many times its own size away from 0 has a few millionths of its size left of
-/// a float's precision.
+/// At this multiple of its size from 0, a scene has a float precision of a few millionths of its
+/// size.
 constexpr double kFarAway = 64.0;
 
 }  // namespace
@@ -17,8 +17,8 @@ glm::dvec3 origin_for(const Bounds& scene)
     const glm::dvec3 middle = 0.5 * (scene.low + scene.high);
     if (!(size > 0.0) || glm::length(middle) <= kFarAway * size)
         return glm::dvec3(0.0);
-    // To a multiple of a power of two, so that places with few digits keep them, and a scene that
-    // is edited keeps its origin.
+    // Rounds to a power of two, so that coordinates with few digits keep them, and an edited scene
+    // keeps its origin.
     const double step = std::exp2(std::ceil(std::log2(size)));
     return step * glm::round(middle / step);
 }

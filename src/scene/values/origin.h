@@ -1,16 +1,16 @@
 #pragma once
-// Scenes that lie far from 0, as on map coordinates: floats are too coarse there.
+// Scenes far from 0, as in map coordinates, where floats are too coarse.
 
 #include "scene/values/geometry_checks.h"
 #include "scene/values/scene.h"
 
 namespace lumel {
 
-/// Where a scene in this box should have its 0 [m]: in its middle, to a power of two, if it lies
-/// far out for its size; else where it is.
+/// Origin [m] for a scene with these bounds: near its centre, rounded to a power of two, if it is
+/// far out relative to its size; else 0.
 glm::dvec3 origin_for(const Bounds& scene);
 
-/// Moves the scene's 0, and all that stands in the scene the other way.
+/// Moves the scene's origin, and its contents the opposite way.
 void set_origin(Scene& scene, const glm::dvec3& origin);
 
 }  // namespace lumel

@@ -1,13 +1,13 @@
 #pragma once
-// Direct and indirect light apart.
+// Direct and indirect light.
 
 namespace lumel {
 
-/// Which part of the light that arrives at a lumel counts.
+/// Components of a lumel's irradiance.
 enum class Parts {
     all,
-    direct,    ///< straight from emissive surfaces, lamps and the sky
-    indirect,  ///< light that was reflected before
+    direct,    ///< from emissive surfaces, lamps and the sky without reflection
+    indirect,  ///< reflected at least once
 };
 
 }  // namespace lumel

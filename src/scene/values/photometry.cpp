@@ -1,4 +1,4 @@
-// How much light a point or spot light sends where.
+// Luminous intensity of point and spot lights over directions.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace lumel {
 namespace {
 
-/// Direction in the light's own frame, whatever its scale.
+/// Direction in the light's frame, without its scale.
 glm::vec3 into_frame(const glm::mat4& transform, const glm::vec3& direction)
 {
     return {glm::dot(glm::normalize(glm::vec3(transform[0])), direction),

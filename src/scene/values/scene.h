@@ -1,5 +1,5 @@
 #pragma once
-// The contents of a scene file, decoded and checked: plain values, nothing of glTF's encoding.
+// A scene, decoded from its file and checked, independent of glTF's encoding.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace lumel {
 
-/// 8-bit RGBA, top row first, as stored in the file (colour channels sRGB-coded).
+/// 8-bit RGBA, top row first, as in the file (sRGB-coded colour).
 struct Texture {
     int width = 0;
     int height = 0;
@@ -23,11 +23,11 @@ struct Texture {
 
 enum class Wrap { repeat, mirrored, clamp };
 
-/// TEXCOORD_0 and so on that textures may read. A viewer must support two; what was baked once has
-/// the lightmap's place besides.
+/// Number of TEXCOORD sets for textures. Viewers must support two; a baked file has the lightmap's
+/// in addition.
 inline constexpr int kTexcoordSets = 4;
 
-/// Where and how a material reads a texture.
+/// A material's reference to a texture.
 struct TextureUse {
     int texture = -1;            ///< index into Scene::textures, -1: none
     int texcoord = 0;            ///< below kTexcoordSets: TEXCOORD_n
@@ -38,31 +38,31 @@ struct TextureUse {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// Luminance that nothing has [cd/m²]: a hundred times that of the sun's disc. Beyond it sums of
-/// light could overflow.
+/// Luminance limit [cd/m²], a hundred times that of the sun's disc. Larger values could overflow
+/// sums of light.
 inline constexpr float kMaxLuminance = 2e11f;
 
 struct Material {
     std::string name;
-    glm::vec4 base_color{1.0f};     ///< linear; rgb is taken as diffuse albedo ρ
+    glm::vec4 base_color{1.0f};     ///< linear; rgb is the diffuse albedo ρ
     TextureUse base_color_texture;  ///< sRGB, multiplies base_color
-    float metallic = 1.0f;          ///< for solvers that use gloss
+    float metallic = 1.0f;          ///< for glossy methods
     float roughness = 1.0f;
     TextureUse metallic_roughness_texture;  ///< linear; blue × metallic, green × roughness
-    glm::vec3 dielectric_specular{0.04f};   ///< F0 of what is not metal, 0…1
+    glm::vec3 dielectric_specular{0.04f};   ///< F0 of dielectrics, 0…1
     glm::vec3 emitted{0.0f};                ///< emissiveFactor × strength [cd/m²], linear
     TextureUse emissive_texture;            ///< sRGB, multiplies emitted
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;  ///< for AlphaMode::mask
-    /// Of what is there, the share that is glass: light passes straight, times the base colour
-    /// (without the vertices'). The rest is as if it were not glass.
+    /// Share of glass in the covered area: light passes straight, tinted by the base colour
+    /// (without vertex colours). The rest is opaque.
     float transmission = 0.0f;
     bool double_sided = false;
-    float texels_per_metre = 0.0f;  ///< extras.lumel: density of its lightmap, 0: not set
-    int lightmap_page = 0;          ///< extras.lumel.page, which a bake wrote
+    float texels_per_metre = 0.0f;  ///< extras.lumel: texel density, 0: not set
+    int lightmap_page = 0;          ///< extras.lumel.page, from a bake
 };
 
-/// A triangle list. Vertex arrays keep the order of the file's accessors; empty: absent.
+/// A triangle list. Vertex arrays have the order of the file's accessors; empty: absent.
 struct Primitive {
     std::vector<glm::vec3> positions;                 ///< [V] mesh space [m]
     std::vector<glm::vec3> normals;                   ///< [V] unit length, or empty (flat shading)
@@ -71,8 +71,8 @@ struct Primitive {
     std::vector<std::uint32_t> indices;  ///< [3T] strips and fans unrolled, zero-area dropped
     int material = 0;                    ///< index into Scene::materials, always valid
     int source_primitive = 0;            ///< index in the file's mesh.primitives
-    /// [V] Page of the lightmap that TEXCOORD_1 is a place on, where a bake has put parts of it on
-    /// several; or empty: that of its material.
+    /// [V] Lightmap page of TEXCOORD_1, if a bake put parts on several; empty: that of the
+    /// material.
     std::vector<std::uint16_t> lightmap_pages;
 };
 
@@ -81,13 +81,13 @@ struct Mesh {
     std::vector<Primitive> primitives;
 };
 
-/// One mesh placed in the world by one node.
+/// A mesh placed in the world by a node.
 struct Instance {
     std::string name;
     int mesh = 0;
     int node = 0;               ///< index in the file's nodes
     glm::mat4 transform{1.0f};  ///< mesh to world; a negative determinant flips the winding
-    /// extras.lumel of the node, else of its mesh: density of its lightmap, 0: not set.
+    /// extras.lumel of the node, else of its mesh: texel density, 0: not set.
     float texels_per_metre = 0.0f;
 };
 
@@ -99,17 +99,17 @@ struct PunctualLight {
     float range = 0.0f;            ///< [m], 0: unlimited
     float inner_cone = 0.0f;       ///< [rad]
     float outer_cone = 0.785398f;  ///< [rad]
-    /// Of the ball that shines, uniformly bright but for cone and profile [m]; 0: a point. Point
+    /// Radius of the emitting sphere [m], uniform except for cone and profile; 0: a point. Point
     /// and spot only.
     float radius = 0.0f;
-    /// Half the angle that the disc of a directional light takes in the sky [rad]; 0: parallel.
+    /// Angular radius of a directional light's disc in the sky [rad]; 0: parallel light.
     float angle = 0.0f;
     int profile = -1;           ///< index into Scene::profiles, -1: none. Point and spot only.
-    glm::mat4 transform{1.0f};  ///< shines along -z
+    glm::mat4 transform{1.0f};  ///< light to world; its light is centred on -z
 };
 
-/// How a luminaire spreads its light: luminous intensity [cd] over directions, bilinear between
-/// the values. Polar angle 0 is the light's -z, azimuth 0 its +x, growing towards +y.
+/// Photometric profile of a luminaire: luminous intensity [cd] over directions, interpolated
+/// bilinearly. Polar angle 0 is the light's -z, azimuth 0 its +x, increasing towards +y.
 struct Photometry {
     static constexpr int kPolarSteps = int(lumel::kPolarSteps);
     static constexpr int kAzimuthSteps = int(lumel::kAzimuthSteps);
@@ -120,80 +120,80 @@ struct Photometry {
 struct Camera {
     std::string name;
     int node = 0;                      ///< index in the file's nodes
-    glm::mat4 transform{1.0f};         ///< looks along -z, +y up
+    glm::mat4 transform{1.0f};         ///< camera to world; views along -z, +y up
     float vertical_fov = 0.8f;         ///< [rad]; ignored when orthographic
-    float aspect = 0.0f;               ///< width / height, 0: free
-    float orthographic_height = 0.0f;  ///< [m], > 0: orthographic camera
+    float aspect = 0.0f;               ///< width / height, 0: unspecified
+    float orthographic_height = 0.0f;  ///< [m], > 0 if orthographic
 };
 
-/// What is read of materials: base colour and emission alone, or metallic, roughness and F0 too,
-/// which else keep their defaults.
+/// Material properties to read: base colour and emission, or also metallic, roughness and F0, which
+/// otherwise keep their defaults.
 enum class MaterialModel { diffuse, glossy };
 
 struct Scene {
-    std::string path;                              ///< the file it came from
-    MaterialModel model = MaterialModel::diffuse;  ///< what was read of the materials
+    std::string path;                              ///< source file
+    MaterialModel model = MaterialModel::diffuse;  ///< material properties read
     std::vector<Texture> textures;
     std::vector<Material> materials;  ///< the file's, then the default material if needed
-    std::vector<Mesh> meshes;         ///< the file's; those not shown have no primitives
-    std::vector<Instance> instances;  ///< of the file's default scene, in node order
+    std::vector<Mesh> meshes;         ///< the file's; without primitives if not shown
+    std::vector<Instance> instances;  ///< default scene of the file, in node order
     std::vector<PunctualLight> lights;
-    std::vector<Photometry> profiles;  ///< of lights
+    std::vector<Photometry> profiles;  ///< photometric profiles of lights
     Sky sky;
     std::vector<Camera> cameras;
-    /// Where 0 of all transforms here is in the file's world [m]: not 0 only for scenes that lie
-    /// far from there, where floats are too coarse.
+    /// Origin of all transforms here in the file's world [m]: not 0 only for scenes far from it,
+    /// where floats are too coarse.
     glm::dvec3 origin{0.0};
-    std::vector<std::string> warnings;  ///< sentences for the user
-    std::size_t dropped_triangles = 0;  ///< of zero area
-    std::string hash;                   ///< 16 hex digits over all content that light depends on
+    std::vector<std::string> warnings;  ///< messages for the user
+    std::size_t dropped_triangles = 0;  ///< zero-area triangles
+    std::string hash;                   ///< 16 hex digits over all content that affects light
 };
 
-/// Reads glTF 2.0 (.gltf with its files, or .glb).
-/// Throws Error{input} with file, JSON pointer and reason for anything invalid or unsupported.
+/// Reads glTF 2.0 (.gltf with its files, or .glb). Throws Error{input} with file, JSON pointer and
+/// reason for invalid or unsupported content.
 Scene read_gltf(const std::string& path, MaterialModel model = MaterialModel::diffuse);
 
-/// Index of the first instance of that name. Throws Error{input} if there is none.
+/// Index of the first instance with this name. Throws Error{input} if there is none.
 std::uint32_t find_instance(const Scene& scene, const std::string& name);
 
-/// True if any light comes from it.
+/// True if the light's intensity and colour are not 0.
 bool shines(const PunctualLight& light);
 
-/// Luminous intensity [cd] of a point or spot light, colour and all, towards a unit direction in
-/// the world: its intensity, cone (KHR_lights_punctual) and profile. A profile's candela stand in
-/// for the intensity, which then is a factor.
+/// Luminous intensity [cd] of a point or spot light in a unit direction in the world: colour ×
+/// intensity × cone (KHR_lights_punctual) × profile. With a profile, the intensity is a factor of
+/// its candela.
 glm::vec3 intensity_towards(const Scene& scene, const PunctualLight& light,
                             const glm::vec3& direction);
 
-/// What is left of 1 / r² at distance r [m] where a light has a range: KHR_lights_punctual's window
+/// Window factor of 1 / r² at distance r [m] for a light with a range: KHR_lights_punctual's
 /// max(min(1 - (r / range)⁴, 1), 0); 1 without one.
 float range_window(const PunctualLight& light, float distance);
 
-/// What a material looks like at one point. `texcoord`: TEXCOORD_n.
+/// Material properties at a point. `texcoord`: TEXCOORD_n.
 struct MaterialSample {
-    glm::vec3 albedo;    ///< ρ, linear, clamped to 0…1: all that is reflected, taken as diffuse
-    glm::vec3 diffuse;   ///< ρ_d, where gloss counts
+    glm::vec3 albedo;    ///< ρ, linear, clamped to 0…1: total reflectance, taken as diffuse
+    glm::vec3 diffuse;   ///< ρ_d for glossy methods
     glm::vec3 specular;  ///< ρ_s; ρ_d + ρ_s ≤ 1
     float roughness;     ///< glTF's, 0…1
     float opacity;       ///< (opaque: 1; mask: 0 or 1; blend: alpha 0…1) × (1 - transmission)
-    glm::vec3 tint;      ///< 0…1, of what passes: 1 - opacity of the light does, times this
+    glm::vec3 tint;      ///< 0…1, of transmitted light: its share is 1 - opacity, times this
     glm::vec3 emitted;   ///< luminance [cd/m²], linear
 };
 MaterialSample sample_material(const Scene& scene, int material,
                                const glm::vec2 texcoord[kTexcoordSets],
                                const glm::vec4& vertex_color);
 
-/// Exponent n of a Phong lobe about the mirror direction that is as wide as glTF's roughness,
+/// Exponent n of a Phong lobe about the mirror direction with the width of glTF's roughness,
 /// 1…kMaxShininess: mirrors are blurred.
 float shininess_of(double roughness);
 
-/// True if some of the primitive's surface may let light through: it is cut out, blended or glass.
+/// True if part of the primitive may transmit light: it is cut out, blended or glass.
 bool may_be_transparent(const Material& material, const Primitive& primitive);
 
-/// True if light of one colour may pass the material more than that of another.
+/// True if the material's transmittance may depend on the colour of light.
 bool is_coloured_glass(const Material& material);
 
-/// True where the material's look does not vary over a surface (no textures are read).
+/// True if the material is constant over a surface (reads no textures).
 bool is_uniform(const Material& material);
 
 }  // namespace lumel

@@ -36,7 +36,7 @@ void add_primitive(Fingerprint& hash, const Primitive& primitive)
     hash.add(primitive.positions);
     hash.add(primitive.normals);
     for (int set = 0; set < kTexcoordSets; ++set)
-        if (set < 2 || !primitive.texcoords[set].empty())  // as of old, where others are absent
+        if (set < 2 || !primitive.texcoords[set].empty())  // keeps hashes if absent
             hash.add(primitive.texcoords[set]);
     hash.add(primitive.colors);
     hash.add(primitive.indices);

@@ -1,5 +1,5 @@
 #pragma once
-// A fingerprint of a scene.
+// Hash of a scene.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// 16 hex digits over all that decides the light: geometry, placement, materials, texture
-/// contents, lights, sky. Names, cameras and the encoding of the file do not count.
+/// 16 hex digits over all content that affects light: geometry, placement, materials, texture
+/// contents, lights, sky. Excludes names, cameras and the encoding of the file.
 std::string hash_scene(const Scene& scene);
 
 }  // namespace lumel

@@ -3,7 +3,7 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST float kMaxShininess = 1000.0f;  ///< of a lobe's exponent; the least is 1
+LUMEL_CONST float kMaxShininess = 1000.0f;  ///< maximum lobe exponent; the minimum is 1
 
 LUMEL_SHARED_END
 #endif

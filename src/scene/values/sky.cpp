@@ -2,8 +2,8 @@
 //
 //     direction = (-cos φ sin θ, cos θ, -sin φ sin θ),   θ = π v,  φ = 2π u
 //
-// A texel takes the solid angle Δφ (cos θ₀ − cos θ₁), and directions spread evenly over it have an
-// even φ and an even cos θ.
+// A texel has the solid angle Δφ (cos θ₀ − cos θ₁); uniform directions in it have a uniform φ and a
+// uniform cos θ.
 
 #include "scene/values/sky.h"
 
@@ -49,7 +49,7 @@ std::size_t index_of(const Sky& sky, const Texel& texel)
     return std::size_t(texel.row) * std::size_t(sky.width) + std::size_t(texel.column);
 }
 
-/// What is left of running sums up to an entry.
+/// Weight of an entry of running sums.
 double share_of(const double* sums, int entry)
 {
     return entry == 0 ? sums[0] : sums[entry] - sums[entry - 1];
@@ -57,10 +57,10 @@ double share_of(const double* sums, int entry)
 
 struct Draw {
     int entry = 0;
-    double rest = 0.0;  ///< where in the entry, 0…1
+    double rest = 0.0;  ///< fraction within the entry, 0…1
 };
 
-/// The entry of running sums to 1 that `at` falls into; never one without a share.
+/// The entry of normalised running sums that contains `at`; never one of weight 0.
 Draw draw(const double* sums, int count, double at)
 {
     const double* found = std::upper_bound(sums, sums + count, at);
@@ -126,7 +126,7 @@ SkySampler::SkySampler(const Sky& sky) : sky_(&sky)
 
 SkySample SkySampler::sample(const glm::vec2& at) const
 {
-    // The largest float below 1 keeps a draw within the last entry that has a share.
+    // The largest float below 1 keeps the result within the last entry of positive weight.
     const glm::dvec2 place(glm::clamp(at, 0.0f, std::nextafter(1.0f, 0.0f)));
     const Draw row = draw(row_sums_.data(), sky_->height, place.y);
     const std::size_t first = index_of(*sky_, {row.entry, 0});

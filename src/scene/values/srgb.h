@@ -1,5 +1,5 @@
 #pragma once
-// How textures code colours.
+// sRGB decoding of textures.
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
-// Adds up over a workgroup, in an order that never changes. Its argument is the macro SUMMAND, the
-// type that is added up. Declares `plus`, which whoever includes this defines. The group's size,
-// declared before, is a power of two. May be included for one type only.
+// Sums SUMMAND values over a workgroup, in a fixed order. Before including this, define the macro
+// SUMMAND (the type) and the size of the group, a power of two; define `plus` after it. Can be
+// included for one type only.
 
 #extension GL_EXT_control_flow_attributes : require
 
@@ -12,7 +12,7 @@ SUMMAND plus(SUMMAND a, SUMMAND b);
 
 shared SUMMAND summands[gl_WorkGroupSize.x];
 
-// The sum of what each invocation brings. All of the group must come here.
+// Sum of `mine` over the workgroup. All invocations must call this.
 SUMMAND add_over_group(SUMMAND mine)
 {
     const uint me = gl_LocalInvocationID.x;
@@ -24,6 +24,6 @@ SUMMAND add_over_group(SUMMAND mine)
         barrier();
     }
     const SUMMAND sum = summands[0];
-    barrier();  // the next sum may begin
+    barrier();  // before the next sum
     return sum;
 }

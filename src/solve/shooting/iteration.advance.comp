@@ -2,9 +2,8 @@
 #include "solve/shooting/iteration.shared.h"
 #include "solve/shooting/iteration.glsl"
 
-// The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average),
-// and, at the end of a phase, this phase's far light (for unit power) folded into that of
-// earlier ones.
+// The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average). At
+// the end of a phase, adds this phase's far light (for unit power) to that of earlier phases.
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };

@@ -7,17 +7,17 @@
 //
 // Solves  B = E + ρ T B  where T is known through a random T* with E[T* B] = T B.
 //
-// `Scheme::paper`: T* acts on the running average, [BJ04] Eq. (2); the average is kept in two
+// `Scheme::paper`: T* acts on the running average, [BJ04] Eq. (2). The average is kept in two
 // halves for the error estimate. IterationOptions::leak makes it the leaky integration of [TN11]
-// Figure 6, where a shot counts less with every one after it: light that changes is followed, and
-// noise remains.
+// Figure 6, where the weight of a shot decays with every later one: the solution follows changes of
+// the light and stays noisy.
 //
 // `Scheme::phased` differs:
-// - Emission and reflected light are averaged apart: E never changes, so its mean is over all
-//   shots; the reflected source X = ρH is frozen for phases of doubling length, and its overall
-//   level is set by the energy balance at the end of each (iteration.glsl).
-// - The near field's pairs, left out of T*, are added exactly.
-// - Two half-solutions of independent sequences; their spread is the error estimate.
+// - Emission and reflected light are averaged separately. E is constant, so its mean is over all
+//   shots. The reflected source X = ρH is frozen for phases of doubling length; the energy balance
+//   scales it at the end of each phase (iteration.glsl).
+// - Near-field pairs, left out of T*, are added exactly.
+// - The error is estimated from the spread of two half-solutions with independent sequences.
 
 #include "solve/shooting/iteration.h"
 
@@ -31,24 +31,23 @@ namespace {
 
 /// Shots of the first phase, all from E.
 constexpr std::uint32_t kFirstPhaseShots = 64;
-/// How much a shot of an earlier phase counts beside one of the phase after it: its source was
-/// less exact. The first phases hardly count.
+/// Weight of a shot relative to one of the next phase, whose source is more accurate. The first
+/// phases have little weight.
 constexpr float kEarlierWeight = 0.75f;
 constexpr std::uint32_t kRoughPhases = 3;
 constexpr float kRoughWeight = 0.25f;
 /// The halves share the source of each phase and the near field, so their spread misses a part of
-/// the error. Measured on the Cornell box over five seeds, the true error is this times the spread.
+/// the error. Factor from spread to true error, measured on the Cornell box over five seeds.
 constexpr double kSharedError = 1.3;
-/// The stated error is that of the whole map, light beside what is found here included, or this
-/// part of the mean error of lumels relative to their own light, if that is larger: a dark room
-/// beside a bright one counts too.
+/// The estimated error is that of the whole map, given irradiance included, or this fraction of the
+/// mean relative error of lumels if that is larger: a dark room beside a bright one counts too.
 constexpr double kLocalShare = 0.6;
-/// Light below this part of the map's mean counts as that much when relative errors are taken.
+/// Relative errors of darker lumels are relative to this fraction of the map's mean.
 constexpr double kDimShare = 0.01;
 /// Sweeps of the near field after the last shot.
 constexpr int kPolishSweeps = 1;
 
-/// What a batch leaves of the sums before it: each shot what the leak does not replace.
+/// Fraction of the earlier sums that remains after a batch.
 double kept_by_batch(const IterationOptions& options, std::uint32_t batch)
 {
     if (options.leak == 0.0)
@@ -115,7 +114,7 @@ void Iteration::begin(gpu::Pacer& pacer)
 Averages Iteration::averages() const
 {
     Averages a{};
-    // In the mean of both halves a batch then counts 1 - kept, whichever it is in.
+    // Averaged over both halves, a batch then has the weight 1 - kept, in either half.
     const auto leaky = float(0.5 * double(batch_) / (1.0 - kept_));
     for (int h = 0; h < 2; ++h) {
         a.emission_shots[h] = leaks() ? leaky : float(emission_index_[h]);
@@ -234,8 +233,8 @@ void Iteration::begin_batch(gpu::Pacer& pacer)
 void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
 {
     if (!leaks())
-        throw Error(ErrorKind::input, "light that changes",
-                    "needs a leak: a mean of all shots keeps the light of before");
+        throw Error(ErrorKind::input, "changing light",
+                    "needs a leak: the mean of all shots keeps earlier light");
     pacer.finish();
     const std::vector<glm::vec3> emission = emission_of(lumels);
     emission_.upload(emission);
@@ -252,7 +251,8 @@ void Iteration::take_figures(gpu::Pacer& pacer)
     const glm::vec4 sums = terms->column[0];
     const double count = 3.0 * double(sums.z);
     if (!(sums.y > 0.0f) || count <= 0.0) {
-        // A scene without light is solved at once, and one that catches none of it soon.
+        // A scene without light has converged at once, one that receives none after the first
+        // phases.
         state_.error = emitted_power_ > 0.0 && phase_ <= 1 ? -1.0 : 0.0;
         return;
     }

@@ -3,13 +3,13 @@
 #include "solve/shooting/radiosity.glsl"
 #include "solve/shooting/iteration.glsl"
 
-// The solution as it stands, and how far its two independent halves are apart:
+// The current solution, and the difference between its two independent halves:
 //
 //     H = mean over h of (D_h + far_h)  +  near light,
 //     terms: Σ |H_0 - H_1|²/4 over channels (the mean's expected squared error), Σ H, N,
 //            Σ A 𝓛(ρH);
-//            Σ |H_0 - H_1|²/4 / (H'² + dim²), the same relative to each lumel's own light, H' with
-//            what is known beside H.
+//            Σ |H_0 - H_1|²/4 / (H'² + dim²), relative to each lumel's own light: H' is H plus the
+//            given irradiance.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { AverageParams p; };
@@ -19,7 +19,7 @@ layout(scalar) readonly buffer Indirect { vec3 indirect[]; };
 layout(scalar) readonly buffer NearEmission { vec3 near_emission[]; };
 layout(scalar) readonly buffer NearSource { vec3 near_source[]; };
 layout(scalar) readonly buffer Earlier { vec3 earlier[]; };  // [2][N]
-layout(scalar) readonly buffer Known { vec3 known[]; };  // H beside what is found here
+layout(scalar) readonly buffer Known { vec3 known[]; };  // given irradiance
 layout(scalar) writeonly buffer Far { vec3 far[]; };
 layout(scalar) writeonly buffer Irradiance { vec3 irradiance[]; };
 layout(scalar) writeonly buffer Parts { Terms parts[]; };
@@ -33,7 +33,7 @@ void main()
     if (i < p.count && surface[i].w > 0.0) {
         vec3 halves[2], near = vec3(0.0);
         for (uint h = 0u; h < 2u; ++h) {
-            // A half that has no shots yet takes the other's.
+            // A half without shots uses those of the other half.
             const uint e = p.averages.emission_shots[h] > 0.0 ? h : 1u - h;
             const uint s = has_indirect(p.averages, h) ? h : 1u - h;
             const uint at = s * p.count + i;

@@ -1,7 +1,7 @@
 #version 460
 #include "solve/shooting/iteration.shared.h"
 
-// Leaky integration, [TN11] Figure 6: what was received counts less with every batch.
+// Leaky integration, [TN11] Figure 6: received light decays with every batch.
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { FadeParams p; };

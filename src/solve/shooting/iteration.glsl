@@ -14,20 +14,20 @@ bool has_indirect(Averages averages, uint h)
     return averages.source_shots[h] + averages.earlier_weight[h] > 0.0;
 }
 
-// How much brighter the true indirect light is than the one that was shot, for half-solution h.
-// Write the reflected light as a pattern X / P of unit power times its power S. Its far light for
-// unit power is U, averaged over all phases, and N / P is its near light. Then S must balance:
+// Ratio of the true indirect light to that of the shots, for half-solution h. Write the reflected
+// light as a pattern X / P of unit power times its power S. Its far light for unit source power is
+// U, averaged over all phases, and N / P is its near light. Then S must balance:
 //
 //                                                        Σ A ρ D
 //     S = Σ A ρ (D + S (U + N / P))      ⟹      S = ───────────────────────,      s = S / P,
 //                                                     1 - Σ A ρ (U + N / P)
 //
-// one unknown per colour channel. It carries the light's overall level to where the bounces
-// would settle, which averaging alone reaches only slowly when albedos are high.
+// with one unknown per colour channel. This sets the overall level of the light to the converged
+// one, which averaging alone approaches slowly at high albedo.
 vec3 level(Averages averages, uint h)
 {
-    const float kMin = 0.05, kMax = 200.0;  // beyond these the sums hold only noise
-    const float kMinLeft = 1e-3;             // of the power, absorbed or lost per bounce
+    const float kMin = 0.05, kMax = 200.0;  // beyond these the sums are noise
+    const float kMinLeft = 1e-3;             // fraction of the power absorbed or lost per bounce
     if (averages.balance == 0u)
         return vec3(1.0);
     const float n = averages.source_shots[h], w = averages.earlier_weight[h];
@@ -46,8 +46,8 @@ vec3 level(Averages averages, uint h)
     return s;
 }
 
-// U: far light of half-solution h for unit source power, this phase's shots beside earlier ones.
-// Without balancing, the papers' plain mean.
+// U: far light of half-solution h for unit source power, over this phase and earlier ones. Without
+// balancing, the papers' plain mean.
 vec3 far_pattern(Averages averages, uint h, vec3 phase_sum, vec3 earlier)
 {
     const float n = averages.source_shots[h], w = averages.earlier_weight[h];

@@ -1,6 +1,6 @@
 #pragma once
-// The iteration scheme of solvers whose transport is random: what is averaged, and when light that
-// was received is sent on. See iteration.cpp.
+// Averages the batches of solvers whose transport operator T* is random, with expectation T, into a
+// solution of B = E + ρ T B. Schemes and equations: iteration.cpp.
 
 #include <array>
 #include <cstdint>
@@ -27,46 +27,50 @@ enum class Scheme {
 
 struct IterationOptions {
     Scheme scheme = Scheme::phased;
-    /// With Scheme::paper: the part of the solution that each shot replaces, [TN11] section 5
-    /// (0.01), so that light that changes is followed. 0: the mean of all shots, which converges.
+    /// Scheme::paper: fraction of the solution that each shot replaces, [TN11] section 5 (0.01), so
+    /// that it follows changes of the light. 0: the mean of all shots, which converges.
     double leak = 0.0;
 };
 
-/// Averages of a transport that acts, batch by batch, on E and on a source X of reflected light.
-/// A transport adds T* E of a batch to the half-solution half() of direct(), T* X to that of
-/// indirect(), and then calls finish_batch().
+/// Two half-solutions on the GPU. For each batch the solver calls begin_batch(), adds T* E to
+/// direct() and T* X to indirect() in the half given by half(), and calls finish_batch(). X is the
+/// light to shoot again: ρH with Scheme::phased, E + ρH with Scheme::paper, which adds nothing to
+/// direct().
+///
+/// state().error is estimated from the spread of the halves and read back a fixed number of
+/// iterations late, so that timing cannot change a result.
 class Iteration {
 public:
-    /// batch: shots of one batch. With Scheme::paper the near field is not used. `known` as
-    /// make_solver takes it.
+    /// batch: shots per batch. Scheme::paper does not use the near field. known:
+    /// SolverInputs::known.
     Iteration(const gpu::Device& device, const Lumels& lumels, const NearField& near,
               std::span<const glm::vec3> known, const IterationOptions& options,
               std::uint32_t batch);
 
     /// Clears all sums; X is 0, or E with Scheme::paper.
     void begin(gpu::Pacer& pacer);
-    /// Bytes on the device.
+    /// GPU memory [bytes].
     static std::uint64_t device_bytes(std::size_t lumel_count, std::uint64_t near_pairs);
 
-    /// Before each batch: hears figures that are due, and lets leaky sums fade.
+    /// Call before each batch: reads back due statistics and decays leaky sums.
     void begin_batch(gpu::Pacer& pacer);
-    /// Ends a batch: so many shots went into direct() and into indirect(). Returns true if X is
-    /// new.
+    /// Ends a batch of this number of shots into direct() and indirect(). Returns true if X
+    /// changed.
     bool finish_batch(gpu::Pacer& pacer, std::uint32_t emission_shots, std::uint32_t source_shots);
-    /// E, ρ and A are those of `lumels` from now on. Waits for the device. Throws Error{input}
-    /// unless the sums are leaky: others would keep the light of before.
+    /// Takes E, ρ and A from `lumels`. Waits for the device. Throws Error{input} unless the sums
+    /// are leaky: others would keep earlier light.
     void relight(gpu::Pacer& pacer, const Lumels& lumels);
-    /// H [N] [lx] so far. Waits for the device.
+    /// Current H [N] [lx]. Waits for the device.
     std::vector<glm::vec3> irradiance(gpu::Pacer& pacer);
 
     std::uint32_t lumels() const { return count_; }
     const SolverState& state() const { return state_; }
     std::uint32_t half() const { return phase_batch_ % 2; }
     bool sends_reflected() const { return paper_ || phase_ > 0; }  ///< false: X is still 0
-    /// Shots so far of this half-solution, since the first batch.
+    /// Shots of this half-solution since the first batch.
     std::uint32_t emission_index() const { return emission_index_[half()]; }
     std::uint32_t source_index() const { return source_index_[half()]; }
-    /// Power of E as a part of all that is sent, 0…1, as last heard.
+    /// Power of E relative to all emitted power, 0…1, at the last readback.
     double emission_share() const { return emission_share_; }
 
     const gpu::Array<glm::vec4>& surface() const { return surface_; }    ///< (ρ, A) [N]
@@ -86,7 +90,7 @@ private:
     std::uint32_t count_;  ///< N lumels
     std::uint32_t batch_;
     bool paper_;
-    double kept_;           ///< part of the sums that a batch leaves of those before it
+    double kept_;           ///< fraction of the sums that remains after a batch
     double emitted_power_;  ///< Σ A 𝓛(E) [lm]
     double known_sum_;      ///< Σ of `known` [lx]
 
@@ -97,21 +101,20 @@ private:
     gpu::Kernel<shaders::IterationFade> fade_;
     gpu::Array<glm::vec4> surface_;   ///< ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission_;  ///< E
-    gpu::Array<glm::vec3> known_;     ///< H that is received beside what is found here
-    gpu::Array<glm::vec3> source_;    ///< X: reflected light to be sent
+    gpu::Array<glm::vec3> known_;     ///< given irradiance H
+    gpu::Array<glm::vec3> source_;    ///< X: reflected light to shoot
     gpu::Array<glm::vec3> direct_;    ///< [2][N] sums over shots of E
     gpu::Array<glm::vec3> indirect_;  ///< [2][N] sums over shots of X, this phase
-    gpu::Array<glm::vec3>
-        earlier_;  ///< [2][N] U: far light for unit source power, of earlier phases
+    gpu::Array<glm::vec3> earlier_;   ///< [2][N] U: far light for unit source power, earlier phases
     gpu::Array<glm::vec3> near_emission_;  ///< near light of E
     gpu::Array<glm::vec3> near_source_;    ///< near light of X
     gpu::Array<glm::vec3> far_, irradiance_, scratch_source_, scratch_near_;
     NearRows near_rows_;
-    gpu::Array<Terms> totals_;  ///< of the energy balance
+    gpu::Array<Terms> totals_;  ///< sums of the energy balance
     LumelSums figures_;
 
     SolverState state_;
-    double mean_irradiance_ = 0.0;  ///< as last heard [lx]
+    double mean_irradiance_ = 0.0;  ///< at the last readback [lx]
     std::uint32_t phase_ = 0;
     std::uint32_t phase_batch_ = 0;  ///< batches done in this phase
     std::uint32_t phase_length_;     ///< batches in this phase

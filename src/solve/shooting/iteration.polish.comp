@@ -1,8 +1,8 @@
 #version 460
 #include "solve/shooting/iteration.shared.h"
 
-// One sweep of the near field over the finished far light:  X ← ρH (then near_rows.comp),
-// H ← far + near. Leaves the running averages as they are.
+// One near-field sweep over the finished far light:  X ← ρH (then near_rows.comp), H ← far + near.
+// The running averages stay.
 
 layout(local_size_x = kIterationGroup) in;
 layout(push_constant, scalar) uniform Params { PolishParams p; };

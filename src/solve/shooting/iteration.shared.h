@@ -13,10 +13,10 @@ struct PolishParams {
 /// Push constants of iteration.fade.comp.
 struct FadeParams {
     uint count;  ///< 2 N
-    float kept;  ///< part of the sums that stays
+    float kept;  ///< fraction of the sums that remains
 };
 
-/// How far the running averages are. Per half-solution h = 0, 1.
+/// Shots and weights of the running averages, per half-solution h = 0, 1.
 struct Averages {
     float emission_shots[2];  ///< shots in direct[h]
     float source_shots[2];    ///< shots in indirect[h], this phase
@@ -28,7 +28,7 @@ struct Averages {
 struct AverageParams {
     Averages averages;
     uint count;  ///< N
-    float dim;   ///< irradiance below which relative errors are relative to this [lx]; 0: unknown
+    float dim;   ///< errors of darker lumels are relative to this irradiance [lx]; 0: unknown
 };
 
 /// Push constants of iteration.advance.comp.

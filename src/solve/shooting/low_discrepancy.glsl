@@ -1,7 +1,7 @@
 #ifndef LUMEL_SHOOTING_LOW_DISCREPANCY_GLSL
 #define LUMEL_SHOOTING_LOW_DISCREPANCY_GLSL
 
-// Owen-scrambled Sobol points, computed on the spot.
+// Owen-scrambled Sobol points.
 //
 //   [Owen95] A. Owen. Randomly permuted (t,m,s)-nets and (t,s)-sequences. 1995.
 //   [LK11]   S. Laine, T. Karras. Stratified sampling for stochastic transparency. 2011
@@ -9,7 +9,7 @@
 
 #include "base/core/hash.glsl"
 
-// Bit-reversed x is scrambled so that each bit is flipped depending on the bits above it.
+// Flips each bit of bit-reversed x depending on the bits above it.
 uint owen_scramble(uint x, uint seed)
 {
     x = bitfieldReverse(x);
@@ -27,7 +27,7 @@ uint sobol(uint index, uint dimension)
 {
     uint result = 0u;
     uint v = 1u << 31;        // direction number of the current bit
-    uint before = 0u;         // and of the bit before it
+    uint before = 0u;         // direction number of the bit before it
     for (uint bit = 0u; bit < 32u && index != 0u; ++bit, index >>= 1) {
         if ((index & 1u) != 0u)
             result ^= v;
@@ -44,7 +44,7 @@ uint sobol(uint index, uint dimension)
     return result;
 }
 
-// Point `index` of the sequence scrambled by `seed`: 0 ≤ x, y, z < 1.
+// Point `index` of the sequence scrambled by `seed`: x, y, z in [0, 1).
 vec3 low_discrepancy_point(uint index, uint seed)
 {
     return vec3(unit_float(owen_scramble(sobol(index, 0u), hash(seed ^ 0x68bc21ebu))),

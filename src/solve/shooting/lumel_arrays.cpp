@@ -41,7 +41,7 @@ float reflecting_area(const Lumels& lumels)
 
 float emissive_share(const Lumels& lumels, std::span<const glm::vec3> known)
 {
-    constexpr float kRounding = 1e-4f;  // of an emission that is nothing but reflection
+    constexpr float kRounding = 1e-4f;  // where the emission is reflected light
     float shines = 0.0f, all = 0.0f;
     for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
         const Lumel& lumel = lumels.lumels[i];

@@ -1,5 +1,5 @@
 #pragma once
-// What every solver takes of the lumels. Buried lumels neither shine nor reflect: their area and
+// Lumel attributes as arrays for solvers. Buried lumels neither emit nor reflect: their area and
 // emission are 0.
 
 #include <cstdint>
@@ -17,17 +17,17 @@ std::vector<glm::vec4> surfaces_of(const Lumels& lumels);
 /// E [N] [lm/m²]
 std::vector<glm::vec3> emission_of(const Lumels& lumels);
 
-/// Lumels that shine but reflect nothing.
+/// Makes all albedos 0.
 Lumels black(Lumels lumels);
 
-/// Σ A of lumels that reflect [m²]
+/// Σ A of reflecting lumels [m²]
 float reflecting_area(const Lumels& lumels);
 
-/// Share of the area that shines by itself. known: [N] [lx] of light whose reflection the emission
-/// contains too, or empty.
+/// Area of lumels that emit on their own relative to all. known: irradiance [N] [lx] whose
+/// reflection the emission also contains, or empty.
 float emissive_share(const Lumels& lumels, std::span<const glm::vec3> known);
 
-/// Σ A 𝓛(E) [lm]; emission [N] as of emission_of.
+/// Σ A 𝓛(E) [lm]; emission: [N] from emission_of().
 double emitted_power(const Lumels& lumels, std::span<const glm::vec3> emission);
 
 template <class T>

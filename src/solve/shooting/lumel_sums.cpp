@@ -8,9 +8,9 @@
 namespace lumel {
 namespace {
 
-/// Sums are requested each time the iterations have grown by this factor.
+/// Requests sums each time the number of iterations has grown by this factor.
 constexpr double kGrowth = 1.12;
-/// Iterations between asking and taking.
+/// Iterations between request and readback.
 constexpr std::uint64_t kLag = 2;
 
 Terms checked(const Terms& terms)

@@ -1,5 +1,5 @@
 #pragma once
-// Sums over all lumels, and their way back to the host.
+// Reductions over all lumels on the GPU, read back with a fixed delay.
 
 #include <functional>
 #include <optional>
@@ -10,9 +10,9 @@
 
 namespace lumel {
 
-/// What a kernel of workgroups of kSumGroup lumels reduced (see sum.glsl), added up. Sums are
-/// read a fixed number of iterations after they were requested, so that timing cannot change a
-/// result and nothing waits for the device.
+/// Sums the parts that a kernel with workgroups of kSumGroup lumels wrote (sum.glsl). Reads sums
+/// back a fixed number of iterations after the request: timing cannot change a result, and nothing
+/// waits for the device.
 class LumelSums {
 public:
     LumelSums(const gpu::Device& device, std::size_t lumel_count);
@@ -23,24 +23,24 @@ public:
     const gpu::Array<Terms>& parts() const { return parts_; }
     /// totals[0] = Σ parts.
     void add_up(gpu::Commands& commands, const gpu::Array<Terms>& totals) const;
-    /// The same into the figures themselves.
+    /// Adds up into the sums that are read back.
     void add_up(gpu::Commands& commands) const { add_up(commands, sums_); }
 
-    /// Records `evaluate`, which ends in add_up(), and starts the figures on their way, if it is
-    /// time to.
+    /// If a readback is due: records `evaluate`, which must end with add_up(), and requests the
+    /// sums.
     void request(gpu::Pacer& pacer, std::uint64_t iteration,
                  const std::function<void(gpu::Commands&)>& evaluate);
-    /// Sums that are due at this iteration. Throws Error{input} if column 0's first two are
+    /// The sums due at this iteration, if any. Throws Error{input} if the first two of column 0 are
     /// not finite.
     std::optional<Terms> poll(gpu::Pacer& pacer, std::uint64_t iteration);
 
-    /// The same at once. Waits for the device.
+    /// Evaluates and reads the sums at once. Waits for the device.
     Terms read_now(gpu::Pacer& pacer, const std::function<void(gpu::Commands&)>& evaluate);
 
-    /// Forgets figures that are on their way. The pacer must have finished.
+    /// Discards a pending readback. Requires that the pacer has finished.
     void drop() { waiting_ = false; }
 
-    /// The figures last added up. Waits for the device.
+    /// The sums last added up. Waits for the device.
     Terms now() const { return sums_.download()[0]; }
 
 private:

@@ -3,7 +3,7 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kSumGroup = 64u;  ///< of the kernels that reduce; a power of two
+LUMEL_CONST uint kSumGroup = 64u;  ///< group size of reduction kernels; a power of two
 LUMEL_CONST uint kTermColumns = 8u;
 
 /// Sums over all lumels.

@@ -1,7 +1,7 @@
 #version 460
 #include "solve/shooting/lumel_sums.shared.h"
 
-// Adds the workgroups' parts up to one.
+// Sums the parts of all workgroups.
 
 layout(local_size_x = kSumGroup) in;
 layout(push_constant, scalar) uniform Params { TotalParams p; };

@@ -1,12 +1,12 @@
 #ifndef LUMEL_SHOOTING_MERGED_TEXELS_GLSL
 #define LUMEL_SHOOTING_MERGED_TEXELS_GLSL
 
-// Texels that shoot as one, [BSS05] section 5: those of a square of 2^merge texels a side, as far
-// as they lie on one chart.
+// Texels that shoot as one, [BSS05] section 5: those of a square of 2^merge × 2^merge texels that
+// lie on one chart.
 
 #include "raster/world/lumel.glsl"
 
-// Lumels lie by chart and along a Morton curve: those of a square are neighbours.
+// Lumels are ordered by chart and along a Morton curve, so those of a square are neighbours.
 uint merge_reach(uint merge)
 {
     return (1u << (2u * merge)) - 1u;
@@ -35,8 +35,8 @@ struct MergedPlace {
     float area;  // Σ A_m [m²]
 };
 
-// The centre of the square around j. Where the chart bulges it is lifted to the highest of the
-// texels, or the surface would hide it.
+// The centre of the square around j. On a convex chart it is lifted to the highest texel, or the
+// surface would occlude it.
 MergedPlace merged_place(uint j, uint merge, uint count, uint width)
 {
     const Lumel lumel = lumels[j];

@@ -21,7 +21,7 @@ PowerDraw::PowerDraw(const WorldLumels& world, const Lumels& lumels, std::vector
 std::uint32_t PowerDraw::lumel(double place) const
 {
     const auto above = std::upper_bound(running_.begin(), running_.end(), place);
-    // Rounding may lead past the last one that sends anything.
+    // Rounding may lead past the last lumel with power.
     const auto last = std::lower_bound(running_.begin(), running_.end(), running_.back());
     return std::uint32_t(std::min(above, last) - running_.begin());
 }

@@ -58,7 +58,7 @@ void PowerPyramid::build(gpu::Commands& commands, const gpu::Array<glm::vec3>& s
             PyramidLeafParams{std::uint32_t(count_), share, area_sum}, count_);
         sum_levels(commands);
     };
-    // Power first: the defensive share is relative to it.
+    // Power first: the defensive weights are relative to it.
     leaves(0.0f);
     commands.copy_part(array_.buffer(), layout_.first[layout_.levels - 1] * sizeof(float),
                        power_.buffer(), 0, sizeof(float));

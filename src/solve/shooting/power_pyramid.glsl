@@ -1,18 +1,18 @@
 #ifndef LUMEL_SHOOTING_POWER_PYRAMID_GLSL
 #define LUMEL_SHOOTING_POWER_PYRAMID_GLSL
 
-// Drawing a lumel with probability proportional to its power: [BSS05] section 4.1, with 32
-// children to a node instead of 4. The lumels lie in Morton order within charts, so a
-// stratified u gives shooters that are spread over the surfaces.
+// Draws a lumel with probability proportional to its power: [BSS05] section 4.1, with 32 children
+// per node instead of 4. Lumels are in Morton order within charts, so a stratified u spreads
+// shooters over the surfaces.
 
 #include "solve/shooting/power_pyramid.shared.h"
 
 struct Drawn {
     uint lumel;
-    float probability;  // p_j; 0: there is no power at all
+    float probability;  // p_j; 0: the total power is 0
 };
 
-// drawn ← the lumel where u, 0…1, falls in the sums `weights`, a PyramidLayout's.
+// drawn ← the lumel at u, 0…1, in the cumulative `weights` of a PyramidLayout.
 #define DRAW_FROM(weights, pyramid, u, drawn)                                                      \
     {                                                                                              \
         const uint top = pyramid.levels - 1u;                                                      \

@@ -1,5 +1,5 @@
 #pragma once
-// Sums of power over the lumels, on the GPU, for importance sampling ([BSS05] section 4.1).
+// Hierarchical sums of lumel power on the GPU, for importance sampling ([BSS05] section 4.1).
 
 #include "gpu/commands.h"
 #include "solve/shooting/power_pyramid.leaves.comp.h"
@@ -8,16 +8,16 @@
 
 namespace lumel {
 
-/// Share of shooters spread by area whatever their power (dark rooms need it).
+/// Fraction of shooters drawn by area instead of power; dark rooms need it.
 inline constexpr float kDefensiveShare = 0.15f;
 
-/// A tree of sums with the lumels' power as leaves. Read by power_pyramid.glsl.
+/// Tree of sums whose leaves are the powers of the lumels. Read by power_pyramid.glsl.
 class PowerPyramid {
 public:
     PowerPyramid(const gpu::Device& device, std::size_t lumel_count);
 
-    /// Records the sums for leaf weights 𝓛(X_j) A_j, with a defensive share of the selection
-    /// spread by area. source [N] vec3: X; surface [N] vec4: ρ, A; area_sum: Σ A that reflects.
+    /// Records the sums of leaf weights 𝓛(X_j) A_j, of which the fraction `by_area` is distributed
+    /// by area. source [N] vec3: X; surface [N] vec4: ρ, A; area_sum: Σ A of reflecting lumels.
     void build(gpu::Commands& commands, const gpu::Array<glm::vec3>& source,
                const gpu::Array<glm::vec4>& surface, float by_area, float area_sum);
 

@@ -6,9 +6,9 @@
 //
 //     w_j = (1 - a) 𝓛(X_j) A_j / Φ  +  a A_j / ΣA,
 //
-// where X is the radiosity to be shot and Φ = Σ 𝓛(X) A is taken from the last pyramid's root.
-// The second term, the defensive share a, keeps p_j > 0 where the first is far too small for
-// what a lumel means to its neighbours (a dark room beside a bright one).
+// where X is the radiosity to shoot and Φ = Σ 𝓛(X) A is the root of the last pyramid. The second,
+// defensive term, of fraction a, keeps p_j > 0 where the first is far too small for the light that
+// the lumel sends to its neighbours (a dark room beside a bright one).
 
 layout(local_size_x = kPyramidGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidLeafParams p; };

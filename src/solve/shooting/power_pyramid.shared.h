@@ -7,8 +7,8 @@ LUMEL_CONST uint kPyramidFanout = 32u;  ///< children summed into one parent
 LUMEL_CONST uint kPyramidLevels = 7u;   ///< for 32⁶ leaves, more than 32 bits can count
 LUMEL_CONST uint kPyramidGroup = 64u;
 
-/// Where the levels of a pyramid begin in its array: level 0 are the leaves, one per lumel; the
-/// last level used holds the root.
+/// First element of each level in the pyramid's array. Level 0 has the leaves, one per lumel; the
+/// last level used has the root.
 struct PyramidLayout {
     uint first[kPyramidLevels];
     uint count[kPyramidLevels];
@@ -18,8 +18,8 @@ struct PyramidLayout {
 /// Push constants of power_pyramid.leaves.comp.
 struct PyramidLeafParams {
     uint count;      ///< N
-    float by_area;   ///< share of the selection spread by area alone, 0…1
-    float area_sum;  ///< Σ A of what can reflect [m²]
+    float by_area;   ///< fraction distributed by area alone, 0…1
+    float area_sum;  ///< Σ A of reflecting lumels [m²]
 };
 
 /// Push constants of power_pyramid.sum.comp.

@@ -1,7 +1,7 @@
 #version 460
 #include "solve/shooting/power_pyramid.shared.h"
 
-// One level of the pyramid: each parent is the sum of its children.
+// One level of the pyramid: each parent sums its children.
 
 layout(local_size_x = kPyramidGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidSumParams p; };

@@ -1,7 +1,7 @@
 #ifndef LUMEL_SHOOTING_RADIOSITY_GLSL
 #define LUMEL_SHOOTING_RADIOSITY_GLSL
 
-// What the shaders of every solver need.
+// Constants and functions shared by the shaders of all solvers.
 
 const float kPi = 3.14159265358979;
 
@@ -11,8 +11,8 @@ float luminance(vec3 c)
     return dot(c, vec3(0.2126, 0.7152, 0.0722));
 }
 
-// cosθ_i cosθ_j / (r² + disc), for normals of length 1; `d` leads from j to i. 0 if one of them
-// looks away. `disc` [m²]: A_j / π of a shooter that counts as a disc, 0 of a point.
+// cosθ_i cosθ_j / (r² + disc) for unit normals; `d` leads from j to i. 0 if either faces away.
+// `disc` [m²]: A_j / π of a disc-shaped shooter, 0 for a point.
 float point_factor(vec3 d, vec3 normal_j, vec3 normal_i, float disc)
 {
     const float r2 = dot(d, d);

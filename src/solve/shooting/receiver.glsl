@@ -1,15 +1,15 @@
 #ifndef LUMEL_SHOOTING_RECEIVER_GLSL
 #define LUMEL_SHOOTING_RECEIVER_GLSL
 
-// A lumel that receives, and whether an eye sees it.
+// A receiving point, and its visibility from an eye.
 
 #include "raster/eyes/sees.glsl"
 #include "raster/world/lumel.glsl"
 
 struct Receiver {
-    vec3 x, normal, facing;  // of the receiving point
-    vec3 centre;             // of its lumel
-    float size;              // of its lumel
+    vec3 x, normal, facing;  // receiving point
+    vec3 centre;             // centre of its lumel
+    float size;              // size of its lumel
     uint lumel;
 };
 
@@ -18,7 +18,7 @@ Receiver receiver_at(LumelPoint x, Lumel lumel, uint i)
     return Receiver(x.position, x.normal, x.facing, lumel.position, lumel.size, i);
 }
 
-// Does the eye of a tile see the receiving point, and from the front?
+// True if the eye of the tile sees the front of the receiving point.
 bool is_seen(Receiver r, Eye eye, uint tile, EyeViewLayout tiling)
 {
     const mat3 frame = mat3(eye.tangent, eye.bitangent, eye.normal);

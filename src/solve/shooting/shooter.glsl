@@ -1,13 +1,13 @@
 #ifndef LUMEL_SHOOTING_SHOOTER_GLSL
 #define LUMEL_SHOOTING_SHOOTER_GLSL
 
-// Where shooters stand and look.
+// Positions and orientations of shooters.
 
 #include "solve/shooting/low_discrepancy.glsl"
 #include "solve/shooting/radiosity.glsl"
 #include "raster/eyes/eye_views.shared.h"
 
-// A point of the unit cube for shooter k, independent of all others or from a sequence.
+// Point in the unit cube for shooter k: independent random numbers, or from a sequence.
 vec3 draw_point(uint index, uint stream, uint base_seed, bool random)
 {
     const uint seed = hash(hash(base_seed) ^ stream);
@@ -18,7 +18,7 @@ vec3 draw_point(uint index, uint stream, uint base_seed, bool random)
     return vec3(unit_float(a), unit_float(b), unit_float(hash(b ^ 0x9e3779b9u)));
 }
 
-// Frame about the normal, turned by a random angle.
+// Frame about the normal, rotated by a random angle.
 Eye make_eye(vec3 position, vec3 normal, uint random, uint channel)
 {
     const vec3 other = abs(normal.x) < 0.5 ? vec3(1, 0, 0) : vec3(0, 1, 0);

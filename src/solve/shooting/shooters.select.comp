@@ -10,14 +10,14 @@
 #include "raster/world/channel.glsl"
 
 // Draws the shooters of one batch: p(y) ∝ power ([BSS05] section 4.1, [BJ04] section 3.1), the
-// point y uniform on lumel j, the hemicube turned at random about the normal.
+// point y uniform on lumel j, the hemicube rotated at random about the normal.
 //
-// Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area
-// A = Σ A_m and radiosity Σ X_m A_m / A, which is drawn with p = Σ p_m. It stands at their common
-// centre, or, where points are spread over texels, on the one drawn.
+// Merged ([BSS05] section 5), the texels m of a square that lie on j's patch shoot as one of area A
+// = Σ A_m and radiosity Σ X_m A_m / A, drawn with p = Σ p_m. Its position is their common centre,
+// or, if points are spread over texels, a point on the texel drawn.
 //
-// Among coloured glass what a shooter reaches differs from channel to channel: each takes one, with
-// three times the power in it.
+// With coloured glass, visibility differs between channels: each shooter takes one channel, with
+// three times its power.
 
 layout(local_size_x = kSelectGroup) in;
 layout(push_constant, scalar) uniform Params { SelectParams p; };
@@ -31,7 +31,7 @@ layout(scalar) writeonly buffer Shots { Shot shots[]; };
 struct Merged {
     vec3 power;    // Σ X_m A_m
     float area;    // Σ A_m
-    float weight;  // Σ of what they are drawn by
+    float weight;  // Σ of selection weights
 };
 
 Merged merged_with(uint j)
@@ -55,7 +55,7 @@ void main()
         return;
     const bool emits = k < p.emission_count;
     const uint index = emits ? p.emission_index + k : p.source_index + k - p.emission_count;
-    // Channels take turns with one shooter, so that each has a whole sequence of them.
+    // Channels take turns, so that each uses a complete sequence.
     const uint point = p.channels != 0u ? index / kChannels : index;
     const vec3 u = draw_point(point, emits ? 0u : 1u, p.seed, p.random != 0u);
 

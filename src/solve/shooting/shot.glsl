@@ -1,7 +1,7 @@
 #ifndef LUMEL_SHOOTING_SHOT_GLSL
 #define LUMEL_SHOOTING_SHOT_GLSL
 
-// Which shots reach a lumel. Declares the batch: `eyes` and `shots`.
+// Visibility of lumels from shots. Declares the batch: `eyes` and `shots`.
 
 #include "raster/near/near_pairs.glsl"
 #include "solve/shooting/receiver.glsl"
@@ -10,8 +10,8 @@
 layout(scalar) uniform Eyes { Eye eyes[kMaxBatch]; };
 layout(scalar) uniform Shots { Shot shots[kMaxBatch]; };
 
-// Does the light of shot k arrive, from the front and not through the near field? `d` leads from
-// the shooter to the receiving point.
+// True if light of shot k arrives on the front and the pair is not in the near field. `d` leads
+// from the shooter to the receiving point.
 bool arrives(Receiver r, uint k, EyeViewLayout tiling, float near_radius, out vec3 d)
 {
     d = r.x - eyes[k].position;

@@ -1,7 +1,7 @@
 #ifndef LUMEL_SHOOTING_SUM_GLSL
 #define LUMEL_SHOOTING_SUM_GLSL
 
-// Adds up one Terms per invocation over the workgroup.
+// Sums one Terms per invocation over the workgroup.
 
 #include "solve/shooting/lumel_sums.shared.h"
 
@@ -22,9 +22,9 @@ Terms plus(Terms a, Terms b)
 
 shared vec4 columns[kTermColumns][kSumGroup];
 
-// The sum of what each invocation brings in its first `used` columns; the others are 0. All of the
-// group must come here. One invocation goes through each column: a tree would wait six times, which
-// costs a processor more than it saves.
+// Sums `mine` over the workgroup in the first `used` columns; the others are 0. All invocations
+// must call this. One invocation sums each column: on a CPU device the six barriers of a tree cost
+// more than they save.
 Terms add_over_group(Terms mine, uint used)
 {
     const uint me = gl_LocalInvocationID.x;
@@ -41,7 +41,7 @@ Terms add_over_group(Terms mine, uint used)
     Terms sums = no_terms();
     for (uint c = 0u; c < used; ++c)
         sums.column[c] = columns[c][0];
-    barrier();  // the next sum may begin
+    barrier();  // before the next sum
     return sums;
 }
 

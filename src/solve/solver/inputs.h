@@ -1,5 +1,5 @@
 #pragma once
-// What solvers work on.
+// Inputs of solvers.
 
 #include <span>
 
@@ -14,30 +14,30 @@ namespace lumel {
 
 class LobeParticles;
 
-/// A scene for methods that trace rays on the host.
+/// A scene for methods that trace rays on the CPU.
 struct HostScene {
     const Scene& scene;
     const RayScene& rays;
     const Atlas& atlas;
 };
 
-/// What a method works on. All must outlive it.
+/// Inputs of a method. All must outlive it.
 struct SolverInputs {
     const gpu::Device& device;
-    const World* world;  ///< null for a method that is not on the device
+    const World* world;  ///< null for methods that run on the CPU
     const Lumels& lumels;
-    const NearField& near;  ///< may be empty for methods and schemes without a near field
-    /// H [N] [lx] that lumels receive beside what the solver finds, or empty: the error it states
-    /// is a part of both, but the noise of what is known is not in it.
+    const NearField& near;  ///< may be empty for methods and schemes that use no near field
+    /// Given irradiance H [N] [lx] in addition to the solver's, or empty. The estimated error is
+    /// relative to the sum of both; noise of the given part is not in it.
     std::span<const glm::vec3> known = {};
     const LobeParticles* particles = nullptr;  ///< see GlossyIllumination
-    /// E [N] [lm/m²] of surfaces whose direct light is a part of `known`, for indirect light alone:
-    /// the lumels' own emission is then what they reflect diffusely of `known`, and lobes reflect
-    /// the rest. Or empty.
+    /// E [N] [lm/m²] of surfaces whose direct light is part of `known`, to solve for indirect light
+    /// only; or empty. The emission of `lumels` is then the diffuse reflection of `known`, and
+    /// lobes reflect the rest.
     std::span<const glm::vec3> first_emission = {};
-    /// For links, matrix and directions of Scheme::phased; only while they are made.
+    /// For links, matrix and directions of Scheme::phased; used during construction only.
     const HostScene* host = nullptr;
-    Parts parts = Parts::all;  ///< what is returned by methods that find lights or finds_emitted()
+    Parts parts = Parts::all;  ///< results of methods that find lights or finds_emitted()
 };
 
 }  // namespace lumel

@@ -4,15 +4,15 @@
 
 namespace lumel {
 
-/// Where a LiveScene or a LeakyScene stands.
+/// Status of a LiveScene or a LeakyScene.
 struct LiveState {
-    /// Light still to be shot, as a part of all; of a LeakyScene the share of the light before the
-    /// last change that is left.
+    /// Unshot light relative to all light; in a LeakyScene, remaining fraction of the light before
+    /// the last change.
     double residual = 1.0;
     bool under_way = false;       ///< a move is being redistributed
-    bool at_rest = false;         ///< update() has nothing left to do
-    std::uint64_t hemicubes = 0;  ///< so far; directions of a LeakyScene
-    double milliseconds = 0.0;    ///< that the last update() took
+    bool at_rest = false;         ///< update() has no work left
+    std::uint64_t hemicubes = 0;  ///< total; a LeakyScene counts directions
+    double milliseconds = 0.0;    ///< duration of the last update()
 };
 
 }  // namespace lumel

@@ -1,5 +1,5 @@
 #pragma once
-// What the memory that a solver takes depends on.
+// Sizes that determine a solver's memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace lumel {
 
-/// Beside the options.
+/// Sizes beside the options.
 struct SolveSize {
     const Lumels* lumels = nullptr;
-    std::uint64_t near_pairs = 0;  ///< of the near field, as many as its table has
-    float diagonal = 0.0f;         ///< of the scene's bounding box [m]
+    std::uint64_t near_pairs = 0;  ///< entries of the near-field table
+    float diagonal = 0.0f;         ///< diagonal of the scene's bounding box [m]
 
     std::size_t count() const { return lumels->lumels.size(); }  ///< N
     std::uint64_t texels() const { return std::uint64_t(lumels->width) * lumels->height; }

@@ -1,5 +1,5 @@
 #pragma once
-// What every method at work offers.
+// Interface of all running solvers.
 
 #include <string>
 #include <vector>
@@ -14,26 +14,26 @@ namespace lumel {
 class StateReader;
 class StateWriter;
 
-/// A method at work on one world. Every method fills the same result.
+/// A method that solves one world. All methods fill the same result.
 class Solver {
 public:
     virtual ~Solver() = default;
 
-    /// One pass of the paper's outer loop, recorded and submitted.
+    /// One pass of the paper's outer loop: records and submits it.
     virtual void step() = 0;
     virtual SolverState state() const = 0;
-    /// H [N] [lx] of the solution so far. Waits for the device.
+    /// Current H [N] [lx]. Waits for the device.
     virtual std::vector<glm::vec3> irradiance() = 0;
-    /// Device time per stage [ms] so far.
+    /// Total GPU time per stage [ms].
     virtual const gpu::StageTimes& times() const = 0;
-    /// Longest submission so far [ms].
+    /// Longest submission [ms].
     virtual double longest_submission() const = 0;
-    /// Who casts its rays, "host", "query" or "raster"; empty if it casts none.
+    /// Ray tracing backend: "host", "query" or "raster"; empty if none.
     virtual std::string rays() const { return {}; }
-    /// All that another solver needs that was made in the same way, to go on as this one would:
-    /// only of methods with MethodInfo::can_resume, between steps.
+    /// Complete state, with which an equal solver continues identically. Only for methods with
+    /// MethodInfo::can_resume, between steps.
     virtual void write_state(StateWriter&) {}
-    /// Throws Error{input} for what was written by a solver of something else.
+    /// Throws Error{input} if the state is from a different solver.
     virtual void read_state(StateReader&) {}
 };
 

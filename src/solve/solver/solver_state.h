@@ -1,5 +1,5 @@
 #pragma once
-// Where a solver stands.
+// Status of a solver.
 
 #include <cstdint>
 
@@ -7,13 +7,14 @@ namespace lumel {
 
 /// As last read back from the device.
 struct SolverState {
-    std::uint64_t shots = 0;       ///< shooters so far, or what else MethodInfo::shots names
-    std::uint64_t iterations = 0;  ///< steps so far
-    double error = -1.0;  ///< estimated relative RMSE of the irradiance, < 0: not known yet
-    /// The same of lumels below a third of the mean, relative to their own; < 0: not known.
+    std::uint64_t shots = 0;       ///< shooters, or the unit that MethodInfo::shots names
+    std::uint64_t iterations = 0;  ///< steps
+    double error = -1.0;           ///< estimated relative RMSE of the irradiance, < 0: unknown
+    /// RMSE of lumels below a third of the mean irradiance, relative to their own mean; < 0:
+    /// unknown.
     double dark_error = -1.0;
-    bool full = false;   ///< there is no memory for more: further steps change nothing
-    double begun = 0.0;  ///< how far it is on the way to its first estimate, 0…1, where it knows
+    bool full = false;   ///< memory is exhausted: further steps change nothing
+    double begun = 0.0;  ///< progress to the first estimate, 0…1, if known
 };
 
 }  // namespace lumel

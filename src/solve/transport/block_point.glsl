@@ -1,7 +1,7 @@
 #ifndef LUMEL_TRANSPORT_BLOCK_POINT_GLSL
 #define LUMEL_TRANSPORT_BLOCK_POINT_GLSL
 
-// Where a block of lumels is seen from.
+// Viewpoint of a block of lumels.
 
 #include "solve/transport/patches.shared.h"
 #include "raster/world/lumel.glsl"

@@ -5,12 +5,13 @@
 //            Utrecht University, 2013. Section 4.3.3.
 //   [SF17]   A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017. Eq. (3).
 //
-// Each patch shoots a radiosity of 1 from all of its blocks of lumels, as progressive radiosity
-// does; what arrives at a lumel is its form factor to the patch, and the mean over the lumels of
-// another patch by area is the element of the matrix. Close lumels are taken from the near field.
+// Each patch shoots a radiosity of 1 from all of its blocks of lumels, as in progressive radiosity.
+// The light that a lumel receives is its form factor to the patch; the area-weighted mean over the
+// lumels of a patch is an element of the matrix. Close lumels use the near field.
 //
-// A_i F_ij = A_j F_ji, and in a closed room Σ_j F_ij = 1. Points for areas violate both a little.
-// With D diagonal and S = (A F + (A F)ᵀ) / 2, the matrix  A⁻¹ D S D  satisfies the first whatever D
+// A_i F_ij = A_j F_ji, and in a closed room Σ_j F_ij = 1. Replacing areas by points violates both
+// slightly. With D diagonal and S = (A F + (A F)ᵀ) / 2, the matrix  A⁻¹ D S D  satisfies the first
+// for any D; balance() finds the D that satisfies the second.
 // is; balance() finds the D that satisfies the second.
 
 #include "solve/transport/form_factors.h"
@@ -28,7 +29,7 @@ namespace {
 constexpr std::uint32_t kOne = 0x3f800000;  // 1.0f
 constexpr std::size_t kRowsPerTask = 32;
 constexpr std::size_t kLumelsPerTask = 4096;
-/// Balancing ends when sums differ by less than this part, or after this number of rounds.
+/// Balancing ends when relative differences of sums are below this, or after kMaxRounds rounds.
 constexpr double kBalanced = 1e-6;
 constexpr int kMaxRounds = 200;
 
@@ -49,7 +50,7 @@ std::vector<float> areas_of(const Lumels& lumels)
     return areas;
 }
 
-/// S_ij = (A_i F_ij + A_j F_ji) / 2 in the place of F. Returns how far it was from that.
+/// Replaces F by S_ij = (A_i F_ij + A_j F_ji) / 2. Returns the relative difference.
 double make_symmetric(SquareMatrix& matrix, std::span<const float> area)
 {
     const std::size_t n = matrix.size;
@@ -168,13 +169,13 @@ std::uint64_t FormFactors::device_bytes(const SolveSize& size, const ViewOptions
            size.count() * (sizeof(glm::vec3) + batch * sizeof(float));
 }
 
-/// Block behind the last of the batch that begins at next_.
+/// End of the batch that begins at block next_.
 std::uint32_t FormFactors::batch_end() const
 {
     return std::min(next_ + views_.capacity(), std::uint32_t(blocks_.size()));
 }
 
-/// Which column of its batch each block adds to.
+/// For each block, the column of its batch that it adds to.
 std::vector<std::uint32_t> FormFactors::columns_of_blocks() const
 {
     std::vector<std::uint32_t> columns;
@@ -187,7 +188,7 @@ std::vector<std::uint32_t> FormFactors::columns_of_blocks() const
     return columns;
 }
 
-/// The near field by columns of patches instead of rows of lumels.
+/// The near field by columns (patches) instead of rows (lumels).
 FormFactors::NearColumns FormFactors::near_columns(const NearField& near) const
 {
     NearColumns result;

@@ -20,40 +20,39 @@
 
 namespace lumel {
 
-/// What patches exchange, before anything is enforced and after.
+/// Errors of the form factors before balancing.
 struct FormFactorCheck {
-    double reciprocity = 0.0;  ///< Σ |A_i F_ij - A_j F_ji| / Σ A_i F_ij, as found
-    double row_sum = 0.0;      ///< root mean square of Σ_j F_ij - 1 of closed rows, as found
+    double reciprocity = 0.0;  ///< Σ |A_i F_ij - A_j F_ji| / Σ A_i F_ij
+    double row_sum = 0.0;      ///< RMS of Σ_j F_ij - 1 over closed rows
     double worst_row_sum = 0.0;
     std::size_t closed = 0;  ///< rows that must add up to 1
 };
 
-/// Makes A_i F_ij = A_j F_ji, and closed rows [n] add up to 1; others keep their sums, or 1 if they
-/// had more. area: [n].
+/// Makes A_i F_ij = A_j F_ji, and closed rows [n] sum to 1; others keep their sums, at most 1.
+/// area: [n].
 FormFactorCheck balance(SquareMatrix& form_factors, std::span<const float> area,
                         std::span<const char> closed);
 
-/// Finds the form factors by batches of hemicubes, patch after patch.
+/// Computes form factors by batches of hemicubes, patch by patch.
 class FormFactors {
 public:
-    /// Takes of each patch what lumels [N] receive if its radiosity is 1 lm/m² [lx].
+    /// Receives the irradiance [N] [lx] of all lumels if the radiosity of `patch` is 1 lm/m².
     using Column = std::function<void(std::uint32_t patch, std::span<const float> received)>;
 
     /// patches must outlive this.
     FormFactors(const gpu::Device& device, const World& world, const Lumels& lumels,
                 const NearField& near, const VoxelPatches& patches, const ViewOptions& options);
 
-    /// Bytes on the device but for blocks of patches, on one whose images may be as large as is
-    /// wanted.
+    /// GPU memory [bytes], without blocks of patches, if the device's image sizes do not limit
+    /// batches.
     static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
 
     bool done() const { return next_ == blocks_.size(); }
     double fraction() const { return double(next_) / double(blocks_.size()); }  ///< done, 0…1
-    /// Shoots the next batch, and hands over the patches that it completes.
+    /// Shoots the next batch; calls `take` for each patch that it completes.
     void step(const Column& take);
 
-    /// [n][n] F_ij of the patches completed so far: the share of what j sends per area that
-    /// arrives per area of i.
+    /// [n][n] F_ij of the patches completed so far: irradiance of i per radiosity of j.
     const SquareMatrix& matrix() const { return matrix_; }
     SquareMatrix take_matrix() { return std::move(matrix_); }
     std::uint64_t shots() const { return next_; }
@@ -88,13 +87,13 @@ private:
     EyeViews views_;
     gpu::Array<Patch> block_array_;
     std::vector<std::uint32_t> column_of_;  ///< [blocks] of `received_`
-    gpu::Array<std::uint32_t> columns_;     ///< the same
+    gpu::Array<std::uint32_t> columns_;     ///< column_of_ on the GPU
     gpu::Array<Eye> eyes_;                  ///< [K]
     gpu::Array<PatchShot> shots_;           ///< [K]
     gpu::Array<glm::vec3> sending_;         ///< [N] 1
     gpu::Array<float> received_;            ///< [K][N]
-    std::vector<float> open_column_;  ///< [N] of the patch that the batch before left unfinished
-    gpu::Pacer pacer_;                ///< after all that its work uses: it waits when it ends
+    std::vector<float> open_column_;        ///< [N] of a patch that the last batch left incomplete
+    gpu::Pacer pacer_;  ///< last member: its destructor waits for work that uses others
 };
 
 }  // namespace lumel

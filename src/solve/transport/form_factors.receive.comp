@@ -8,12 +8,12 @@
 #include "raster/eyes/sees.glsl"
 #include "solve/transport/patch_light.glsl"
 
-// What every lumel receives of patches whose radiosity is 1: F_ip but for close pairs,
+// Irradiance of every lumel from patches of radiosity 1: F_ip without close pairs,
 //
 //     F_ip = Σ_k A_k V cosθ_i cosθ_k / (π r²)      over the blocks k of patch p,
 //
-// seen or not from a point of the lumel that is another for each block, but as far away as its
-// middle: what two lumels find of each other then agrees.
+// where V is that of a different point of the lumel for each block, but the distance is that of its
+// centre, so that two lumels agree about each other.
 
 layout(local_size_x = kFormFactorGroup) in;
 layout(push_constant, scalar) uniform Params { FormFactorParams p; };

@@ -7,7 +7,7 @@ LUMEL_CONST uint kFormFactorGroup = 64u;
 
 /// Push constants of form_factors.look.comp.
 struct BlockParams {
-    uint first;  ///< of the blocks
+    uint first;  ///< first block
     uint count;  ///< K
 };
 
@@ -18,8 +18,8 @@ struct FormFactorParams {
     uint last;
     uint lumels;        ///< N
     uint shots;         ///< K
-    uint first_block;   ///< the shots are of blocks [first_block, first_block + K)
-    float near_radius;  ///< pairs closer than this × the larger size belong to the near field
+    uint first_block;   ///< the shots are those of blocks [first_block, first_block + K)
+    float near_radius;  ///< pairs closer than this × the larger size are in the near field
 };
 
 LUMEL_SHARED_END

@@ -1,12 +1,11 @@
-// From what patches send to light on lumels.
+// Light from patches to lumels.
 //
 //   [SF17] A. Shcherbakov, V. Frolov. Accelerating Radiosity on GPUs. WSCG 2017. Section 3.6,
 //   step 4.
 //
-// The paper leaves this open. Here the last bounce of light is at the lumel: it has a row of form
-// factors of its own, found together with those of the patches (form_factors.cpp). Patches that
-// lie behind a wall are not in it though they may be closest, and a lumel in a corner is
-// distinguished from the middle of its patch.
+// The paper leaves this open. Here the last bounce ends at the lumel, which has its own row of form
+// factors, found together with those of the patches (form_factors.cpp). A row excludes close
+// patches behind a wall, and a lumel in a corner differs from the middle of its patch.
 
 #include "solve/transport/lumel_rows.h"
 
@@ -19,10 +18,10 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kLumelsPerTask = 256;
-/// Factors below this part of a patch's even share of all that a lumel sees are left out; the
-/// others stand for them. They are a tenth of all, and a thousandth of the light.
+/// Drops factors below this fraction of an equal share of a lumel's sum, and scales up the others.
+/// These are a tenth of all factors and a thousandth of the light.
 constexpr float kMinShare = 0.02f;
-/// Of patches that a lumel sees, where memory is planned.
+/// Assumed fraction of patches that a lumel sees, to estimate memory.
 constexpr double kSeen = 0.5;
 
 }  // namespace
@@ -82,7 +81,7 @@ LumelRows LumelRowsBuilder::finish(std::span<const char> closed)
     rows.entry.resize(rows.first.back());
     std::vector<std::uint32_t> next(rows.first.begin(), rows.first.end() - 1);
     for (std::uint32_t p = 0; p < columns_.size(); ++p) {
-        const Column column = std::move(columns_[p]);  // its memory is free after this
+        const Column column = std::move(columns_[p]);  // frees its memory at the end of the scope
         for (std::size_t k = 0; k < column.lumel.size(); ++k) {
             const std::uint32_t i = column.lumel[k];
             const double whole = closed[i] ? 1.0 : std::min(sum_[i], 1.0);

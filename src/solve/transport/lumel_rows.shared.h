@@ -3,7 +3,7 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-/// Half floats keep all digits of form factors times this number, from 4e-9 on.
+/// Form factors times this keep all digits of a half float from 4e-9 on.
 LUMEL_CONST float kRowScale = 16384.0f;
 
 /// The form factor of a lumel and a patch.

@@ -1,8 +1,8 @@
 #ifndef LUMEL_TRANSPORT_PATCH_LIGHT_GLSL
 #define LUMEL_TRANSPORT_PATCH_LIGHT_GLSL
 
-// The light that a patch sends to a point. Declares the batch: `eyes`, `shots`, and what the lumels
-// of its patches send, `sending`.
+// Light from a patch at a point. Declares the batch: `eyes`, `shots`, and the radiosity that the
+// lumels of its patches send, `sending`.
 
 #include "raster/near/near_pairs.glsl"
 #include "solve/shooting/radiosity.glsl"
@@ -14,12 +14,12 @@ layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Sending { vec3 sending[]; };
 
-// Beyond this many times the patch's size it counts as one point.
+// Beyond this multiple of the patch's size, the patch counts as one point.
 const float kFar = 4.0;
 
 // [Hoef13] Eq. (2.2.8), with the disc of each lumel where the patch is close (adaptive form factor
-// subdivision, section 4.3.3). Pairs of the near field are left out, and with them the term A_j:
-// the near field holds them exactly.
+// subdivision, section 4.3.3). Near-field pairs are left out, and with them the term A_j: the near
+// field holds them exactly.
 vec3 light_without_occluders(Receiver r, uint k, float near_radius)
 {
     const PatchShot s = shots[k];
@@ -39,7 +39,7 @@ vec3 light_without_occluders(Receiver r, uint k, float near_radius)
     return sum / kPi;
 }
 
-// Of shot k, at its own fixed point of lumel i; the patch's eye decides for all its lumels.
+// Light of shot k at its own fixed point of lumel i; the patch's eye decides for all its lumels.
 vec3 light_of(uint k, Lumel lumel, uint i, float near_radius, EyeViewLayout tiling)
 {
     const LumelPoint x = receiving_point(lumel, i, shots[k].number, 0u, false);

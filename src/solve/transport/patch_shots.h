@@ -1,6 +1,5 @@
 #pragma once
-// Patches that shoot, a batch at a time: what progressive, incremental and cross-redistribution
-// radiosity have in common.
+// Batches of shooting patches, for progressive, incremental and cross-redistribution radiosity.
 
 #include "gpu/pacer.h"
 #include "raster/eyes/eye_views.h"
@@ -13,7 +12,7 @@
 
 namespace lumel {
 
-/// The light of a solution. H = T B^s always: what was shot is what arrived.
+/// Light of a solution. Invariant: H = T B^s, received light is that of the shot radiosity.
 struct ShotLight {
     ShotLight(const gpu::Device& device, const Lumels& lumels);
 
@@ -22,10 +21,10 @@ struct ShotLight {
     gpu::Array<glm::vec4> surface;    ///< [N] ρ, A; A = 0 for buried lumels
     gpu::Array<glm::vec3> emission;   ///< [N] E
     gpu::Array<glm::vec3> shot;       ///< [N] B^s
-    gpu::Array<glm::vec3> far, near;  ///< [N] H of the shot light, but for close pairs, and of them
+    gpu::Array<glm::vec3> far, near;  ///< [N] H of the shot light, without and from close pairs
 };
 
-/// Patches of the lumels, and a batch of them at work: chosen, taken, rendered from.
+/// Patches of the lumels, and the current batch of them: chosen, taken, rendered from.
 class PatchShots {
 public:
     PatchShots(const gpu::Device& device, const World& world, const Lumels& lumels,
@@ -33,21 +32,21 @@ public:
 
     static std::uint64_t device_bytes(const SolveSize& size, const ViewOptions& options);
 
-    /// Eyes, shots and sending radiosities of the patches in chosen(). `ambient` [1]: light still
-    /// to arrive [lx], for those that send what is unshot.
+    /// Computes eyes, shots and sending radiosities of the patches in chosen(). ambient: [1] light
+    /// still to arrive [lx], for patches that send unshot light.
     void take(gpu::Commands& commands, const ShotLight& light,
               const gpu::Array<glm::vec3>& ambient);
-    /// The same of the batch that begins at `first` in a list in whole batches. No light is still
-    /// to arrive.
+    /// Takes the batch that begins at `first` in a list of whole batches, without light still to
+    /// arrive.
     void take(gpu::Commands& commands, const ShotLight& light, const gpu::Array<ChosenPatch>& list,
               std::uint32_t first);
-    /// Draws what they see.
+    /// Renders their views.
     void look(gpu::Pacer& pacer) { views_.look_from(pacer, eyes_, batch_); }
 
     std::uint32_t batch() const { return batch_; }  ///< K
     const Patches& layout() const { return layout_; }
     const gpu::Array<PatchChart>& charts() const { return charts_; }   ///< [C]
-    gpu::Array<std::uint32_t>& levels() { return levels_; }            ///< [C] as they shoot
+    gpu::Array<std::uint32_t>& levels() { return levels_; }            ///< [C] current level
     gpu::Array<ChosenPatch>& chosen() { return chosen_; }              ///< [K]
     const gpu::Array<Eye>& eyes() const { return eyes_; }              ///< [K]
     const gpu::Array<PatchShot>& shots() const { return shots_; }      ///< [K]
@@ -66,12 +65,11 @@ private:
     gpu::Array<ChosenPatch> chosen_;
     gpu::Array<Eye> eyes_;
     gpu::Array<PatchShot> shots_;
-    gpu::Array<glm::vec3> sending_;     ///< part of its light that a point of this batch sends
+    gpu::Array<glm::vec3> sending_;     ///< fraction of its light that a point of this batch sends
     gpu::Array<glm::vec3> no_ambient_;  ///< [1] 0
 };
 
-/// With places that stay empty behind it, so that its length divides by `batch`: one batch at
-/// least.
+/// Pads the list with empty entries to a multiple of `batch`, at least one batch.
 std::vector<ChosenPatch> in_whole_batches(std::vector<ChosenPatch> list, std::uint32_t batch);
 
 }  // namespace lumel

@@ -4,35 +4,34 @@
 #include "solve/transport/patches.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kPatchGroup = 64u;     ///< of kernels over patches and their lumels
+LUMEL_CONST uint kPatchGroup = 64u;     ///< kernels over patches and their lumels
 LUMEL_CONST uint kMaxPatchBatch = 64u;  ///< K at most
 LUMEL_CONST uint kNoPatch = 0xffffffffu;
 
-/// What is shot of a patch.
+/// The light that a patch sends.
 LUMEL_CONST uint kSendUnshot = 0u;
-LUMEL_CONST uint kSendBack = 1u;      ///< what was shot, negative: it is taken back
-LUMEL_CONST uint kSendShot = 2u;      ///< what was shot, once more
-LUMEL_CONST uint kSendCrossing = 3u;  ///< the same, also where that is nothing
-LUMEL_CONST uint kSendBackSide = 4u;  ///< nothing, from the side that has no lumels
+LUMEL_CONST uint kSendBack = 1u;      ///< minus the shot light: undoes it
+LUMEL_CONST uint kSendShot = 2u;      ///< the shot light again
+LUMEL_CONST uint kSendCrossing = 3u;  ///< the shot light again, even if it is 0
+LUMEL_CONST uint kSendBackSide = 4u;  ///< none, from the side without lumels
 
-/// A patch that is to shoot.
 struct ChosenPatch {
-    uint chart;  ///< kNoPatch: none, the place in the batch stays empty
+    uint chart;  ///< kNoPatch: empty entry of the batch
     uint level;
-    uint index;  ///< of the chart's patches of that level
+    uint index;  ///< among the chart's patches of that level
     uint send;   ///< kSend…
 };
 
-/// The energy side of a shooter; its Eye is the geometric side.
+/// Energy of a shooter; its Eye has the geometry.
 struct PatchShot {
     vec3 power;        ///< Σ ΔB_j A_j / π
     float size;        ///< diameter of the patch [m]
-    float lumel_size;  ///< largest of its lumels [m]
-    uint first;        ///< its lumels
+    float lumel_size;  ///< size of its largest lumel [m]
+    uint first;        ///< first of its lumels
     uint count;        ///< 0: nothing is shot
     uint parts;        ///< number of points that share the patch's light
-    uint number;       ///< of the patch's point, the same whenever it shoots
-    float facing;      ///< 1, or -1 of what stands on the back of its lumels
+    uint number;       ///< index of the patch's point, the same whenever it shoots
+    float facing;      ///< 1, or -1 for objects behind its lumels
 };
 
 /// Push constants of kernels over the patches of a batch.

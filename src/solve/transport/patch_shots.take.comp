@@ -10,7 +10,7 @@
 #include "solve/transport/foreseen.glsl"
 #include "raster/world/channel.glsl"
 
-// What the chosen patches send [Hoef13] 4.3.2, GenerateShootingPatches: an eye and the power of
+// Light of the chosen patches, [Hoef13] 4.3.2, GenerateShootingPatches: an eye and the power of
 // each, and the radiosity that each of its lumels sends.
 
 layout(local_size_x = kPatchGroup) in;
@@ -31,8 +31,7 @@ Patch patch_of(ChosenPatch c)
     return Patch(lumel, 1u, lumel, lumels[lumel].size);
 }
 
-// Where the patch shoots from: the same place each time, so that what is taken back is what was
-// shot.
+// Viewpoint of the patch: always the same, so that light can be taken back exactly.
 LumelPoint eye_point(ChosenPatch c, Patch block)
 {
     const uint points = points_per_lumel(c.level);

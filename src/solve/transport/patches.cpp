@@ -6,16 +6,16 @@
 namespace lumel {
 namespace {
 
-/// Normals of a patch have at least this cosine to their mean (15°).
+/// Minimum cosine between normals of a patch and their mean (15°).
 constexpr float kMinAgreement = 0.966f;
-/// Lumels of a flat patch leave its plane by no more than this part of its size.
+/// Maximum distance of a flat patch's lumels from its plane, relative to its size.
 constexpr float kFlatness = 0.02f;
 
 struct Range {
     std::uint32_t first, last;
 };
 
-/// Block of 2^exponent texels a side that the lumel lies in.
+/// Block of 2^exponent texels a side that contains the lumel.
 glm::uvec2 block_of(const Lumels& lumels, std::uint32_t i, std::uint32_t exponent)
 {
     const auto width = std::uint32_t(lumels.width);
@@ -23,7 +23,7 @@ glm::uvec2 block_of(const Lumels& lumels, std::uint32_t i, std::uint32_t exponen
     return {(texel % width) >> exponent, (texel / width) >> exponent};
 }
 
-/// The lumels from `first` on that share its block: neighbours along the Morton curve.
+/// The lumels from `first` on in the same block: neighbours along the Morton curve.
 Range next_block(const Lumels& lumels, std::uint32_t first, std::uint32_t end,
                  std::uint32_t exponent)
 {
@@ -70,7 +70,7 @@ Shape shape_of(const Lumels& lumels, const Range& range)
     return shape;
 }
 
-/// Where the patch shoots from: its mean if that surely lies on it, or the lumel nearest to that.
+/// Viewpoint of the patch: its mean if that surely lies on it, or the lumel nearest to the mean.
 std::uint32_t eye_of(const Lumels& lumels, const Range& range, const Shape& shape,
                      std::uint32_t exponent)
 {
@@ -94,7 +94,7 @@ bool is_mixed(Groups group, const Range& range)
                        [&](std::uint32_t other) { return other != group[range.first]; });
 }
 
-/// group: [N], or empty: all are of one.
+/// group: [N], or empty for one group.
 void append_patches(const Lumels& lumels, Groups group, const Range& range, std::uint32_t exponent,
                     std::vector<Patch>& patches)
 {
@@ -117,7 +117,7 @@ bool same_side(const Lumel& a, const Lumel& b)
     return a.chart == b.chart && (a.flags & kLumelBack) == (b.flags & kLumelBack);
 }
 
-/// The lumels from `first` on that are of one side of a chart.
+/// The lumels from `first` on that belong to the same side of a chart.
 Range next_chart(const Lumels& lumels, std::uint32_t first)
 {
     std::uint32_t last = first + 1;

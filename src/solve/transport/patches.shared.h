@@ -3,10 +3,10 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-/// How finely a chart's light is shot, from blocks of 4 × 4 texels to 16 points of each lumel.
+/// Resolution of a chart's shooters, from blocks of 4 × 4 texels to 16 points per lumel.
 LUMEL_CONST uint kBlockLevels = 2u;  ///< levels 0 and 1: listed blocks of 4 × 4 and 2 × 2 texels
-LUMEL_CONST uint kLumelLevel = 2u;   ///< each lumel from one point; from here on nothing is listed
-LUMEL_CONST uint kPatchLevels = 5u;  ///< levels 3 and 4: 4 and 16 points of each lumel
+LUMEL_CONST uint kLumelLevel = 2u;   ///< one point per lumel; nothing is listed from here on
+LUMEL_CONST uint kPatchLevels = 5u;  ///< levels 3 and 4: 4 and 16 points per lumel
 
 LUMEL_CONST uint kFromMean = 0xffffffffu;  ///< Patch::eye: at the mean of its lumels
 
@@ -14,8 +14,8 @@ LUMEL_CONST uint kFromMean = 0xffffffffu;  ///< Patch::eye: at the mean of its l
 struct Patch {
     uint first;  ///< its lumels are [first, first + count)
     uint count;
-    uint eye;    ///< lumel that it shoots from, or kFromMean
-    float size;  ///< diameter of a ball that holds its lumels [m]
+    uint eye;    ///< viewpoint: a lumel, or kFromMean
+    float size;  ///< diameter of its bounding sphere [m]
 };
 
 /// The lumels of one side of a chart, and their patches.
@@ -24,7 +24,7 @@ struct PatchChart {
     uint lumel_count;
     uint first_patch[kBlockLevels];
     uint patch_count[kBlockLevels];
-    uint moving;  ///< 1: its lumels are kLumelMoving, and cross redistribution alone shoots from
+    uint moving;  ///< 1: kLumelMoving; only cross redistribution shoots from these lumels
                   ///< them
 };
 

@@ -1,4 +1,4 @@
-// Form factors of all reflections [SF17]: what solve/matrix and relight build on. Equations as in
+// Form factors of all reflections [SF17], used by solve/matrix and methods/matrix. Equations:
 // methods/matrix/matrix.cpp.
 
 #include "solve/transport/transport.h"

@@ -1,5 +1,5 @@
 #pragma once
-// What light does between the patches of a scene, whatever lights it [SF17]. See transport.cpp.
+// Light transport between patches, independent of the light sources [SF17]. See transport.cpp.
 
 #include "solve/matrix/color_matrix.h"
 #include "solve/transport/form_factors.h"
@@ -10,35 +10,35 @@ namespace lumel {
 
 struct TransportOptions {
     ViewOptions views;
-    std::uint32_t patches = 2048;  ///< n at most
-    std::uint32_t bounces = 0;     ///< k, reflections that count, 0: all
+    std::uint32_t patches = 2048;  ///< maximum n
+    std::uint32_t bounces = 0;     ///< reflections k, 0: all
 };
 
-/// What light does between the patches of a scene, whatever lights it.
+/// Light transport between the patches of a scene, independent of the light sources.
 struct Transport {
     VoxelPatches patches;
     SquareMatrix form_factors;  ///< [n][n], balanced
     FormFactorCheck check;
-    /// [n][n] M = Σ_{h ≥ 1} (F^c)^h, Eq. (8), without the last bounce where they are limited
+    /// [n][n] M = Σ_{h ≥ 1} (F^c)^h, Eq. (8), without the last bounce if bounces are limited
     ColorMatrix bounces;
     LumelRows rows;  ///< [N][n] of the last bounce
 
-    /// H [N] [lx] of all reflections of direct light [N] [lx].
+    /// All reflected light H [N] [lx] of direct light [N] [lx].
     std::vector<glm::vec3> indirect(const Lumels& lumels, std::span<const glm::vec3> direct) const;
 };
 
-/// Builds a Transport, a batch of shooters at a time.
+/// Builds a Transport in batches of shooters.
 class TransportBuilder {
 public:
-    /// All must outlive this. Form factors are made to add up, and patches to end at walls, as far
-    /// as near.around shows.
+    /// All arguments must outlive this. Uses near.around, where known, to close rows and to split
+    /// patches at walls.
     TransportBuilder(const gpu::Device& device, const World& world, const Lumels& lumels,
                      const NearField& near, const TransportOptions& options);
 
     bool done() const { return factors_.done(); }
-    double fraction() const { return factors_.fraction(); }  ///< done, 0…1
+    double fraction() const { return factors_.fraction(); }  ///< 0…1
     void step();
-    /// Once done: balances, multiplies, fits. May be called once.
+    /// Balances, multiplies and fits. Requires done(). Call once.
     Transport finish();
 
     const FormFactors& factors() const { return factors_; }

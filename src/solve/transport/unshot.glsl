@@ -1,8 +1,8 @@
 #ifndef LUMEL_TRANSPORT_UNSHOT_GLSL
 #define LUMEL_TRANSPORT_UNSHOT_GLSL
 
-// Light that a lumel has not sent on yet. Declares what is known of the lumels' light: `surface`,
-// `emission`, `far`, `near` and `shot`.
+// Light that a lumel has not shot yet. Declares the lumels' light: `surface`, `emission`, `far`,
+// `near` and `shot`.
 
 #include "base/core/shared.h"
 

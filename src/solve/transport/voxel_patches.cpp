@@ -14,22 +14,21 @@
 namespace lumel {
 namespace {
 
-/// What the lumels of a patch have in common: cell, side of a cube that they face, chart.
+/// Key of a patch: cell, cube side that its lumels face, chart.
 using Key = std::array<std::int32_t, 5>;
 inline constexpr std::int32_t kAnyChart = -1;
 
-/// The grid's corner lies this part of a voxel before the scene's: surfaces rarely lie on its
-/// planes.
+/// Offset of the grid's corner from the scene's [voxels]: surfaces rarely lie on its planes.
 constexpr glm::vec3 kGridShift{0.381966f, 0.414214f, 0.267949f};
-/// Halvings in the search for the finest grid: a voxel's side is then known to about 1 %.
+/// Bisection steps in the search for the finest grid; the voxel side is then known to about 1 %.
 constexpr int kHalvings = 12;
-/// The finest grid has this number of voxels along the scene's diagonal, the coarsest one.
+/// Voxels along the scene's diagonal in the finest grid; the coarsest has one.
 constexpr float kMaxVoxels = 4096.0f;
 
 struct Place {
-    glm::vec3 position;  ///< in the world
+    glm::vec3 position;  ///< world space
     std::int32_t facing;
-    std::int32_t chart;  ///< with its side
+    std::int32_t chart;  ///< includes its side
     float area;
     glm::vec3 normal;
 };
@@ -72,7 +71,7 @@ Key key_of(const Place& place, const Grid& grid, float side)
     return {cell.x, cell.y, cell.z, place.facing, large ? place.chart : kAnyChart};
 }
 
-/// Lumels of one chart that can be reached from each other without passing a wall.
+/// Lumels of one chart that are connected without crossing a wall.
 class Components {
 public:
     explicit Components(std::size_t count) : parent_(count)
@@ -95,12 +94,11 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// All that the search for a grid looks at.
 struct GridInputs {
     std::vector<Place> places;  ///< [N]
     Grid grid;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;  ///< lumels with nothing between
-    bool walls = false;                                          ///< is it known where walls are?
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;  ///< lumels that no wall separates
+    bool walls = false;                                          ///< true if walls are known
 };
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> joins_of(const Lumels& lumels,
@@ -119,7 +117,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> joins_of(const Lumels& lume
     return joins;
 }
 
-/// The patch of each lumel, numbered as they are met.
+/// The patch of each lumel, numbered in order of first use.
 std::vector<std::uint32_t> numbers_of(const GridInputs& layout, float side, std::size_t& count)
 {
     const std::size_t lumels = layout.places.size();

@@ -181,9 +181,9 @@ TEST(RayScene, GlassTintsWhatPasses)
     scene.materials[0].transmission = scene.materials[2].transmission = 1.0f;
     const RayScene rays(scene);
     const glm::vec3 above(0.4f, 0.3f, 1.0f), down(0.0f, 0.0f, -1.0f);
-    EXPECT_EQ(rays.passing(above, {0.4f, 0.3f, -0.5f}, 0.0f, 1), pane.albedo);
-    EXPECT_EQ(rays.passing(above, {0.4f, 0.3f, 0.5f}, 0.0f, 1), glm::vec3(1.0f));
-    EXPECT_EQ(rays.passing_out(above, down, 1), glm::vec3(0.0f)) << "there is a wall";
+    EXPECT_EQ(rays.transmittance(above, {0.4f, 0.3f, -0.5f}, 0.0f, 1), pane.albedo);
+    EXPECT_EQ(rays.transmittance(above, {0.4f, 0.3f, 0.5f}, 0.0f, 1), glm::vec3(1.0f));
+    EXPECT_EQ(rays.transmittance_out(above, down, 1), glm::vec3(0.0f)) << "there is a wall";
 
     RayHit hit;
     ASSERT_TRUE(rays.closest(above, down, 0.0f, kFar, 1, hit));
@@ -193,7 +193,7 @@ TEST(RayScene, GlassTintsWhatPasses)
     scene.materials[1].transmission = 1.0f;
     const glm::vec3 thrice = pane.albedo * pane.albedo * pane.albedo;
     const RayScene all_glass(scene);
-    EXPECT_EQ(all_glass.passing_out(above, down, 1), thrice);
+    EXPECT_EQ(all_glass.transmittance_out(above, down, 1), thrice);
     EXPECT_FALSE(all_glass.closest(above, down, 0.0f, kFar, 1, hit));
     EXPECT_EQ(hit.tint, thrice);
 }
@@ -272,7 +272,8 @@ TEST(RayScene, WhatHasMovedIsMetAsInANewSceneBitForBit)
         EXPECT_EQ(moved.high(), fresh.high());
         for (std::uint32_t ray = 0; ray < kRays; ++ray) {
             const glm::vec3 from = point(), to = point(), toward = glm::normalize(to - from);
-            ASSERT_EQ(moved.passing(from, to, 1e-4f, ray), fresh.passing(from, to, 1e-4f, ray));
+            ASSERT_EQ(moved.transmittance(from, to, 1e-4f, ray),
+                      fresh.transmittance(from, to, 1e-4f, ray));
             RayHit a, b;
             ASSERT_EQ(moved.closest(from, toward, 0.0f, kFar, ray, a),
                       fresh.closest(from, toward, 0.0f, kFar, ray, b));

@@ -45,18 +45,18 @@ void expect_agreement(const gpu::Device& device, const Scene& scene)
     std::vector<RayHit> by_host(kRays), by_query(kRays);
     host->closest(out, by_host);
     query->closest(out, by_query);
-    std::vector<glm::vec3> passing_host(kRays), passing_query(kRays);
-    host->passing(between, passing_host);
-    query->passing(between, passing_query);
-    std::size_t other_hits = 0, other_passing = 0, clear = 0;
+    std::vector<glm::vec3> transmittance_host(kRays), transmittance_query(kRays);
+    host->transmittance(between, transmittance_host);
+    query->transmittance(between, transmittance_query);
+    std::size_t other_hits = 0, other_transmittance = 0, clear = 0;
     for (std::size_t i = 0; i < kRays; ++i) {
         other_hits += !support::same(by_host[i], by_query[i]);
-        other_passing +=
-            !(glm::distance(passing_host[i], passing_query[i]) < support::kHitRounding);
-        clear += passing_host[i] != glm::vec3(0.0f);
+        other_transmittance +=
+            !(glm::distance(transmittance_host[i], transmittance_query[i]) < support::kHitRounding);
+        clear += transmittance_host[i] != glm::vec3(0.0f);
     }
     EXPECT_LE(double(other_hits), kOnEdges * kRays);
-    EXPECT_LE(double(other_passing), kOnEdges * kRays);
+    EXPECT_LE(double(other_transmittance), kOnEdges * kRays);
     EXPECT_GT(clear, kRays / 100);
     EXPECT_LT(clear, kRays);
 }
@@ -85,11 +85,11 @@ TEST_F(QueryCaster, MeetsNothingWhereThereIsNothing)
     const auto query = cast_by_queries(device, rays);
     const RaySpan ray = ray_out({0, 0, 0}, {0, 0, 1}, 0);
     RayHit hit;
-    glm::vec3 passing(0.0f);
+    glm::vec3 transmittance(0.0f);
     query->closest({&ray, 1}, {&hit, 1});
-    query->passing({&ray, 1}, {&passing, 1});
+    query->transmittance({&ray, 1}, {&transmittance, 1});
     EXPECT_EQ(hit.distance, RayCaster::kNothing);
-    EXPECT_EQ(passing, glm::vec3(1.0f));
+    EXPECT_EQ(transmittance, glm::vec3(1.0f));
 }
 
 TEST_F(QueryCaster, CastsMoreRaysThanFitIntoItsArrays)

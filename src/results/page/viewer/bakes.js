@@ -1,17 +1,17 @@
-// The bakes that the page was made of.
+// The bakes of the page.
 
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { makeDiffuse } from '../../../examples/threejs/lightmap.js';
 import { readLightmap } from './lightmap.js';
 
-// The bytes of a text: base 64, of gzip.
+// Unpacks base64 of gzip.
 async function unpack(text) {
     const packed = await (await fetch(`data:application/octet-stream;base64,${text}`)).blob();
     return new Response(packed.stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
-// The texture as a material reads it: of several pages, squares of the map in rows, its own.
+// The texture of a material: its own page if the map is an array of pages.
 function pageOf(material, map) {
     if (map.pagesAcross === 1) return map.texture;
     const page = material.userData.lumel.page ?? 0, part = 1 / map.pagesAcross;
@@ -22,7 +22,7 @@ function pageOf(material, map) {
     return texture;
 }
 
-// Lights what was baked by its lightmap, and returns it.
+// Applies the lightmap to baked materials, and returns their objects.
 function bindLightmap(scene, map) {
     const lit = [];
     scene.traverse((object) => {
@@ -34,7 +34,7 @@ function bindLightmap(scene, map) {
     return lit;
 }
 
-// Where to look from: as preview.png does; of a bake that does not say it, from inside the scene.
+// First view: that of preview.png; if the bake does not state it, from inside the scene.
 function firstView(gltf, preview) {
     const camera = new THREE.PerspectiveCamera(50, 1, 0.01, 1000);
     const box = new THREE.Box3().setFromObject(gltf.scene);
@@ -53,7 +53,7 @@ function firstView(gltf, preview) {
     return camera;
 }
 
-/** One baked folder: its report, its scene with materials that its lightmap lights, and the view it opens with. */
+/** One baked folder: its report, its scene lit by its lightmap, and the first view. */
 async function readBake(renderer, { name, report, glb, lightmap, unit, pages_across: pagesAcross }) {
     const map = await readLightmap(renderer, await unpack(lightmap), unit, pagesAcross);
     const gltf = await new GLTFLoader().parseAsync(await unpack(glb), '');
@@ -67,7 +67,7 @@ async function readBake(renderer, { name, report, glb, lightmap, unit, pages_acr
     };
 }
 
-/** What the page holds, see page.cpp. */
+/** Contents of the page, see page.cpp. */
 export const packedBakes = () => JSON.parse(document.getElementById('bakes').textContent);
 
 export const readBakes = (renderer, packed) => Promise.all(packed.map((bake) => readBake(renderer, bake)));

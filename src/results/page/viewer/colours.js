@@ -1,8 +1,8 @@
-// Illuminance as a colour: from blue to yellow, equal steps for equal ratios.
+// Illuminance as a colour: blue to yellow, on a logarithmic scale.
 
 import * as THREE from 'three';
 
-// Blue over green to yellow, of rising lightness, so that a grey print of it can be read too. [sRGB, 0 to 255]
+// Blue to green to yellow, with increasing lightness, so that a grey print is readable. [sRGB, 0 to 255]
 const anchors = [[38, 16, 82], [46, 62, 140], [32, 108, 142], [30, 152, 138], [74, 194, 109], [166, 219, 53],
     [253, 231, 37]];
 const steps = 256;
@@ -11,7 +11,7 @@ const rec709 = [0.2126, 0.7152, 0.0722];
 /** Illuminance of linear RGB irradiance. [lx] */
 export const luxOf = (rgb) => rgb.reduce((sum, value, channel) => sum + value * rec709[channel], 0);
 
-/** The colour at a place of the scale, 0 to 1. [sRGB, 0 to 255] */
+/** The colour at a position on the scale, 0 to 1. [sRGB, 0 to 255] */
 export function colourAt(place) {
     const at = Math.min(Math.max(place, 0), 1) * (anchors.length - 1);
     const low = Math.min(Math.floor(at), anchors.length - 2);
@@ -19,7 +19,7 @@ export function colourAt(place) {
         Math.round(value + (at - low) * (anchors[low + 1][channel] - value)));
 }
 
-/** From which illuminance to which the scale goes: the light of 2 to 99.5 % of the lit texels, in whole decades. */
+/** Range of the scale: the 2nd to 99.5th percentile of the lit texels, rounded. [lx] */
 export class Scale {
     constructor(maps) {
         const lit = maps.flatMap((map) => map.sampleOfLux()).filter((lux) => lux > 0).sort((a, b) => a - b);
@@ -36,7 +36,7 @@ export class Scale {
         return this.low * (this.high / this.low) ** place;
     }
 
-    /** Numbers of the form 1, 2 and 5 times a power of ten that lie on it. */
+    /** Numbers of the form 1, 2 and 5 times a power of ten in its range. */
     ticks() {
         const found = [];
         for (let decade = Math.floor(Math.log10(this.low)); decade <= Math.log10(this.high); ++decade)
@@ -58,7 +58,7 @@ export class Scale {
     }
 }
 
-/** A number of lux as people write it. */
+/** A number of lux as text. */
 export function luxText(lux) {
     if (!(lux > 0)) return '0 lx';
     return `${Number(lux.toPrecision(lux < 1000 ? 3 : 4)).toLocaleString('en')} lx`;

@@ -1,4 +1,4 @@
-// The legend of false colours, with a mark at what is pointed at.
+// The legend of false colours, with a mark at the value under the mouse.
 
 import { colourAt, luxText } from './colours.js';
 
@@ -11,7 +11,7 @@ export class Legend {
         new ResizeObserver(() => this.draw()).observe(canvas);
     }
 
-    /** marks: illuminances to point at. [lx] */
+    /** marks: illuminances to mark. [lx] */
     draw(marks = []) {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         const ratio = window.devicePixelRatio;
@@ -25,7 +25,7 @@ export class Legend {
         }
         context.fillStyle = getComputedStyle(this.canvas).color;
         context.font = '12px system-ui, sans-serif';
-        let free = 0; // where the next number may begin
+        let free = 0; // minimum position of the next number
         for (const lux of this.scale.ticks()) {
             const x = this.scale.placeOf(lux) * width, text = luxText(lux), long = context.measureText(text).width;
             const left = Math.min(Math.max(x - long / 2, 0), width - long);

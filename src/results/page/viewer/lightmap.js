@@ -1,4 +1,4 @@
-// The lightmap of a bake, for the eye and for reading its numbers.
+// The lightmap of a bake, for display and for reading its values.
 
 import * as THREE from 'three';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
@@ -7,7 +7,7 @@ import { luxOf } from './colours.js';
 const textureCoordinates = 1; // TEXCOORD_1
 const mostSamples = 40000;
 
-// Of a shared exponent, as EXT_texture_shared_exponent has it.
+// Shared exponents, as in EXT_texture_shared_exponent.
 const mantissaBits = 9;
 const exponentBias = 15;
 
@@ -34,7 +34,7 @@ export class Lightmap {
         return unpacked(this.words[row * this.width + column]).map((value) => value * this.unit);
     }
 
-    /** Irradiance at a place, as the device mixes it from four texels. (0, 0): top left. [lx] */
+    /** Bilinear irradiance at a position, (0, 0): top left. [lx] */
     sample(u, v) {
         const x = u * this.width - 0.5, y = v * this.height - 0.5;
         const left = Math.floor(x), top = Math.floor(y);
@@ -45,7 +45,7 @@ export class Lightmap {
         }, [0, 0, 0]);
     }
 
-    /** Of texels spread over the whole map. [lx] */
+    /** Illuminance of texels spread over the whole map. [lx] */
     sampleOfLux() {
         const step = Math.max(1, Math.floor(this.words.length / mostSamples));
         const found = [];

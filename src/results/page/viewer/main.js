@@ -8,7 +8,7 @@ import { Legend } from './legend.js';
 import { Stage } from './stage.js';
 import { walk } from './walk.js';
 
-const mostDrawn = 1024; // of a lightmap's side [texels]
+const mostDrawn = 1024; // maximum side of a drawn lightmap [texels]
 const byId = (id) => document.getElementById(id);
 
 function say(trouble) {
@@ -16,7 +16,7 @@ function say(trouble) {
     byId('trouble').hidden = false;
 }
 
-// A section with a part for each bake, under its name where there are two. None where no bake has a part.
+// A section with a part for each bake, named if there are two; empty if no bake has a part.
 function section(title, bakes, partOf) {
     const parts = bakes.map((bake) => {
         const part = partOf(bake);
@@ -44,7 +44,7 @@ function errorsOf(bakes) {
     if (!curve) return '';
     const names = bakes.length > 1 ? bakes.map((bake, i) =>
         element('span', { style: `color: ${lineColour(i)}` }, `— ${bake.name} `)) : [];
-    return element('section', {}, element('h2', {}, 'Stated error'), element('p', {}, ...names), curve);
+    return element('section', {}, element('h2', {}, 'Estimated error'), element('p', {}, ...names), curve);
 }
 
 function addFacts(bakes) {
@@ -57,7 +57,7 @@ function addFacts(bakes) {
         section('Settings', bakes, (bake) => folded('All settings', settings(bake))));
 }
 
-// The lightmap in false colours, or one of several texels of it where it is large; pointing at it reads the light.
+// The lightmap in false colours, subsampled if large; shows the light under the mouse.
 function atlas({ map }, scale, read) {
     const step = Math.ceil(Math.max(map.width, map.height) / mostDrawn);
     const width = Math.ceil(map.width / step), height = Math.ceil(map.height / step);
@@ -90,14 +90,14 @@ function addAtlases(bakes, scale, legend) {
     }));
 }
 
-// Writes what is under the mouse below the scene.
+// Shows the light under the mouse below the scene.
 function readUnderMouse(stage, legend) {
     const reading = byId('reading');
     stage.canvas.addEventListener('pointermove', ({ offsetX, offsetY, buttons }) => {
         if (buttons !== 0) return;
         const found = stage.lookUp(offsetX, offsetY);
         if (!found) {
-            reading.textContent = 'No baked surface is there.';
+            reading.textContent = 'No baked surface.';
             reading.removeAttribute('data-lux');
             legend.draw();
             return;

@@ -1,9 +1,9 @@
-// The scene, drawn by WebGL: lit, in white paint or in false colours; two bakes beside each other.
+// The scene in WebGL: lit, with white materials or in false colours; two bakes side by side.
 
 import * as THREE from 'three';
 import { useToneCurve } from '../../../examples/threejs/lightmap.js';
 
-// What a fragment shows in place of surface colour × light.
+// Replacements for a fragment's surface colour × light.
 const shownInstead = {
     light: 'outgoingLight = lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;',
     lux: `float lux = lightMapIntensity * dot( lightMapTexel.rgb, vec3( 0.2126, 0.7152, 0.0722 ) );
@@ -11,7 +11,7 @@ const shownInstead = {
         outgoingLight = texture2D( luxColours, vec2( clamp( place, 0.002, 0.998 ), 0.5 ) ).rgb;`,
 };
 
-// A material that shows the light of a surface alone: it keeps what is cut out and which side is drawn.
+// A material that shows only the light of a surface, with its cut-outs and sides.
 function lightAlone(material, mode, uniforms) {
     const shown = new THREE.MeshBasicMaterial({
         map: material.map, alphaTest: material.alphaTest, transparent: material.transparent, side: material.side,
@@ -35,12 +35,12 @@ export class Stage {
         useToneCurve(this.renderer);
         this.renderer.setScissorTest(true);
         this.caster = new THREE.Raycaster();
-        this.split = 0.5; // where the first bake ends, as a part of the width
+        this.split = 0.5; // end of the first bake, relative to the width
         this.stops = 0;
         this.waiting = false;
     }
 
-    /** Shows bakes as readBakes() returns them. scale: of false colours. */
+    /** Shows bakes from readBakes(). scale: of false colours. */
     show(bakes, scale) {
         this.bakes = bakes;
         const uniforms = {
@@ -69,7 +69,7 @@ export class Stage {
         this.draw();
     }
 
-    /** Draws before the next frame of the browser. */
+    /** Draws in the browser's next frame. */
     draw() {
         if (this.waiting) return;
         this.waiting = true;
@@ -89,10 +89,10 @@ export class Stage {
         this.draw();
     }
 
-    /** Draws the bakes, each in its part of the width. All have the exposure of the first. */
+    /** Draws the bakes, each in its part of the width, with the exposure of the first. */
     drawNow() {
         const { clientWidth: width, clientHeight: height } = this.canvas;
-        // White paint that receives H lx sends H / π, and shows as exposure × H.
+        // A white material with irradiance H sends H / π, and shows as exposure × H.
         this.renderer.toneMappingExposure = Math.PI * this.bakes[0].exposure * 2 ** this.stops;
         const seam = this.bakes.length > 1 ? Math.round(this.split * width) : width;
         const parts = [[0, seam], [seam, width - seam]];
@@ -104,7 +104,7 @@ export class Stage {
         });
     }
 
-    /** What is at a place of the canvas, from its top left corner. [CSS pixels] Nothing where no light is known. */
+    /** Surface at a position of the canvas, from its top left corner [CSS pixels]; none without known light. */
     lookUp(x, y) {
         const { clientWidth: width, clientHeight: height } = this.canvas;
         const bake = this.bakes[this.bakes.length > 1 && x > this.split * width ? 1 : 0];

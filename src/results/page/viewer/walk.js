@@ -1,4 +1,4 @@
-// Walking through the scene: a mouse or a finger looks around, keys walk, the wheel goes on along the view.
+// Navigation: mouse or touch turns the view, keys walk, the wheel moves along the view.
 
 import * as THREE from 'three';
 
@@ -11,7 +11,7 @@ const ways = {
     KeyE: [0, 1, 0], KeyQ: [0, -1, 0],
 };
 
-/** size: of the scene. [m] moved: called when the camera has changed. */
+/** size: of the scene [m]. moved: called when the camera has changed. */
 export function walk(canvas, camera, size, moved) {
     const speed = size / crossings; // [m/s]
     const held = new Set();
