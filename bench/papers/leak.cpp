@@ -90,10 +90,9 @@ void follow_a_move(const LeakSettings& settings, const gpu::Device& device, cons
     Scene posed = scene;
     posed.instances[cube].transform = place;
     // In the atlas of the scene as it was, so that lumels are the same.
-    Lumels lumels = make_lumels(posed, live.atlas());
     std::vector<char> moves(posed.instances.size());
     moves[cube] = 1;
-    mark_buried_by_still(posed, moves, lumels);
+    const Lumels lumels = make_lumels(posed, live.atlas(), moves);
     const World world(device, posed, lumels, &live.atlas());
     DirectionsOptions of_truth = options_for(settings, 0.0);
     of_truth.seed += 1;

@@ -9,11 +9,11 @@ namespace lumel::bench {
 /// How an entry is stored.
 enum class Code : std::uint8_t {
     float32,
-    float16,  ///< of entry / largest, stretched over what a half float has
-    log8,     ///< logarithm of entry / largest, 8 bits
-    bc1,      ///< the same, in blocks of 4 × 4 for three channels: 4 bits for all of them
+    float16,       ///< of entry / largest, stretched over what a half float has
+    log8,          ///< logarithm of entry / largest, 8 bits
+    bc1,           ///< the same, in blocks of 4 × 4 for three channels: 4 bits for all of them
     bc1_of_codes,  ///< the same, blocks made for the logarithms, not for the entries
-    bc4,      ///< the same, in blocks of 4 × 4 for each channel: 4 bits for each
+    bc4,           ///< the same, in blocks of 4 × 4 for each channel: 4 bits for each
 };
 
 /// As LogOptions, which says what the others are.

@@ -174,8 +174,7 @@ std::vector<FormOfCurve> forms_of(const MatrixCase& matrix_case)
     for (const std::uint32_t part : {64u, 32u, 16u, 8u, 4u}) {
         const std::uint32_t rank = matrix_case.size() / part;
         add(fmt::format("low rank, {}", rank), [&, rank] {
-            return AnyMatrix(
-                compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
+            return AnyMatrix(compress_low_rank(matrix_case.bounces, matrix_case.elements, rank));
         });
     }
     for (const float error : {0.1f, 0.05f, 0.02f, 0.01f, 0.005f, 0.002f})

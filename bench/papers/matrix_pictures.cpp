@@ -141,7 +141,8 @@ void draw_matrix(Report& report, const MatrixCase& matrix_case, const std::strin
     const CodedMatrix coded =
         encode(matrix_case.bounces, papers_settings(Code::bc1, Reordering::rows_and_columns));
     const LogImage after = image_of(coded);
-    const LogImage wanted = reordered(before, coded.decoding.row_order, coded.decoding.column_order);
+    const LogImage wanted =
+        reordered(before, coded.decoding.row_order, coded.decoding.column_order);
     const std::uint32_t n = matrix_case.size();
     const std::string path = folder + "/matrix.png";
     write_png(path, contact_sheet({{picture_of(before, n), picture_of(after, n),

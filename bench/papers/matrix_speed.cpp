@@ -98,8 +98,8 @@ private:
     gpu::Kernel<shaders::MatrixSpeedReflect> reflect_;
 };
 
-using Record = std::function<void(gpu::Commands&, const gpu::Array<glm::vec3>&,
-                                  const gpu::Array<glm::vec3>&)>;
+using Record =
+    std::function<void(gpu::Commands&, const gpu::Array<glm::vec3>&, const gpu::Array<glm::vec3>&)>;
 
 double difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b)
 {
@@ -198,10 +198,9 @@ void add_against_naive(Report& report, const gpu::Device& device, const MatrixCa
 /// Random words: as valid as any, but for floats, which are drawn.
 CodedMatrix random_matrix(Code code, std::uint32_t n)
 {
-    CodedMatrix matrix{
-        .code = code,
-        .decoding = {.size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f},
-        .words = {}};
+    CodedMatrix matrix{.code = code,
+                       .decoding = {.size = n, .largest = {1.0f, 1.0f, 1.0f}, .offset = 25.0f},
+                       .words = {}};
     std::mt19937 random(1);
     for (std::size_t c = 0; c < (is_bc1(code) ? 1u : 3u); ++c) {
         const std::size_t side = filled_up(n);

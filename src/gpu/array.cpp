@@ -58,7 +58,7 @@ Buffer::Buffer(const Device& device, std::uint64_t bytes, Place place, const Nam
     }
     check(vkBindBufferMemory(device.handle(), buffer_, memory_.memory, memory_.offset),
           "vkBindBufferMemory");
-    set_name(device, buffer_, name.text());
+    set_name(device, VK_OBJECT_TYPE_BUFFER, buffer_, name.text());
 }
 
 Buffer::~Buffer()

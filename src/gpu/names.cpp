@@ -5,19 +5,6 @@
 namespace lumel::gpu {
 namespace {
 
-template <class Handle>
-void set_name(const Device& device, VkObjectType type, Handle handle, const std::string& name)
-{
-    if (!device.debug_utils().set_name)
-        return;
-    const VkDebugUtilsObjectNameInfoEXT info{
-        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
-        .objectType = type,
-        .objectHandle = reinterpret_cast<std::uint64_t>(handle),
-        .pObjectName = name.c_str()};
-    check(device.debug_utils().set_name(device.handle(), &info), "vkSetDebugUtilsObjectNameEXT");
-}
-
 /// The path below the folder "src", or the file name alone.
 std::string_view short_path(std::string_view path)
 {
@@ -30,34 +17,16 @@ std::string_view short_path(std::string_view path)
 
 }  // namespace
 
-void set_name(const Device& device, VkBuffer buffer, const std::string& name)
+void set_name(const Device& device, VkObjectType type, const void* handle, const std::string& name)
 {
-    set_name(device, VK_OBJECT_TYPE_BUFFER, buffer, name);
-}
-
-void set_name(const Device& device, VkImage image, const std::string& name)
-{
-    set_name(device, VK_OBJECT_TYPE_IMAGE, image, name);
-}
-
-void set_name(const Device& device, VkImageView view, const std::string& name)
-{
-    set_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, view, name);
-}
-
-void set_name(const Device& device, VkPipeline pipeline, const std::string& name)
-{
-    set_name(device, VK_OBJECT_TYPE_PIPELINE, pipeline, name);
-}
-
-void set_name(const Device& device, VkCommandBuffer commands, const std::string& name)
-{
-    set_name(device, VK_OBJECT_TYPE_COMMAND_BUFFER, commands, name);
-}
-
-void set_name(const Device& device, VkDeviceMemory memory, const std::string& name)
-{
-    set_name(device, VK_OBJECT_TYPE_DEVICE_MEMORY, memory, name);
+    if (!device.debug_utils().set_name)
+        return;
+    const VkDebugUtilsObjectNameInfoEXT info{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+        .objectType = type,
+        .objectHandle = reinterpret_cast<std::uint64_t>(handle),
+        .pObjectName = name.c_str()};
+    check(device.debug_utils().set_name(device.handle(), &info), "vkSetDebugUtilsObjectNameEXT");
 }
 
 void begin_region(const Device& device, VkCommandBuffer commands, const char* name)

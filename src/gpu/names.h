@@ -8,13 +8,8 @@
 
 namespace lumel::gpu {
 
-/// Sets the name that debuggers show for an object.
-void set_name(const Device& device, VkBuffer buffer, const std::string& name);
-void set_name(const Device& device, VkImage image, const std::string& name);
-void set_name(const Device& device, VkImageView view, const std::string& name);
-void set_name(const Device& device, VkPipeline pipeline, const std::string& name);
-void set_name(const Device& device, VkCommandBuffer commands, const std::string& name);
-void set_name(const Device& device, VkDeviceMemory memory, const std::string& name);
+/// Sets the name that debuggers show for the object with a handle of that type.
+void set_name(const Device& device, VkObjectType type, const void* handle, const std::string& name);
 
 /// Begins a named region of a command buffer, up to the matching end_region().
 void begin_region(const Device& device, VkCommandBuffer commands, const char* name);

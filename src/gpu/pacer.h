@@ -28,6 +28,27 @@ public:
     /// Records indivisible work: one unit.
     void work(const char* kind, const std::function<void(Commands&)>& record);
 
+    /// Runs a kernel for at least `threads` invocations, as indivisible work.
+    template <class Shader>
+    void dispatch(const char* kind, const Kernel<Shader>& kernel,
+                  const typename Shader::Bindings& given, const typename Shader::Params& params,
+                  std::size_t threads)
+    {
+        work(kind, [&](Commands& commands) { commands.dispatch(kernel, given, params, threads); });
+    }
+    /// Runs a kernel with one invocation for each of `count` units, whose dispatches read theirs
+    /// from Params::range. probe: as for work().
+    template <class Shader>
+    void dispatch_parts(const char* kind, std::uint32_t count, std::uint32_t probe,
+                        const Kernel<Shader>& kernel, const typename Shader::Bindings& given,
+                        typename Shader::Params params)
+    {
+        work(kind, count, probe, [&](Commands& commands, std::uint32_t first, std::uint32_t last) {
+            params.range = {first, last};
+            commands.dispatch(kernel, given, params, last - first);
+        });
+    }
+
     /// Submits the recorded commands. Returns a ticket for wait().
     std::uint64_t flush();
     /// Waits until the submission of that ticket has finished.

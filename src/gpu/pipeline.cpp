@@ -114,7 +114,7 @@ Pipeline::Pipeline(Layout layout, Spirv spirv, std::uint32_t variant) : layout_(
         vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
     vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, "vkCreateComputePipelines");
-    set_name(device, pipeline_, layout_.name());
+    set_name(device, VK_OBJECT_TYPE_PIPELINE, pipeline_, layout_.name());
 }
 
 Pipeline::Pipeline(Layout layout, const Stages& shaders, const RasterState& state)
@@ -208,7 +208,7 @@ Pipeline::Pipeline(Layout layout, const Stages& shaders, const RasterState& stat
     for (const VkPipelineShaderStageCreateInfo& stage : stages)
         vkDestroyShaderModule(device.handle(), stage.module, nullptr);
     check(result, "vkCreateGraphicsPipelines");
-    set_name(device, pipeline_, layout_.name());
+    set_name(device, VK_OBJECT_TYPE_PIPELINE, pipeline_, layout_.name());
 }
 
 Pipeline::~Pipeline()

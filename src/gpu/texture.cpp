@@ -99,8 +99,8 @@ Target::Target(const Device& device, Pixel pixel, std::uint32_t width, std::uint
                                                           .levelCount = mip_levels,
                                                           .layerCount = 1}};
     check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "vkCreateImageView");
-    set_name(device, image_, name.text());
-    set_name(device, view_, name.text());
+    set_name(device, VK_OBJECT_TYPE_IMAGE, image_, name.text());
+    set_name(device, VK_OBJECT_TYPE_IMAGE_VIEW, view_, name.text());
     device.staging().prepare(*this);
 }
 

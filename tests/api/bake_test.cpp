@@ -12,12 +12,8 @@
 namespace lumel::v0 {
 namespace {
 
-using test::closed_cube;
-using test::expect_error;
-using test::mean_of;
-using test::scene_path;
+using namespace test;
 
-constexpr int kSize = 32;  // of the atlas [texels]
 constexpr std::uint64_t kShots = 512;
 
 TEST(Library, IsOfTheVersionOfItsHeader)

@@ -1,12 +1,17 @@
 #pragma once
 // Rooms made in memory.
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "../support/source_folder.h"
 #include "lumel/lumel.h"
 
 namespace lumel::v0::test {
+
+inline constexpr int kSize = 32;  ///< of the atlas [texels]
+inline constexpr double kUntilAtRest = std::numeric_limits<double>::infinity();
 
 /// The six sides of a cube of 2 m, seen from inside, as one mesh of one material.
 SceneContent inline closed_cube(const Material& material)

@@ -13,12 +13,8 @@
 namespace lumel::v0 {
 namespace {
 
-using test::expect_error;
-using test::mean_of;
-using test::scene_path;
+using namespace test;
 
-constexpr int kSize = 32;  // of the atlas [texels]
-constexpr double kUntilAtRest = std::numeric_limits<double>::infinity();
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
 
 /// A room with a box that may move, and a lamp of its own beside the shining ceiling.

@@ -11,12 +11,8 @@
 namespace lumel::v0 {
 namespace {
 
-using test::expect_error;
-using test::mean_of;
-using test::scene_path;
+using namespace test;
 
-constexpr int kSize = 32;  // of the atlas [texels]
-constexpr double kUntilAtRest = std::numeric_limits<double>::infinity();
 constexpr double kResidual = 0.01;
 
 LiveSettings settings_for(const Scene& scene)

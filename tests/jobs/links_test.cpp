@@ -10,7 +10,7 @@
 #include "../support/box_lumels.h"
 #include "../support/temporary_folder.h"
 #include "base/core/state_bytes.h"
-#include "solved.h"
+#include "closed_room.h"
 #include "truth/closed_forms.h"
 #include "truth/reference.h"
 
@@ -34,34 +34,14 @@ INSTANTIATE_TEST_SUITE_P(OfAlbedo, ClosedRoom, testing::Values(0.9f, 0.98f, 0.99
 
 TEST_P(ClosedRoom, GlowsAsItsAbsorptionAllows)
 {
-    support::Quad look{.albedo = glm::vec3(GetParam()), .emission = glm::vec3(1.0f)};
-    look.res_u = look.res_v = 16;
-    const auto walls = support::box_walls({0, 0, 0}, {2.0f, 1.5f, 3.0f}, true, look);
-    const std::vector<support::Quad> quads(walls.begin(), walls.end());
-    support::HandMade room = support::make_quads(quads);
-    const Atlas atlas = support::lay_out(room, quads);
-    const RayScene rays(room.scene);
-    const Solved solved = support::solve_scene(room.scene, rays, room.lumels, links(0.02), &atlas);
-    double light = 0.0, area = 0.0;
-    for (std::size_t i = 0; i < solved.irradiance.size(); ++i) {
-        light += double(room.lumels.lumels[i].area) * double(solved.irradiance[i].g);
-        area += double(room.lumels.lumels[i].area);
-    }
     const double truth = furnace_irradiance(1.0, double(GetParam()));
-    EXPECT_NEAR(light / area, truth, 0.01 * truth);
+    EXPECT_NEAR(support::mean_in_closed_room(GetParam(), links(0.02)), truth, 0.01 * truth);
 }
 
 TEST(Links, RefuseARoomThatAbsorbsNothing)
 {
-    support::Quad look{.albedo = glm::vec3(1.0f), .emission = glm::vec3(1.0f)};
-    look.res_u = look.res_v = 8;
-    const auto walls = support::box_walls({0, 0, 0}, {1, 1, 1}, true, look);
-    const std::vector<support::Quad> quads(walls.begin(), walls.end());
-    support::HandMade room = support::make_quads(quads);
-    const Atlas atlas = support::lay_out(room, quads);
-    const RayScene rays(room.scene);
     try {
-        support::solve_scene(room.scene, rays, room.lumels, links(0.02), &atlas);
+        support::mean_in_closed_room(1.0f, links(0.02));
         FAIL() << "it was solved";
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("absorbed"), std::string::npos) << error.what();

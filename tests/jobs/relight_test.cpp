@@ -4,7 +4,7 @@
 #include <fstream>
 #include <numeric>
 
-#include "base/core/error.h"
+#include "../support/input_error.h"
 #include "base/core/fingerprint.h"
 #include "base/core/frame.h"
 #include "base/core/luminance.h"
@@ -321,13 +321,7 @@ struct File {
     /// The message of reading, empty if it succeeds.
     std::string complaint() const
     {
-        try {
-            read_relightable(path);
-        } catch (const Error& error) {
-            EXPECT_EQ(error.kind(), ErrorKind::input);
-            return error.what();
-        }
-        return {};
+        return test::input_error_of([&] { read_relightable(path); });
     }
 };
 

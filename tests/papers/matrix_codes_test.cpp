@@ -201,9 +201,8 @@ TEST(CodedMatrix, OnTheGpuIsTheStoredMatrixForEveryCode)
             const CodedMatrix coded = encode(matrix, {.code = code});
             const std::vector<glm::vec3> x = random_light(std::size_t(states) * kSize);
             SCOPED_TRACE(int(code));
-            expect_products(
-                on_gpu(device, MultiplyCoded(device, coded, states), x, states),
-                decode(coded), x, kPowerRounding);
+            expect_products(on_gpu(device, MultiplyCoded(device, coded, states), x, states),
+                            decode(coded), x, kPowerRounding);
         }
     EXPECT_EQ(device.validation_messages(), "");
 }

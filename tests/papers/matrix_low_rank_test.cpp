@@ -36,8 +36,8 @@ TEST(LowRank, OnTheGpuIsTheStoredMatrix)
     const ColorMatrix once = color_matrix(room.form_factors, room.elements.color);
     const LowRankMatrix compressed = compress_low_rank(once, room.elements, 9);
     const std::vector<glm::vec3> x = random_light(3 * kSize);
-    expect_products(on_gpu(device, MultiplyLowRank(device, compressed, 3), x, 3), decompress(compressed),
-                    x, kSumRounding);
+    expect_products(on_gpu(device, MultiplyLowRank(device, compressed, 3), x, 3),
+                    decompress(compressed), x, kSumRounding);
     EXPECT_EQ(device.validation_messages(), "");
 }
 

@@ -18,14 +18,7 @@ Bytes rich_file()
     builder.add_accessor<std::uint16_t>({0, 1, 2}, "SCALAR", 5123, 3);
     builder.add_accessor<float>({0, 0, 1, 0, 0, 1}, "VEC2", 5126, 3);
     builder.add_accessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 5126, 3);
-    const std::uint16_t index = 2;
-    const glm::vec3 value(0, 7, 0);
-    const int indices = builder.add_view(&index, sizeof index);
-    const int values = builder.add_view(&value, sizeof value);
-    builder.json["accessors"][0]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
-        {"values", {{"bufferView", values}}}};
+    builder.replace_sparsely(2, glm::vec3(0, 7, 0));
     const Bytes png = make_png(2, 1, {0, 0, 0, 255, 255, 255, 255, 255});
     const int view = builder.add_view(png.data(), png.size());
     builder.push("images", {{"bufferView", view}, {"mimeType", "image/png"}});

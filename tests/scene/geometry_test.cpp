@@ -156,28 +156,15 @@ TEST(Geometry, InterleavedAttributesAreSeparated)
 TEST(Geometry, SparseValuesReplaceThoseOfTheAccessor)
 {
     GltfBuilder builder = one_triangle();
-    const std::uint16_t index = 2;
     const glm::vec3 value(0, 7, 0);
-    const int indices = builder.add_view(&index, sizeof index);
-    const int values = builder.add_view(&value, sizeof value);
-    builder.json["accessors"][0]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
-        {"values", {{"bufferView", values}}}};
+    builder.replace_sparsely(2, value);
     EXPECT_EQ(first_primitive(builder.read()).positions[2], value);
 }
 
 TEST(Geometry, SparseIndicesOutOfRangeAreAnError)
 {
     GltfBuilder builder = one_triangle();
-    const std::uint16_t index = 3;
-    const glm::vec3 value(0, 7, 0);
-    const int indices = builder.add_view(&index, sizeof index);
-    const int values = builder.add_view(&value, sizeof value);
-    builder.json["accessors"][0]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
-        {"values", {{"bufferView", values}}}};
+    builder.replace_sparsely(3, glm::vec3(0, 7, 0));
     EXPECT_TRUE(contains(error_of(builder), "/accessors/0/sparse/indices: index 0 is 3"));
 }
 

@@ -1,11 +1,8 @@
 #include "gltf_builder.h"
 
 #include <array>
-#include <atomic>
 #include <cstring>
 #include <fstream>
-
-#include <unistd.h>
 
 namespace lumel::test {
 
@@ -56,20 +53,6 @@ void append_png_chunk(Bytes& png, const char* type, const Bytes& data)
 
 }  // namespace
 
-TempFolder::TempFolder()
-{
-    static std::atomic<int> next = 0;
-    root_ = fs::temp_directory_path() /
-            ("lumel_scene_test_" + std::to_string(getpid()) + "_" + std::to_string(next++));
-    fs::create_directories(root_);
-}
-
-TempFolder::~TempFolder()
-{
-    std::error_code ignored;
-    fs::remove_all(root_, ignored);
-}
-
 std::string TempFolder::write(const std::string& name, const Bytes& bytes) const
 {
     // Overwriting in place makes some file systems wait for the disk.
@@ -95,6 +78,16 @@ int GltfBuilder::add_view(const void* data, std::size_t size, int stride)
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     buffer.insert(buffer.end(), bytes, bytes + size);
     return push("bufferViews", view);
+}
+
+void GltfBuilder::replace_sparsely(std::uint16_t index, const glm::vec3& value)
+{
+    const int indices = add_view(&index, sizeof index);
+    const int values = add_view(&value, sizeof value);
+    json["accessors"][0]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
+        {"values", {{"bufferView", values}}}};
 }
 
 int GltfBuilder::add_positions(const std::vector<glm::vec3>& positions)

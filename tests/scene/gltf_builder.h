@@ -1,33 +1,25 @@
 #pragma once
 // Small glTF files made in memory, for tests.
 
-#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "../support/temporary_folder.h"
 #include "base/core/error.h"
 #include "scene/gltf/document.h"
 #include "scene/values/scene.h"
 
 namespace lumel::test {
 
-/// A folder that vanishes with its owner.
-class TempFolder {
+/// A folder of a test's own that files are written to.
+class TempFolder : public TemporaryFolder {
 public:
-    TempFolder();
-    ~TempFolder();
-    TempFolder(const TempFolder&) = delete;
-    TempFolder& operator=(const TempFolder&) = delete;
-
-    std::string path(const std::string& name) const { return (root_ / name).string(); }
+    std::string path(const std::string& name) const { return *this / name; }
     std::string write(const std::string& name, const Bytes& bytes) const;
     std::string write(const std::string& name, const std::string& text) const;
-
-private:
-    std::filesystem::path root_;
 };
 
 /// JSON and one buffer that grow together.
@@ -52,6 +44,8 @@ struct GltfBuilder {
         return push("accessors", accessor);
     }
     int add_positions(const std::vector<glm::vec3>& positions);
+    /// Replaces one element of accessor 0 by a sparse accessor.
+    void replace_sparsely(std::uint16_t index, const glm::vec3& value);
     /// Appends to a list of the file; returns the index.
     int push(const char* list, const Json& element);
     /// A primitive in a mesh of its own on a node of the default scene; returns the node.

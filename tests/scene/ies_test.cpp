@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/input_error.h"
 #include "../support/source_folder.h"
 #include "gltf_builder.h"
 #include "scene/load/ies.h"
@@ -25,13 +26,7 @@ Photometry read(const std::string& text)
 /// The message that reading must end with.
 std::string error_of_text(const std::string& text)
 {
-    try {
-        read(text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        return error.what();
-    }
-    return "";
+    return input_error_of([&] { read(text); });
 }
 
 /// Numbers of a file with one horizontal angle and candela 100, 70, 0 at 0, 45 and 90 degrees.

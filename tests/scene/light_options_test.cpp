@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "../support/input_error.h"
 #include "base/core/luminance.h"
 #include "base/images/image_files.h"
 #include "gltf_builder.h"
@@ -25,18 +26,6 @@ Scene with_lights()
                     {.kind = PunctualLight::Kind::spot, .name = "spot"},
                     {.kind = PunctualLight::Kind::directional, .name = "day"}};
     return scene;
-}
-
-template <typename Action>
-std::string error_in(const Action& action)
-{
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        return error.what();
-    }
-    return "";
 }
 
 }  // namespace
@@ -75,7 +64,7 @@ TEST(LightOptions, TheOvercastSkyGivesAPlaneItsIlluminance)
     }
     for (const char* bad : {"overcast:", "overcast:0", "overcast:-5", "overcast:much",
                             "overcast:1e30", "overcast:1e-60"})
-        EXPECT_NE(error_in([&] {
+        EXPECT_NE(input_error_of([&] {
                       LightOptions options;
                       set_sky(options, bad);
                   }).find("overcast:LUX"),
@@ -198,7 +187,7 @@ TEST(LightOptions, AStarStandsForAnyLettersInTheNamesOfLamps)
     EXPECT_EQ(lit("*light*1*"), "01100");
     EXPECT_EQ(lit("*"), "11111");
     EXPECT_EQ(lit("a*b"), "00001");
-    EXPECT_TRUE(contains(error_in([&] { lit("*lights"); }), "\"*lights\""));
+    EXPECT_TRUE(contains(input_error_of([&] { lit("*lights"); }), "\"*lights\""));
 }
 
 TEST(LightOptions, LampsThatProfilesLeaveOutAreNamed)
@@ -241,11 +230,11 @@ TEST(LightOptions, AProfileForNoLightNamesThoseThereAre)
     LightOptions options;
     options.profiles = {{"day", file}};
     Scene scene = with_lights();
-    const std::string error = error_in([&] { add_lights(scene, options); });
+    const std::string error = input_error_of([&] { add_lights(scene, options); });
     EXPECT_TRUE(contains(error, "no point or spot light \"day\"; it has \"bulb\", \"spot\""))
         << error;
     Scene dark;
-    EXPECT_TRUE(contains(error_in([&] { add_lights(dark, options); }), "nor any other"));
+    EXPECT_TRUE(contains(input_error_of([&] { add_lights(dark, options); }), "nor any other"));
 }
 
 TEST(LightOptions, EveryLightCountsInTheHash)
@@ -272,12 +261,13 @@ TEST(LightOptions, EveryLightCountsInTheHash)
 TEST(LightOptions, MistakesAreNamed)
 {
     LightOptions options;
-    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,2"); }), "--sky"));
-    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1,-2,1"); }), "0 or more"));
-    EXPECT_TRUE(contains(error_in([&] { set_sky(options, "1e39,0,0"); }), "too bright"));
+    EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1,2"); }), "--sky"));
+    EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1,-2,1"); }), "0 or more"));
+    EXPECT_TRUE(contains(input_error_of([&] { set_sky(options, "1e39,0,0"); }), "too bright"));
     for (const char* text : {"", "1", "1,x", "1,2,3", "1,2,3,4", "1,91", "91,0,2024-06-21T12:00",
                              "0,181,2024-06-21T12:00"})
-        EXPECT_NE(error_in([&] { set_sun(options, text); }), "") << text;
+        EXPECT_NE(input_error_of([&] { set_sun(options, text); }), "") << text;
     for (const char* text : {"", "lamp", "=file", "lamp="})
-        EXPECT_TRUE(contains(error_in([&] { add_profile(options, text); }), "LIGHT=FILE")) << text;
+        EXPECT_TRUE(contains(input_error_of([&] { add_profile(options, text); }), "LIGHT=FILE"))
+            << text;
 }

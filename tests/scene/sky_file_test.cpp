@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../support/input_error.h"
 #include "../support/source_folder.h"
 #include "base/images/image_files.h"
 #include "gltf_builder.h"
@@ -25,13 +26,7 @@ std::string radiance_picture(const std::string& size, const Bytes& texels)
 
 std::string error_of_sky(const std::string& path)
 {
-    try {
-        read_sky(path);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        return error.what();
-    }
-    return "";
+    return input_error_of([&] { read_sky(path); });
 }
 
 }  // namespace

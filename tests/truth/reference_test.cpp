@@ -15,10 +15,7 @@
 namespace lumel {
 namespace {
 
-using support::box_walls;
-using support::HandMade;
-using support::make_quads;
-using support::Quad;
+using namespace support;
 
 std::vector<glm::vec3> solve(const HandMade& made, int samples, SampleRule rule = SampleRule::area,
                              std::uint32_t seed = 1)

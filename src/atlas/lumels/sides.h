@@ -27,6 +27,18 @@ inline std::size_t place_by_side(const Lumel& lumel)
     return place_by_side(lumel.texel, is_back(lumel));
 }
 
+/// The lumel at a texel and side (0: front, 1: back), by lumels_by_side(). kNoLumel if there is
+/// none that can receive light.
+inline std::uint32_t lit_lumel_at(const Lumels& lumels, std::span<const std::uint32_t> by_side,
+                                  int x, int y, int side)
+{
+    if (x < 0 || x >= lumels.width || y < 0 || y >= lumels.height)
+        return kNoLumel;
+    const std::size_t texel = std::size_t(y) * std::size_t(lumels.width) + std::size_t(x);
+    const std::uint32_t i = by_side[place_by_side(texel, side != 0)];
+    return i == kNoLumel || (lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
+}
+
 /// True if the back of a chart has its own texels. back_shift: as in Atlas.
 bool has_own_back(std::span<const glm::ivec2> back_shift, std::uint32_t chart);
 

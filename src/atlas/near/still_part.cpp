@@ -7,6 +7,7 @@
 #include <map>
 
 #include "atlas/near/buried.h"
+#include "base/core/error.h"
 
 namespace lumel {
 namespace {
@@ -32,8 +33,11 @@ Scene without(const Scene& scene, const std::vector<char>& movers)
     return still;
 }
 
-void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels)
+Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers)
 {
+    Lumels lumels = make_lumels(scene, atlas);
+    if (lumels.lumels.empty())
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     const Scene still = without(scene, movers);
     const RayScene rays(still);
     const std::vector<Lumel> before = lumels.lumels;
@@ -48,6 +52,7 @@ void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, L
         const auto first = pieces.begin() + before[i].first_piece;
         lumels.pieces.insert(lumels.pieces.end(), first, first + before[i].piece_count);
     }
+    return lumels;
 }
 
 MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform)

@@ -13,9 +13,9 @@ namespace lumel {
 /// The scene with movable instances emptied.
 Scene without(const Scene& scene, const std::vector<char>& movers);
 
-/// Marks lumels under or inside static geometry (atlas/near/buried.h). Movable objects bury nothing
-/// and are not buried.
-void mark_buried_by_still(const Scene& scene, const std::vector<char>& movers, Lumels& lumels);
+/// Lumels of a scene in which `movers` [instances] move. Static geometry buries static lumels that
+/// lie under or inside it (atlas/near/buried.h). Throws Error{input} if there are no lumels.
+Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers);
 
 /// Bounds of an instance's vertices under a transform [m].
 MovedBox box_of(const Scene& scene, std::uint32_t instance, const glm::mat4& transform);

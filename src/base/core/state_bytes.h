@@ -101,7 +101,8 @@ private:
 /// Reads the output of a StateWriter. Throws Error{input} if it is damaged.
 class StateReader {
 public:
-    /// `size`: length of the stream [bytes]. where: its name, and damage: the reason, for messages.
+    /// `size`: length of the stream [bytes]. where: its name, and damage: what is wrong with it,
+    /// for messages.
     StateReader(std::istream& from, std::uint64_t size, std::string where,
                 std::string damage = "is damaged")
         : from_(from),
@@ -129,7 +130,7 @@ public:
     /// True if all bytes are read.
     bool at_end() const { return left_ == 0; }
 
-    /// Throws the error of damaged bytes.
+    /// Throws as for damage.
     [[noreturn]] void fail() const { throw Error(ErrorKind::input, where_, damage_); }
 
 private:

@@ -108,10 +108,7 @@ public:
     Report report(const PlayOptions& options, int height, std::vector<FrameRow> frames,
                   const Stages& stages) const
     {
-        return play_report(
-            options,
-            {light_->scene(), light_->atlas(), light_->lumels(), light_->times(), light_->shots()},
-            *device_, height, std::move(frames), stages);
+        return play_report(options, *light_, *device_, height, std::move(frames), stages);
     }
 
 private:

@@ -6,12 +6,12 @@
 
 namespace lumel {
 
-Report play_report(const PlayOptions& options, const Played& played, const gpu::Device& device,
+Report play_report(const PlayOptions& options, const PlayedLight& light, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages)
 {
-    Report report = report_on(played.scene, {});
-    add_usage(report, played.scene, stages);
-    add_sizes(report, played.scene, played.atlas, played.lumels);
+    Report report = report_on(light.scene(), {});
+    add_usage(report, light.scene(), stages);
+    add_sizes(report, light.scene(), light.atlas(), light.lumels());
     add_device(report, device);
     report.settings = {{"animation", options.animation},
                        {"frames", options.frames},
@@ -30,13 +30,13 @@ Report play_report(const PlayOptions& options, const Played& played, const gpu::
         report.settings["redistribution"] =
             options.redistribution == Redistribution::cross ? "cross" : "incremental";
     report.settings.update(atlas_settings(options.atlas));
-    report.shots = played.shots;
+    report.shots = light.shots();
     report.frames = std::move(frames);
     report.interrupted = stages.stopped();
     report.exposure = options.exposure;
     report.picture_width = options.width;
     report.picture_height = height;
-    add_times(report, "", played.times);
+    add_times(report, "", light.times());
     return report;
 }
 

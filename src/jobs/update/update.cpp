@@ -192,13 +192,12 @@ UpdateSummary update(const std::string& folder, const std::string& scene_path,
             kept ? light_over_links(edit, *kept, baked, row, stages)
                  : light_after(edit, solution, baked, options, row, device, stages);
         stages.begin("finishing");
-        BakeOptions files;
-        files.half = baked.half;
-        files.keep_lights = baked.keep_lights;
-        files.lightmap_format = baked.lightmap_format;
-        files.baked_size = baked.baked_size;
-        files.parts = baked.parts;
-        files.preview_width = options.preview_width;
+        const BakeOptions files{.parts = baked.parts,
+                                .half = baked.half,
+                                .keep_lights = baked.keep_lights,
+                                .lightmap_format = baked.lightmap_format,
+                                .baked_size = baked.baked_size,
+                                .preview_width = options.preview_width};
         output.outdate(kMatrixFile);
         written = write_light(output, files, edit.now, device ? &*device : nullptr, irradiance, {},
                               stages);

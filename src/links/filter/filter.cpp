@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "atlas/lumels/sides.h"
 #include "base/core/parallel.h"
 #include "links/filter/filter_tile.h"
 
@@ -66,17 +67,6 @@ std::uint64_t ChartFilter::bytes(std::size_t lumels, std::size_t texels)
            lumels * (sizeof(std::uint8_t) + (kSolutions + 1) * sizeof(float) + kBells * kOfMean);
 }
 
-/// kNoLumel if there is none that can receive light.
-std::uint32_t ChartFilter::lumel_at(int x, int y, int side) const
-{
-    const int width = place_.lumels.width;
-    if (x < 0 || x >= width || y < 0 || y >= place_.lumels.height)
-        return kNoLumel;
-    const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-    const std::uint32_t i = by_side_[2 * texel + std::size_t(side)];
-    return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
-}
-
 /// Bits of the neighbours on the same chart and side across which the filter may step.
 std::uint8_t ChartFilter::find_steps(std::size_t i) const
 {
@@ -87,7 +77,8 @@ std::uint8_t ChartFilter::find_steps(std::size_t i) const
               y = int(lumel.texel) / width, side = lumel.flags & kLumelBack ? 1 : 0;
     unsigned steps = 0;
     for (unsigned s = 0; s < kSteps.size(); ++s) {
-        const std::uint32_t j = lumel_at(x + kSteps[s].x, y + kSteps[s].y, side);
+        const std::uint32_t j =
+            lit_lumel_at(place_.lumels, by_side_, x + kSteps[s].x, y + kSteps[s].y, side);
         if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && !parts_.is_cut(j) &&
             may_step(i, j, std::min(nearest_[i], nearest_[j])))
             steps |= 1u << s;
@@ -113,7 +104,8 @@ bool ChartFilter::fill(FilterTile& tile, int left, int top, int side, const Solu
     for (int y = -kHalo; y < kTile + kHalo; ++y)
         for (int x = -kHalo; x < kTile + kHalo; ++x) {
             const std::size_t t = wide_at(x, y);
-            const std::uint32_t i = tile.lumel[t] = lumel_at(left + x, top + y, side);
+            const std::uint32_t i = tile.lumel[t] =
+                lit_lumel_at(place_.lumels, by_side_, left + x, top + y, side);
             const bool is = i != kNoLumel;
             any = any || (is && x >= 0 && x < kTile && y >= 0 && y < kTile);
             tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;

@@ -37,7 +37,6 @@ public:
     std::vector<Mean> filter(const Solutions& found) const;
 
 private:
-    std::uint32_t lumel_at(int x, int y, int side) const;
     std::uint8_t find_steps(std::size_t lumel) const;
     bool may_step(std::size_t i, std::size_t j, float nearest) const;
     bool fill(FilterTile& tile, int left, int top, int side, const Solutions& found) const;

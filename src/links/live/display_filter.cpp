@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "atlas/lumels/sides.h"
 #include "base/core/parallel.h"
 #include "links/filter/filter_tile.h"
 
@@ -18,11 +19,6 @@ constexpr std::size_t kGrain = 256;
 /// Two neighbours can be separated by geometry that is closer than this multiple of their distance;
 /// a ray between them, kLift sides of a lumel above them, decides.
 constexpr float kMayStandBetween = 1.5f, kLift = 0.05f;
-
-bool is_back(const Lumel& lumel)
-{
-    return (lumel.flags & kLumelBack) != 0;
-}
 
 /// Calls visit(lumel, texel of the tile) for each lumel within the tile, row by row.
 template <class Visit>
@@ -140,17 +136,6 @@ bool DisplayFilter::do_tiles(const Work& work)
     return last == tiles_.size();
 }
 
-/// kNoLumel if there is none that can receive light.
-std::uint32_t DisplayFilter::lumel_at(int x, int y, int side) const
-{
-    const int width = place_.lumels.width;
-    if (x < 0 || x >= width || y < 0 || y >= place_.lumels.height)
-        return kNoLumel;
-    const std::size_t texel = std::size_t(y) * std::size_t(width) + std::size_t(x);
-    const std::uint32_t i = by_side_[2 * texel + std::size_t(side)];
-    return i == kNoLumel || (place_.lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
-}
-
 /// Irradiance by the rays of each checkerboard half, scaled as if they were all rays.
 void DisplayFilter::find_halves(std::size_t i)
 {
@@ -186,7 +171,8 @@ std::uint8_t DisplayFilter::steps_of(std::size_t i) const
               y = int(lumel.texel) / width;
     unsigned steps = 0;
     for (unsigned s = 0; s < kSteps.size(); ++s) {
-        const std::uint32_t j = lumel_at(x + kSteps[s].x, y + kSteps[s].y, is_back(lumel) ? 1 : 0);
+        const std::uint32_t j = lit_lumel_at(place_.lumels, by_side_, x + kSteps[s].x,
+                                             y + kSteps[s].y, is_back(lumel) ? 1 : 0);
         if (j != kNoLumel && place_.lumels.lumels[j].chart == lumel.chart && may_step(i, j))
             steps |= 1u << s;
     }
@@ -211,7 +197,8 @@ void DisplayFilter::fill(const Tile& of, FilterTile& tile) const
     for (int y = -kHalo; y < kTile + kHalo; ++y)
         for (int x = -kHalo; x < kTile + kHalo; ++x) {
             const std::size_t t = wide_at(x, y);
-            const std::uint32_t i = tile.lumel[t] = lumel_at(of.left + x, of.top + y, of.side);
+            const std::uint32_t i = tile.lumel[t] =
+                lit_lumel_at(place_.lumels, by_side_, of.left + x, of.top + y, of.side);
             const bool is = i != kNoLumel;
             tile.chart[t] = is ? std::int32_t(place_.lumels.lumels[i].chart) : -1;
             tile.steps[t] = is ? steps_[i] : std::uint8_t(0);

@@ -57,7 +57,6 @@ private:
         std::uint32_t tile = ~0u, number = 0;
     };
 
-    std::uint32_t lumel_at(int x, int y, int side) const;
     float nearest_of(std::size_t lumel) const;
     std::uint8_t steps_of(std::size_t lumel) const;
     bool may_step(std::size_t i, std::size_t j) const;

@@ -99,10 +99,7 @@ LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
         moves[instance] = 1;
     }
     Atlas atlas = make_atlas(scene, options);
-    Lumels lumels = make_lumels(scene, atlas);
-    if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
-    mark_buried_by_still(scene, moves, lumels);
+    Lumels lumels = make_lumels(scene, atlas, moves);
     return {std::move(scene), std::move(atlas), std::move(lumels)};
 }
 

@@ -26,7 +26,7 @@
 //
 // With coloured glass, directions take the colour channels in turn.
 
-layout(local_size_x = kGatherGroup) in;
+layout(local_size_x = kGroup) in;
 layout(constant_id = 0) const uint kLayers = kStochasticLayers;
 layout(push_constant, scalar) uniform Params { GatherParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };
@@ -174,8 +174,8 @@ Seen see_exactly(ParallelView view, uint k, LumelPoint point, uint i)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

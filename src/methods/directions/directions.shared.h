@@ -3,8 +3,6 @@
 #include "raster/parallel/illumination_maps.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kGatherGroup = 64u;  ///< threads per workgroup of directions.gather.comp
-
 /// A direction to gather light from.
 struct GlobalDirection {
     vec3 toward;  ///< d: unit, from receivers to the surfaces they see
@@ -22,13 +20,12 @@ struct SeenLight {
 /// Push constants of directions.gather.comp.
 struct GatherParams {
     ParallelLayout tiling;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint count;        ///< N
-    uint first_view;   ///< views [first_view, first_view + views) in tiles 0, 1, …
-    uint views;        ///< K
-    uint half_index;   ///< 0 or 1: which half-solution takes this batch
-    uint first_point;  ///< index of a lumel's receiving point
+    DispatchRange range;  ///< lumels of this dispatch
+    uint count;           ///< N
+    uint first_view;      ///< views [first_view, first_view + views) in tiles 0, 1, …
+    uint views;           ///< K
+    uint half_index;      ///< 0 or 1: which half-solution takes this batch
+    uint first_point;     ///< index of a lumel's receiving point
     uint seed;
     uint centre;         ///< 1: receive at the centroid
     uint neighbours;     ///< lookups to each side of a pixel: 0, 1 or 2

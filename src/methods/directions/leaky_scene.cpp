@@ -11,27 +11,6 @@
 namespace lumel {
 namespace {
 
-std::vector<char> flags_of(const Scene& scene, const LeakyOptions& options)
-{
-    std::vector<char> flags(scene.instances.size(), char(!options.still && options.movers.empty()));
-    for (const std::uint32_t instance : options.movers) {
-        if (instance >= flags.size())
-            throw Error(ErrorKind::input, "instance " + std::to_string(instance),
-                        "cannot move: the scene has only " + std::to_string(flags.size()));
-        flags[instance] = char(!options.still);
-    }
-    return flags;
-}
-
-Lumels lumels_of(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers)
-{
-    Lumels lumels = make_lumels(scene, atlas);
-    if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
-    mark_buried_by_still(scene, movers, lumels);
-    return lumels;
-}
-
 /// The lamps without the sky, which directions gather.
 LiveLamps lamps_of(const Scene& scene, const DirectLightOptions& options)
 {
@@ -48,15 +27,6 @@ DirectionsOptions leaky(DirectionsOptions options, double leak)
     return options;
 }
 
-void check_factor(std::size_t instances, std::uint32_t instance, const glm::vec3& factor)
-{
-    const std::string name = "instance " + std::to_string(instance);
-    if (instance >= instances)
-        throw Error(ErrorKind::input, name, "is not in the scene");
-    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
-}
-
 }  // namespace
 
 LeakyScene::LeakyScene(const gpu::Device& device, Scene scene, const LeakyOptions& options)
@@ -64,15 +34,12 @@ LeakyScene::LeakyScene(const gpu::Device& device, Scene scene, const LeakyOption
       options_(options),
       scene_(std::move(scene)),
       sky_(scene_.sky.radiance),
-      movers_(flags_of(scene_, options)),
+      edits_(scene_, options.movers, options.still),
       atlas_(make_atlas(scene_, options.atlas)),
-      lumels_(lumels_of(scene_, atlas_, movers_)),
-      world_(device, scene_, lumels_, &atlas_, movers_),
+      lumels_(make_lumels(scene_, atlas_, edits_.movers())),
+      world_(device, scene_, lumels_, &atlas_, edits_.movers()),
       lamps_(lamps_of(scene_, options.lights)),
-      solver_(device, world_, lumels_, leaky(options.solver, options.leak)),
-      requested_(scene_.instances.size()),
-      emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
-      reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f))
+      solver_(device, world_, lumels_, leaky(options.solver, options.leak))
 {
     lamps_.find(device, world_, lumels_);
     begin_anew();
@@ -80,25 +47,18 @@ LeakyScene::LeakyScene(const gpu::Device& device, Scene scene, const LeakyOption
 
 void LeakyScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
-    const std::string name = "instance " + std::to_string(instance);
-    if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not movable");
-    if (!is_rigid(scene_.instances[instance].transform, transform))
-        throw Error(ErrorKind::input, name, "can be rotated and moved, but not stretched");
-    requested_[instance] = transform;
+    edits_.move(scene_, instance, transform);
 }
 
 void LeakyScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
 {
-    check_factor(emission_factor_.size(), instance, factor);
-    emission_factor_[instance] = factor;
+    edits_.set_emission(instance, factor);
     changed_ = true;
 }
 
 void LeakyScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
 {
-    check_factor(reflectance_factor_.size(), instance, factor);
-    reflectance_factor_[instance] = factor;
+    edits_.set_reflectance(instance, factor);
     changed_ = true;
 }
 
@@ -124,13 +84,12 @@ bool LeakyScene::place_what_moved()
 {
     std::vector<glm::mat4> transforms;
     bool moved = false;
-    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
+    for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
         Instance& instance = scene_.instances[i];
-        if (requested_[i] && *requested_[i] != instance.transform) {
-            instance.transform = *requested_[i];
+        if (const std::optional<glm::mat4> transform = edits_.take_move(scene_, i)) {
+            instance.transform = *transform;
             moved = true;
         }
-        requested_[i].reset();
         transforms.push_back(instance.transform);
     }
     if (moved) {
@@ -144,17 +103,11 @@ bool LeakyScene::place_what_moved()
 /// Passes the current emission to the solver; light gathered before decays.
 void LeakyScene::begin_anew()
 {
-    Lumels lumels = lumels_;
+    Lumels lumels = edits_.scaled(lumels_);
     direct_ = lamps_.irradiance();
-    for (std::size_t i = 0; i < lumels.lumels.size(); ++i) {
-        Lumel& lumel = lumels.lumels[i];
-        lumel.emission *= emission_factor_[lumel.instance];
-        lumel.albedo =
-            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
-        // Reflected direct light joins the emission of surfaces: directions do not find lamps.
-        if (!direct_.empty())
-            lumel.emission += lumel.albedo * direct_[i];
-    }
+    // Reflected direct light joins the emission of surfaces: directions do not find lamps.
+    for (std::size_t i = 0; i < direct_.size(); ++i)
+        lumels.lumels[i].emission += lumels.lumels[i].albedo * direct_[i];
     solver_.relight(lumels);
     changed_ = false;
     changed_at_ = solver_.state().shots;

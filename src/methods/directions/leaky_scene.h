@@ -9,6 +9,7 @@
 #include "atlas/packing/atlas.h"
 #include "methods/directions/directions.h"
 #include "raster/shadow_maps/live_lamps.h"
+#include "solve/solver/instance_edits.h"
 #include "solve/solver/live_state.h"
 
 namespace lumel {
@@ -61,15 +62,13 @@ private:
     LeakyOptions options_;
     Scene scene_;
     std::vector<glm::vec3> sky_;  ///< radiance of the sky in the file
-    std::vector<char> movers_;    ///< [instances]
+    InstanceEdits edits_;
     Atlas atlas_;
     Lumels lumels_;
     World world_;
     LiveLamps lamps_;
     GlobalDirections solver_;
-    std::vector<std::optional<glm::mat4>> requested_;              ///< [instances]
-    std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
-    std::vector<glm::vec3> direct_;                                ///< [N] light of sun and lamps
+    std::vector<glm::vec3> direct_;  ///< [N] light of sun and lamps
     LiveState state_;
     std::uint64_t changed_at_ = 0;  ///< directions drawn before the last change
     bool changed_ = false;          ///< emission, reflectance, lamps or sky

@@ -7,7 +7,7 @@
 //
 // H_i is the light of the last bounce, or the mean over the lumel's points.
 
-layout(local_size_x = kBounceGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { BounceParams p; };
 layout(scalar) readonly buffer Order { uint order[]; };
 layout(scalar) readonly buffer LinkSet { vec3 gathered[]; };

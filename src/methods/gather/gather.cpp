@@ -33,6 +33,7 @@
 #include <cmath>
 
 #include "atlas/near/near_field.h"
+#include "raster/eyes/eye_views.h"
 #include "raster/eyes/hemicube_tiles.h"
 #include "raster/eyes/view_options.h"
 #include "solve/shooting/lumel_arrays.h"
@@ -226,28 +227,24 @@ void GatherRadiosity::place_eyes(std::uint32_t lumels)
                                   .seed = 2 * options_.seed + half(),
                                   .centre = averages_ ? 0u : 1u,
                                   .ray_offset = ray_offset_};
-    pacer_.work("eyes", [&](gpu::Commands& commands) {
-        commands.dispatch(eyes_kernel_,
-                          {.lumels = world_->lumels(),
-                           .pieces = world_->pieces(),
-                           .order = order_,
-                           .eyes = eyes_,
-                           .points = points_},
-                          params, params.eyes);
-    });
+    pacer_.dispatch("eyes", eyes_kernel_,
+                    {.lumels = world_->lumels(),
+                     .pieces = world_->pieces(),
+                     .order = order_,
+                     .eyes = eyes_,
+                     .points = points_},
+                    params, params.eyes);
 }
 
 void GatherRadiosity::integrate(std::uint32_t eyes)
 {
     const IntegrateParams params{.views = views_.layout(), .samples = gpu::kManySamples};
-    pacer_.work("integrate", [&](gpu::Commands& commands) {
-        commands.dispatch(integrate_,
-                          {.views = {views_.image(), views_.sampler()},
-                           .points = points_,
-                           .delta_form_factor = delta_form_factors_,
-                           .gathered = gathered_},
-                          params, std::size_t(eyes) * kIntegrateGroup);
-    });
+    pacer_.dispatch("integrate", integrate_,
+                    {.views = {views_.image(), views_.sampler()},
+                     .points = points_,
+                     .delta_form_factor = delta_form_factors_,
+                     .gathered = gathered_},
+                    params, std::size_t(eyes) * kIntegrateGroup);
 }
 
 void GatherRadiosity::bounce(std::uint32_t lumels)
@@ -261,18 +258,16 @@ void GatherRadiosity::bounce(std::uint32_t lumels)
                               .averaged = averages_ ? 1u : 0u,
                               .half_index = half(),
                               .taken = {taken[0], taken[1]}};
-    pacer_.work("bounce", [&](gpu::Commands& commands) {
-        commands.dispatch(bounce_,
-                          {.order = order_,
-                           .gathered = gathered_,
-                           .surface = surface_,
-                           .emission = emission_,
-                           .sums = sums_,
-                           .change = change_,
-                           .irradiance = irradiance_,
-                           .radiosity = radiosity_},
-                          params, lumels);
-    });
+    pacer_.dispatch("bounce", bounce_,
+                    {.order = order_,
+                     .gathered = gathered_,
+                     .surface = surface_,
+                     .emission = emission_,
+                     .sums = sums_,
+                     .change = change_,
+                     .irradiance = irradiance_,
+                     .radiosity = radiosity_},
+                    params, lumels);
 }
 
 /// Reads the statistics of the bounce at once: this takes far less time than a bounce.

@@ -9,7 +9,7 @@
 // Places the hemicubes of a batch: each at a point of its lumel, rotated about the normal by its
 // own angle [Hoef13] 4.2, and lifted slightly, so that its own surface stays out of view.
 
-layout(local_size_x = kBounceGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { GatherEyesParams p; };
 layout(scalar) readonly buffer Order { uint order[]; };
 layout(scalar) writeonly buffer Eyes { Eye eyes[]; };

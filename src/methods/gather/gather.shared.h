@@ -3,7 +3,6 @@
 #include "raster/eyes/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kBounceGroup = 64u;  ///< threads per workgroup of gather.eyes and gather.bounce
 LUMEL_CONST uint kIntegrateGroup = 256u;  ///< group of gather.integrate.comp; a power of two
 LUMEL_CONST uint kMaxHemicubes = 1024u;   ///< maximum K
 

@@ -49,20 +49,15 @@ void EyeImage::receive(gpu::Pacer& pacer, const EyeViews& views, const gpu::Arra
                      .shots = count,
                      .shooters = sampling_.shooters(),
                      .rays = float(sampling_.rays)};
-    pacer.work("eye", points, kProbePoints,
-               [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                   params.first = first;
-                   params.last = last;
-                   commands.dispatch(receive_,
-                                     {.lobes_sent = lobes,
-                                      .views = {views.image(), views.sampler()},
-                                      .points = points_[set],
-                                      .eyes = eyes,
-                                      .shots = shots,
-                                      .density = brightness_,
-                                      .sums = sums_[set]},
-                                     params, last - first);
-               });
+    pacer.dispatch_parts("eye", points, kProbePoints, receive_,
+                         {.lobes_sent = lobes,
+                          .views = {views.image(), views.sampler()},
+                          .points = points_[set],
+                          .eyes = eyes,
+                          .shots = shots,
+                          .density = brightness_,
+                          .sums = sums_[set]},
+                         params);
 }
 
 std::vector<glm::vec3> EyeImage::radiance() const

@@ -18,7 +18,7 @@
 // The shooters' own lobes are left to the rays. Without rays w is 1 and shooters send lobes; the
 // disc of Eq. (8) then bounds the light of close shooters.
 
-layout(local_size_x = kEyeGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { EyeParams p; };
 layout(scalar) readonly buffer Points { EyePoint points[]; };
 layout(scalar) uniform Eyes { Eye eyes[kMaxGlossyBatch]; };
@@ -56,8 +56,8 @@ vec3 reflect_to_eye(EyePoint x, uint k)
 
 void main()
 {
-    const uint e = p.first + gl_GlobalInvocationID.x;
-    if (e >= p.last)
+    const uint e = p.range.first + gl_GlobalInvocationID.x;
+    if (e >= p.range.last)
         return;
     const EyePoint x = points[e];
     vec3 sum = vec3(0.0);

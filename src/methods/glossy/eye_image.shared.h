@@ -3,8 +3,6 @@
 #include "raster/eyes/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kEyeGroup = 64u;
-
 /// A point seen by an eye, on a glossy surface.
 struct EyePoint {
     vec3 position;    ///< [m], world
@@ -18,11 +16,10 @@ struct EyePoint {
 /// Push constants of eye_image.receive.comp.
 struct EyeParams {
     EyeViewLayout views;
-    uint first;  ///< points [first, last) of this dispatch
-    uint last;
-    uint shots;      ///< K
-    float shooters;  ///< shooters that a point receives from in total
-    float rays;      ///< rays along its lobe; 0: shooters alone
+    DispatchRange range;  ///< points of this dispatch
+    uint shots;           ///< K
+    float shooters;       ///< shooters that a point receives from in total
+    float rays;           ///< rays along its lobe; 0: shooters alone
 };
 
 LUMEL_SHARED_END

@@ -212,22 +212,20 @@ void GlossyIllumination::select()
                                     .width = atlas_width_,
                                     .area_shots = area_shots(),
                                     .area_share = has_two_choices() ? kAreaShare : 0.0f};
-    pacer_.work("select", [&](gpu::Commands& commands) {
-        commands.dispatch(kernels_.select,
-                          {.lumels = world_->lumels(),
-                           .pieces = world_->pieces(),
-                           .albedo_table = albedo_table_,
-                           .gloss = gloss_,
-                           .diffuse = diffuse_,
-                           .last = last_,
-                           .power = power_.array(),
-                           .area_power = area_power_.array(),
-                           .before = eyes_[1 - now],
-                           .eyes = eyes_[now],
-                           .shots = shots_,
-                           .lobes_sent = lobes_},
-                          params, batch_);
-    });
+    pacer_.dispatch("select", kernels_.select,
+                    {.lumels = world_->lumels(),
+                     .pieces = world_->pieces(),
+                     .albedo_table = albedo_table_,
+                     .gloss = gloss_,
+                     .diffuse = diffuse_,
+                     .last = last_,
+                     .power = power_.array(),
+                     .area_power = area_power_.array(),
+                     .before = eyes_[1 - now],
+                     .eyes = eyes_[now],
+                     .shots = shots_,
+                     .lobes_sent = lobes_},
+                    params, batch_);
 }
 
 void GlossyIllumination::carry()
@@ -251,33 +249,28 @@ void GlossyIllumination::receive()
                                .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                .near_radius = near_radius_,
                                .particles = particles_ ? 1u : 0u};
-    pacer_.work("receive", count_, kProbeLumels,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    params.first = first;
-                    params.last = last;
-                    commands.dispatch(kernels_.receive,
-                                      {.lumels = world_->lumels(),
-                                       .pieces = world_->pieces(),
-                                       .albedo_table = albedo_table_,
-                                       .lobes_sent = lobes_,
-                                       .views = {views_.image(), views_.sampler()},
-                                       .near_first = near_rows_.first(),
-                                       .near_column = near_rows_.column(),
-                                       .near_factors = near_rows_.factor(),
-                                       .eyes = eyes,
-                                       .shots = shots_,
-                                       .gloss = gloss_,
-                                       .emission = emission_,
-                                       .near = near_,
-                                       .last = last_,
-                                       .sums = sums_,
-                                       .exitance = exitance_,
-                                       .absorbed = absorbed_,
-                                       .diffuse_exitance = diffuse_,
-                                       .carried = carried_.irradiance(),
-                                       .passed_on = carried_.reflected()},
-                                      params, last - first);
-                });
+    pacer_.dispatch_parts("receive", count_, kProbeLumels, kernels_.receive,
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .albedo_table = albedo_table_,
+                           .lobes_sent = lobes_,
+                           .views = {views_.image(), views_.sampler()},
+                           .near_first = near_rows_.first(),
+                           .near_column = near_rows_.column(),
+                           .near_factors = near_rows_.factor(),
+                           .eyes = eyes,
+                           .shots = shots_,
+                           .gloss = gloss_,
+                           .emission = emission_,
+                           .near = near_,
+                           .last = last_,
+                           .sums = sums_,
+                           .exitance = exitance_,
+                           .absorbed = absorbed_,
+                           .diffuse_exitance = diffuse_,
+                           .carried = carried_.irradiance(),
+                           .passed_on = carried_.reflected()},
+                          params);
     carried_.end(pacer_, diffuse_);
     if (!held_)
         draw_in_proportion_to(exitance_, 0.0f);

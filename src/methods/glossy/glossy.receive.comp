@@ -22,7 +22,7 @@
 // If particles carry the light of lobes (lobe_particles.cpp), shooters send none, and B_i lacks it:
 // it counts as not absorbed, and arrives elsewhere with the particles.
 
-layout(local_size_x = kGlossyReceiveGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { GlossyReceiveParams p; };
 layout(scalar) uniform Eyes { Eye eyes[kMaxGlossyBatch]; };
 layout(scalar) uniform Shots { GlossyShot shots[kMaxGlossyBatch]; };
@@ -89,8 +89,8 @@ vec3 receive(uint i, Lumel lumel, LumelPoint x, uint k, out float cos_in)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     const Gloss g = gloss[i];

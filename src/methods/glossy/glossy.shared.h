@@ -8,7 +8,6 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kGlossySelectGroup = 32u;
-LUMEL_CONST uint kGlossyReceiveGroup = 64u;
 
 /// Push constants of glossy.select.comp.
 struct GlossySelectParams {
@@ -30,11 +29,10 @@ struct GlossySelectParams {
 /// Push constants of glossy.receive.comp.
 struct GlossyReceiveParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint count;       ///< N
-    uint shots;       ///< K
-    uint half_index;  ///< 0 or 1: which half-solution takes this batch
+    DispatchRange range;  ///< lumels of this dispatch
+    uint count;           ///< N
+    uint shots;           ///< K
+    uint half_index;      ///< 0 or 1: which half-solution takes this batch
     uint iteration;
     uint seed;
     uint centre;        ///< 1: receive at the centroid

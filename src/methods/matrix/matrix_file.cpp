@@ -4,7 +4,7 @@
 //     8 bytes   version
 //     8 bytes   bytes of the contents
 //     8 bytes   their Fingerprint
-//     contents  in the order of contents(), as StateWriter writes them
+//     contents  in the order of contents(), by StateWriter
 //
 // Contents with a valid fingerprint are still checked before they are used as indices.
 
@@ -54,7 +54,7 @@ std::span<const float> numbers_of(const std::vector<glm::vec3>& colors)
     return {colors.empty() ? nullptr : &colors.front().x, 3 * colors.size()};
 }
 
-/// The scale of all halves, then the numbers.
+/// Colours as one unit, then half floats in it.
 template <class Archive, class Colors>
 void halves(Archive& archive, Colors& colors)
 {
@@ -108,8 +108,7 @@ void contents(Archive& archive, Light& light, Matrix& matrix)
                     lamp.outer_cone, lamp.radius, lamp.angle, lamp.profile, lamp.transform);
         });
     });
-    each(archive, light.profiles,
-         [&](auto& profile) { archive(profile.name, profile.candela); });
+    each(archive, light.profiles, [&](auto& profile) { archive(profile.name, profile.candela); });
     static_assert(sizeof(VoxelPatch) == 10 * sizeof(float));  // written as it lies in memory
     archive(light.origin, light.patches.side, light.patches.patch_of, light.patches.patches,
             light.rows.first, light.rows.entry, matrix);

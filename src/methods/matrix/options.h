@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "solve/transport/transport.h"
+#include "solve/transport/transport_options.h"
 
 namespace lumel {
 
@@ -15,7 +15,10 @@ enum class MatrixForm : std::uint8_t {
 
 struct MatrixOptions {
     std::uint32_t seed = 1;
-    TransportOptions transport;
+    TransportOptions transport{
+        .views = {.projection = Projection::hemicube, .hemicube = 256, .batch = 16},
+        .patches = 2048,
+        .bounces = 0};
     MatrixForm form = MatrixForm::tiles;
 };
 

@@ -170,36 +170,27 @@ void ProgressiveRadiosity::choose()
 
 void ProgressiveRadiosity::receive()
 {
-    pacer_.work("receive", count_, kProbeLumels,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    const EyeViews& views = shots_.views();
-                    commands.dispatch(receive_,
-                                      {.lumels = world_->lumels(),
-                                       .pieces = world_->pieces(),
-                                       .views = {views.image(), views.sampler()},
-                                       .eyes = shots_.eyes(),
-                                       .shots = shots_.shots(),
-                                       .sending = shots_.sending(),
-                                       .far = light_.far},
-                                      PatchReceiveParams{.views = views.layout(),
-                                                         .first = first,
-                                                         .last = last,
-                                                         .shots = shots_.batch(),
-                                                         .near_radius = near_radius_},
-                                      last - first);
-                });
+    const EyeViews& views = shots_.views();
+    pacer_.dispatch_parts(
+        "receive", count_, kProbeLumels, receive_,
+        {.lumels = world_->lumels(),
+         .pieces = world_->pieces(),
+         .views = {views.image(), views.sampler()},
+         .eyes = shots_.eyes(),
+         .shots = shots_.shots(),
+         .sending = shots_.sending(),
+         .far = light_.far},
+        {.views = views.layout(), .shots = shots_.batch(), .near_radius = near_radius_});
 }
 
 void ProgressiveRadiosity::settle()
 {
-    pacer_.work("settle", [&](gpu::Commands& commands) {
-        commands.dispatch(settle_,
-                          {.chosen = shots_.chosen(),
-                           .shots = shots_.shots(),
-                           .sending = shots_.sending(),
-                           .shot = light_.shot},
-                          TakeParams{shots_.batch()}, shots_.batch());
-    });
+    pacer_.dispatch("settle", settle_,
+                    {.chosen = shots_.chosen(),
+                     .shots = shots_.shots(),
+                     .sending = shots_.sending(),
+                     .shot = light_.shot},
+                    TakeParams{shots_.batch()}, shots_.batch());
 }
 
 void ProgressiveRadiosity::light_near(gpu::Commands& commands)
@@ -226,7 +217,7 @@ void ProgressiveRadiosity::sum_figures(gpu::Commands& commands)
                        .shot = light_.shot,
                        .lumels = world_->lumels(),
                        .parts = figures_.parts()},
-                      ResidualParams{count_}, count_);
+                      CountParams{count_}, count_);
     figures_.add_up(commands);
 }
 

@@ -20,8 +20,8 @@ layout(scalar) buffer Far { vec3 far[]; };
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)

@@ -8,7 +8,7 @@
 // Sums of unshot light, arrived light, and light reflected.
 
 layout(local_size_x = kSumGroup) in;
-layout(push_constant, scalar) uniform Params { ResidualParams p; };
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) writeonly buffer Parts { Terms parts[]; };
 

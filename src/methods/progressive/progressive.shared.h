@@ -35,15 +35,9 @@ struct ChooseParams {
 /// Push constants of progressive.receive.comp.
 struct PatchReceiveParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint shots;         ///< K
-    float near_radius;  ///< pairs closer than this × the larger size are in the near field
-};
-
-/// Push constants of progressive.residual.comp.
-struct ResidualParams {
-    uint count;
+    DispatchRange range;  ///< lumels of this dispatch
+    uint shots;           ///< K
+    float near_radius;    ///< pairs closer than this × the larger size are in the near field
 };
 
 LUMEL_SHARED_END

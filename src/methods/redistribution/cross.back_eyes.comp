@@ -4,7 +4,7 @@
 // Eyes on the backs of patches, opposite to their fronts.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { BackEyesParams p; };
+layout(push_constant, scalar) uniform Params { TakeParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) writeonly buffer BackEyes { Eye back_eyes[]; };
 

@@ -151,7 +151,7 @@ void CrossRedistribution::begin_crossing()
         commands.copy(lamps_.light().buffer(), fresh_.buffer(), count * sizeof(glm::vec3));
         commands.dispatch(
             part_, {.shot = solver_->light().shot, .is_lamp = lamps_.lamps(), .crossed = crossed_},
-            CrossPartParams{count}, count);
+            CountParams{count}, count);
     });
 }
 
@@ -173,15 +173,13 @@ bool CrossRedistribution::step()
     next_ += batch_;
     under_way_ = next_ < list_.size();
     if (!under_way_) {
-        const CrossSettleParams params{std::uint32_t(lumels_->lumels.size())};
-        solver_->pacer().work("settle", [&](gpu::Commands& commands) {
-            commands.dispatch(settle_,
-                              {.lumels = world_->lumels(),
-                               .fresh = fresh_,
-                               .crossing = crossing_,
-                               .far = solver_->light().far},
-                              params, params.count);
-        });
+        const CountParams params{std::uint32_t(lumels_->lumels.size())};
+        solver_->pacer().dispatch("settle", settle_,
+                                  {.lumels = world_->lumels(),
+                                   .fresh = fresh_,
+                                   .crossing = crossing_,
+                                   .far = solver_->light().far},
+                                  params, params.count);
     }
     return under_way_;
 }
@@ -193,7 +191,7 @@ void CrossRedistribution::look_from_fronts()
     pacer.work("take", [&](gpu::Commands& commands) {
         shots.take(commands, solver_->light(), list_, next_);
         commands.dispatch(back_eyes_kernel_, {.eyes = shots.eyes(), .back_eyes = back_eyes_},
-                          BackEyesParams{batch_}, batch_);
+                          TakeParams{batch_}, batch_);
     });
     world_->show_movers(true);
     shots.look(pacer);
@@ -226,7 +224,7 @@ void CrossRedistribution::gather()
                            .near = light.near,
                            .shot = light.shot,
                            .crossed = crossed_},
-                          BackEyesParams{batch_}, batch_);
+                          TakeParams{batch_}, batch_);
     });
 }
 
@@ -262,29 +260,23 @@ void CrossRedistribution::receive()
 {
     const PatchShots& shots = solver_->shots();
     const EyeViews& views = shots.views();
-    solver_->pacer().work("cross to lumels", std::uint32_t(lumels_->lumels.size()), kProbeLumels,
-                          [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                              const CrossReceiveParams params{.views = views.layout(),
-                                                              .back = back_layout_,
-                                                              .first = first,
-                                                              .last = last,
-                                                              .shots = batch_,
-                                                              .near_radius =
-                                                                  solver_->near_radius()};
-                              commands.dispatch(receive_,
-                                                {.lumels = world_->lumels(),
-                                                 .pieces = world_->pieces(),
-                                                 .views = {views.image(), views.sampler()},
-                                                 .near_first = near_first_,
-                                                 .near_column = near_column_,
-                                                 .near_factors = near_factor_,
-                                                 .eyes = shots.eyes(),
-                                                 .shots = shots.shots(),
-                                                 .shot = solver_->light().shot,
-                                                 .back = back_,
-                                                 .fresh = fresh_},
-                                                params, last - first);
-                          });
+    solver_->pacer().dispatch_parts("cross to lumels", std::uint32_t(lumels_->lumels.size()),
+                                    kProbeLumels, receive_,
+                                    {.lumels = world_->lumels(),
+                                     .pieces = world_->pieces(),
+                                     .views = {views.image(), views.sampler()},
+                                     .near_first = near_first_,
+                                     .near_column = near_column_,
+                                     .near_factors = near_factor_,
+                                     .eyes = shots.eyes(),
+                                     .shots = shots.shots(),
+                                     .shot = solver_->light().shot,
+                                     .back = back_,
+                                     .fresh = fresh_},
+                                    {.views = views.layout(),
+                                     .back = back_layout_,
+                                     .shots = batch_,
+                                     .near_radius = solver_->near_radius()});
 }
 
 }  // namespace lumel

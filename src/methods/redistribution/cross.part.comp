@@ -4,7 +4,7 @@
 // Light that is crossed: all shot light except that of lamps, which is shot past movable objects.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { CrossPartParams p; };
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Sent { vec3 shot[]; };
 layout(scalar) readonly buffer IsLamp { uint is_lamp[]; };  // [N]
 layout(scalar) writeonly buffer Crossed { vec3 crossed[]; };

@@ -152,8 +152,8 @@ vec3 crossing_light(Receiver r, uint k)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)

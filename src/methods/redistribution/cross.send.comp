@@ -4,7 +4,7 @@
 // Lumels of movable patches send all their light [Hoef13] 4.5.1: B = E + ρH.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { BackEyesParams p; };
+layout(push_constant, scalar) uniform Params { TakeParams p; };
 layout(scalar) readonly buffer Shots { PatchShot shots[]; };
 layout(scalar) readonly buffer Surface { vec4 surface[]; };
 layout(scalar) readonly buffer Emission { vec3 emission[]; };

@@ -5,7 +5,7 @@
 // Replaces the previous effect of movable patches. Nothing accumulates over moves.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { CrossSettleParams p; };
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) readonly buffer Fresh { vec3 fresh[]; };
 layout(scalar) buffer Crossing { vec3 crossing[]; };

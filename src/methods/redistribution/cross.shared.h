@@ -17,11 +17,6 @@ struct BackLayout {
     uint per_hemicube;  ///< pixels of all levels
 };
 
-/// Push constants of cross.back_eyes.comp.
-struct BackEyesParams {
-    uint batch;  ///< K
-};
-
 /// Push constants of cross.resolve.comp: one level of all hemicubes.
 struct ResolveParams {
     EyeViewLayout views;
@@ -43,20 +38,9 @@ struct CrossGatherParams {
 struct CrossReceiveParams {
     EyeViewLayout views;
     BackLayout back;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint shots;         ///< K
-    float near_radius;  ///< pairs closer than this × the larger size are in the near field
-};
-
-/// Push constants of cross.part.comp.
-struct CrossPartParams {
-    uint count;  ///< N lumels
-};
-
-/// Push constants of cross.settle.comp.
-struct CrossSettleParams {
-    uint count;  ///< N lumels
+    DispatchRange range;  ///< lumels of this dispatch
+    uint shots;           ///< K
+    float near_radius;    ///< pairs closer than this × the larger size are in the near field
 };
 
 LUMEL_SHARED_END

@@ -76,19 +76,51 @@ float edge_slack(const EyeViewLayout& views)
     return kEdgePixels * 2.0f / float(views.side);
 }
 
+PairRedistribution::PairRedistribution(const gpu::Device& device, ProgressiveRadiosity& solver,
+                                       std::size_t instances)
+    : moved(device, instances),
+      boxes(device, 1),
+      receive_(device, std::uint32_t(solver.shots().views().projection()))
+{
+}
+
+void PairRedistribution::receive(const char* stage, const World& world,
+                                 ProgressiveRadiosity& solver, const ShotList& list,
+                                 std::uint32_t first, float sign, VisibilityRows& rows, bool keeps,
+                                 gpu::Array<glm::vec3>& received)
+{
+    const PatchShots& shots = solver.shots();
+    const EyeViews& views = shots.views();
+    solver.pacer().dispatch_parts(stage, std::uint32_t(world.lumels().size()), kProbeLumels,
+                                  receive_,
+                                  {.lumels = world.lumels(),
+                                   .pieces = world.pieces(),
+                                   .views = {views.image(), views.sampler()},
+                                   .eyes = shots.eyes(),
+                                   .shots = shots.shots(),
+                                   .sending = shots.sending(),
+                                   .row_of = list.rows,
+                                   .seen = rows.seen(),
+                                   .far = received,
+                                   .moved = moved,
+                                   .boxes = boxes},
+                                  {.batch = rows.batch(first, sign),
+                                   .boxes = std::uint32_t(boxes.size()),
+                                   .slack = edge_slack(views.layout()),
+                                   .keeps = keeps ? 1u : 0u});
+}
+
 IncrementalRedistribution::IncrementalRedistribution(const gpu::Device& device, World& world,
                                                      const Lumels& lumels,
                                                      ProgressiveRadiosity& solver,
-                                                     VisibilityRows& rows, Projection projection)
+                                                     VisibilityRows& rows)
     : device_(&device),
       world_(&world),
       lumels_(&lumels),
       solver_(&solver),
       rows_(&rows),
-      receive_(device, std::uint32_t(projection)),
+      pairs_(device, solver, world.placements().size()),
       reset_(device),
-      moved_(device, world.placements().size()),
-      boxes_(device, 1),
       before_list_(rows.list_of({})),
       back_list_(rows.list_of({})),
       after_list_(rows.list_of({}))
@@ -104,8 +136,8 @@ bool IncrementalRedistribution::begin(Move move)
     for (const Placement& placement : world_->placements())
         before_.push_back(placement.now);
     Patches3 patches = patches_to_shoot();
-    moved_.upload(move_.moved);
-    boxes_ = gpu::Array<MovedBox>(*device_, view(move_.boxes));
+    pairs_.moved.upload(move_.moved);
+    pairs_.boxes = gpu::Array<MovedBox>(*device_, view(move_.boxes));
     before_list_ = rows_->list_of(std::move(patches.unknown));
     back_list_ = rows_->list_of(std::move(patches.moving));
     after_list_ = rows_->list_of(std::move(patches.all));
@@ -163,11 +195,9 @@ void IncrementalRedistribution::go_to(Phase phase)
     if (phase != Phase::after)
         return;
     gpu::Pacer& pacer = solver_->pacer();
-    pacer.work("redistribute", [&](gpu::Commands& commands) {
-        commands.dispatch(
-            reset_, {.lumels = world_->lumels(), .moved = moved_, .far = solver_->light().far},
-            ResetParams{std::uint32_t(world_->lumels().size())}, world_->lumels().size());
-    });
+    pacer.dispatch("redistribute", reset_,
+                   {.lumels = world_->lumels(), .moved = pairs_.moved, .far = solver_->light().far},
+                   CountParams{std::uint32_t(world_->lumels().size())}, world_->lumels().size());
     pacer.finish();
     world_->place(move_.transforms);
     if (after_list_.empty())
@@ -216,35 +246,8 @@ void IncrementalRedistribution::receive(float sign)
             return patch.chart != kNoPatch && rows_->row_of(patch) == kNoRow;
         }))
         return;
-    const EyeViews& views = shots.views();
-    solver_->pacer().work(
-        "redistribute to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
-        [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-            const RedistributeParams params{.views = views.layout(),
-                                            .first = first,
-                                            .last = last,
-                                            .count = std::uint32_t(world_->lumels().size()),
-                                            .shots = shots.batch(),
-                                            .first_place = next_,
-                                            .near_radius = solver_->near_radius(),
-                                            .boxes = std::uint32_t(boxes_.size()),
-                                            .slack = edge_slack(views.layout()),
-                                            .sign_factor = sign,
-                                            .keeps = 1};
-            commands.dispatch(receive_,
-                              {.lumels = world_->lumels(),
-                               .pieces = world_->pieces(),
-                               .views = {views.image(), views.sampler()},
-                               .eyes = shots.eyes(),
-                               .shots = shots.shots(),
-                               .sending = shots.sending(),
-                               .row_of = list().rows,
-                               .seen = rows_->seen(),
-                               .far = solver_->light().far,
-                               .moved = moved_,
-                               .boxes = boxes_},
-                              params, last - first);
-        });
+    pairs_.receive("redistribute to lumels", *world_, *solver_, list(), next_, sign, *rows_, true,
+                   solver_->light().far);
 }
 
 }  // namespace lumel

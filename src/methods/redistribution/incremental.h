@@ -26,14 +26,31 @@ float edge_slack(const EyeViewLayout& views);
 bool may_see(const Move& move, const Lumels& lumels, const std::vector<glm::mat4>& places,
              const Patch& patch, float slack);
 
+/// Redistributes shot light between the pairs that moved instances can affect.
+struct PairRedistribution {
+    PairRedistribution(const gpu::Device& device, ProgressiveRadiosity& solver,
+                       std::size_t instances);
+
+    /// Adds light of the batch at `first` of the list × sign to `received` [N]. keeps: stores the
+    /// current visibility in `rows`. Requires that the batch is taken and rendered.
+    void receive(const char* stage, const World& world, ProgressiveRadiosity& solver,
+                 const ShotList& list, std::uint32_t first, float sign, VisibilityRows& rows,
+                 bool keeps, gpu::Array<glm::vec3>& received);
+
+    gpu::Array<std::uint32_t> moved;  ///< [instances] 1: it moves
+    gpu::Array<MovedBox> boxes;       ///< bounds of moved instances, before and after
+
+private:
+    gpu::Kernel<shaders::IncrementalReceive> receive_;
+};
+
 /// Redistributes shot light, batch by batch.
 class IncrementalRedistribution {
 public:
     /// world: the solver's, made with movers. rows: for the geometry in the world. All must outlive
     /// this.
     IncrementalRedistribution(const gpu::Device& device, World& world, const Lumels& lumels,
-                              ProgressiveRadiosity& solver, VisibilityRows& rows,
-                              Projection projection);
+                              ProgressiveRadiosity& solver, VisibilityRows& rows);
 
     /// Starts to correct the solution for a move. Requires !is_under_way(). Returns false if there
     /// is no work: no light was shot yet.
@@ -67,10 +84,8 @@ private:
     const Lumels* lumels_;
     ProgressiveRadiosity* solver_;
     VisibilityRows* rows_;
-    gpu::Kernel<shaders::IncrementalReceive> receive_;
+    PairRedistribution pairs_;
     gpu::Kernel<shaders::IncrementalReset> reset_;
-    gpu::Array<std::uint32_t> moved_;
-    gpu::Array<MovedBox> boxes_;
     ShotList before_list_, back_list_, after_list_;
     Move move_;
     std::vector<glm::mat4> before_;  ///< [instances] transforms before the move

@@ -60,8 +60,9 @@ bool has_moved(uint k)
 uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
 {
     uint found = 0u;
-    for (uint k = first; k < min(first + kWordBits, p.shots); ++k)
-        if (shots[k].count > 0u && (p.sign_factor > 0.0 || row_of[p.first_place + k] == kNoRow) &&
+    for (uint k = first; k < min(first + kWordBits, p.batch.shots); ++k)
+        if (shots[k].count > 0u &&
+            (p.batch.sign_factor > 0.0 || row_of[p.batch.first_place + k] == kNoRow) &&
             (lumel_moved || has_moved(k) || is_affected(eyes[k].position, lumel)))
             found |= 1u << (k - first);
     return found;
@@ -70,31 +71,31 @@ uint shots_that_matter(Lumel lumel, bool lumel_moved, uint first)
 // Change by a shot at the lumel: its light now minus its light before.
 vec3 change_of(uint k, Lumel lumel, uint i, bool lumel_moved)
 {
-    const uint row = row_of[p.first_place + k];
+    const uint row = row_of[p.batch.first_place + k];
     if (row == kNoRow)
-        return p.sign_factor * light_of(k, lumel, i, p.near_radius, p.views);
+        return p.batch.sign_factor * light_of(k, lumel, i, p.batch.near_radius, p.batch.views);
     const Receiver r = receiver_at(receiving_point(lumel, i, shots[k].number, 0u, false), lumel, i);
-    const bool was = was_seen(row, i, p.count);
-    const bool is = is_seen(r, eyes[k], k, p.views);
+    const bool was = was_seen(row, i, p.batch.count);
+    const bool is = is_seen(r, eyes[k], k, p.batch.views);
     if (was != is && p.keeps != 0u)
-        keep_seen(row, i, p.count, is);
+        keep_seen(row, i, p.batch.count, is);
     const float change = float(is) - (lumel_moved || has_moved(k) ? 0.0 : float(was));
-    return change != 0.0 ? change * light_without_occluders(r, k, p.near_radius) : vec3(0.0);
+    return change != 0.0 ? change * light_without_occluders(r, k, p.batch.near_radius) : vec3(0.0);
 }
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     const bool i_moved = moved[lumel.instance] != 0u;
-    if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.sign_factor < 0.0))
+    if ((lumel.flags & kLumelBuried) != 0u || (i_moved && p.batch.sign_factor < 0.0))
         return;
     // First selects shots, then adds their light: a group takes as many rounds as its lumel with
     // most shots.
     vec3 sum = vec3(0.0);
-    for (uint first = 0u; first < p.shots; first += kWordBits)
+    for (uint first = 0u; first < p.batch.shots; first += kWordBits)
         for (uint left = shots_that_matter(lumel, i_moved, first); left != 0u; left &= left - 1u)
             sum += change_of(first + uint(findLSB(left)), lumel, i, i_moved);
     far[i] += sum;

@@ -5,7 +5,7 @@
 // Clears the light of moved lumels: it is shot again [Hoef13] 4.4.1.
 
 layout(local_size_x = kPatchGroup) in;
-layout(push_constant, scalar) uniform Params { ResetParams p; };
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) readonly buffer Moved { uint moved[]; };  // [instances]
 layout(scalar) buffer Far { vec3 far[]; };

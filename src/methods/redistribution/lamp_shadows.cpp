@@ -70,12 +70,11 @@ LampShadows::LampShadows(const gpu::Device& device, World& world, const Lumels& 
       rows_(device, world, solver, solver.shots().views().projection(), most_bytes),
       movers_(std::move(movers)),
       lamp_of_(lumels_of_lamps(solver.shots().layout(), lumels)),
-      receive_(device, std::uint32_t(solver.shots().views().projection())),
+      pairs_(device, solver, movers_.size()),
       is_lamp_(device, view(lamp_of_)),
-      moved_(device, view(words_of(movers_))),
-      boxes_(device, 1),
       light_(device, lumels.lumels.size())
 {
+    pairs_.moved.upload(words_of(movers_));
 }
 
 void LampShadows::begin(const std::vector<MovedBox>& boxes, bool has_moved, double tolerance)
@@ -87,7 +86,7 @@ void LampShadows::begin(const std::vector<MovedBox>& boxes, bool has_moved, doub
         return;
     shot_ = std::move(shot);
     const Move around{.moved = words_of(movers_), .transforms = {}, .boxes = boxes};
-    boxes_ = gpu::Array<MovedBox>(*device_, view(boxes));
+    pairs_.boxes = gpu::Array<MovedBox>(*device_, view(boxes));
     pacer.work("prepare", [&](gpu::Commands& commands) { commands.fill(light_.buffer()); });
     list_ = rows_.list_of(patches_to_shoot(around));
     next_ = 0;
@@ -169,36 +168,7 @@ bool LampShadows::step()
 
 void LampShadows::receive(float sign)
 {
-    const PatchShots& shots = solver_->shots();
-    const EyeViews& views = shots.views();
-    solver_->pacer().work("lamps to lumels", std::uint32_t(world_->lumels().size()), kProbeLumels,
-                          [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                              const RedistributeParams params{
-                                  .views = views.layout(),
-                                  .first = first,
-                                  .last = last,
-                                  .count = std::uint32_t(world_->lumels().size()),
-                                  .shots = shots.batch(),
-                                  .first_place = next_,
-                                  .near_radius = solver_->near_radius(),
-                                  .boxes = std::uint32_t(boxes_.size()),
-                                  .slack = edge_slack(views.layout()),
-                                  .sign_factor = sign,
-                                  .keeps = 0};
-                              commands.dispatch(receive_,
-                                                {.lumels = world_->lumels(),
-                                                 .pieces = world_->pieces(),
-                                                 .views = {views.image(), views.sampler()},
-                                                 .eyes = shots.eyes(),
-                                                 .shots = shots.shots(),
-                                                 .sending = shots.sending(),
-                                                 .row_of = list_->rows,
-                                                 .seen = rows_.seen(),
-                                                 .far = light_,
-                                                 .moved = moved_,
-                                                 .boxes = boxes_},
-                                                params, last - first);
-                          });
+    pairs_.receive("lamps to lumels", *world_, *solver_, *list_, next_, sign, rows_, false, light_);
 }
 
 }  // namespace lumel

@@ -44,9 +44,8 @@ private:
     VisibilityRows rows_;  ///< for the world without movable objects
     std::vector<char> movers_;
     std::vector<std::uint32_t> lamp_of_;  ///< [N]
-    gpu::Kernel<shaders::IncrementalReceive> receive_;
-    gpu::Array<std::uint32_t> is_lamp_, moved_;
-    gpu::Array<MovedBox> boxes_;
+    PairRedistribution pairs_;
+    gpu::Array<std::uint32_t> is_lamp_;
     gpu::Array<glm::vec3> light_;
     std::vector<glm::vec3> shot_;   ///< [N] B^s of the lamps when light_ was computed
     std::optional<ShotList> list_;  ///< present while in progress

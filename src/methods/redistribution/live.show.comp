@@ -1,12 +1,12 @@
 #version 460
-#include "methods/redistribution/live.shared.h"
+#include "base/core/dispatch.shared.h"
 #include "atlas/packing/lumel.shared.h"
 
 // Writes the irradiance of lumels, and texels of the atlas from it. Backs of double-sided surfaces
 // share their texels with the fronts, which are shown.
 
-layout(local_size_x = kShowGroup) in;
-layout(push_constant, scalar) uniform Params { ShowParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Lumels { Lumel lumels[]; };
 layout(scalar) readonly buffer Far { vec3 far[]; };
 layout(scalar) readonly buffer Near { vec3 near[]; };

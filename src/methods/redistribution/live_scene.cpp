@@ -5,9 +5,8 @@
 #include <limits>
 
 #include "atlas/near/still_part.h"
-#include "base/core/error.h"
+#include "base/core/dispatch.shared.h"
 #include "methods/methods.h"
-#include "methods/redistribution/live.shared.h"
 #include "solve/shooting/lumel_arrays.h"
 
 namespace lumel {
@@ -28,27 +27,10 @@ constexpr double kMaxToCorrect = 0.1;
 /// turn.
 constexpr double kLeftOutside = 0.5;
 
-std::vector<char> flags_of(const Scene& scene, const LiveOptions& options)
-{
-    if (options.still)
-        return std::vector<char>(scene.instances.size(), 0);
-    std::vector<char> flags(scene.instances.size(), char(options.movers.empty()));
-    for (const std::uint32_t instance : options.movers) {
-        if (instance >= flags.size())
-            throw Error(ErrorKind::input, "instance " + std::to_string(instance),
-                        "cannot move: the scene has only " + std::to_string(flags.size()));
-        flags[instance] = 1;
-    }
-    return flags;
-}
-
 Lumels lift_in_place(const Scene& scene, const Atlas& atlas, const std::vector<char>& movers,
                      Redistribution redistribution)
 {
-    Lumels lumels = make_lumels(scene, atlas);
-    if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
-    mark_buried_by_still(scene, movers, lumels);
+    Lumels lumels = make_lumels(scene, atlas, movers);
     if (redistribution == Redistribution::cross)
         for (Lumel& lumel : lumels.lumels)
             if (movers[lumel.instance])
@@ -129,22 +111,19 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
     : device_(&device),
       options_(options),
       scene_(std::move(scene)),
-      movers_(flags_of(scene_, options)),
+      edits_(scene_, options.movers, options.still),
       atlas_(make_atlas(scene_, options.atlas)),
-      lumels_(lift_in_place(scene_, atlas_, movers_, options.redistribution)),
-      rays_(scene_, movers_),
-      still_near_(near_field_of_still(scene_, lumels_, movers_, options)),
-      near_(near_field_of_moving(scene_, rays_, lumels_, movers_, options)),
-      world_(device, scene_, lumels_, &atlas_, movers_),
+      lumels_(lift_in_place(scene_, atlas_, edits_.movers(), options.redistribution)),
+      rays_(scene_, edits_.movers()),
+      still_near_(near_field_of_still(scene_, lumels_, edits_.movers(), options)),
+      near_(near_field_of_moving(scene_, rays_, lumels_, edits_.movers(), options)),
+      world_(device, scene_, lumels_, &atlas_, edits_.movers()),
       lamps_(scene_, options.lights),
       solver_(device, world_, lumels_,
               options.redistribution == Redistribution::cross ? still_near_ : near_.table(),
               options.solver),
       rows_(device, world_, solver_, options.solver.views.projection, options.visibility_bytes),
       remaining_(solver_, rows_),
-      requested_(scene_.instances.size()),
-      emission_factor_(scene_.instances.size(), glm::vec3(1.0f)),
-      reflectance_factor_(scene_.instances.size(), glm::vec3(1.0f)),
       direct_(device, lumels_.lumels.size()),
       shown_(device, lumels_.lumels.size()),
       texels_(device, std::size_t(atlas_.width) * std::size_t(atlas_.height)),
@@ -156,12 +135,11 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
         commands.fill(direct_.buffer());
     });
     if (options.redistribution == Redistribution::cross)
-        cross_.emplace(device, world_, lumels_, solver_, movers_, open_meshes(scene_),
+        cross_.emplace(device, world_, lumels_, solver_, edits_.movers(), open_meshes(scene_),
                        options.visibility_bytes);
     else
-        incremental_.emplace(device, world_, lumels_, solver_, rows_,
-                             options.solver.views.projection);
-    moving_share_ = share_of(movers_, lumels_);
+        incremental_.emplace(device, world_, lumels_, solver_, rows_);
+    moving_share_ = share_of(edits_.movers(), lumels_);
     if (!lamps_.empty()) {
         lamps_.find(device, world_, lumels_);
         upload_surfaces();
@@ -172,24 +150,7 @@ LiveScene::LiveScene(const gpu::Device& device, Scene scene, const LiveOptions& 
 
 void LiveScene::move(std::uint32_t instance, const glm::mat4& transform)
 {
-    const std::string name = "instance " + std::to_string(instance);
-    if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name, "is not movable");
-    if (!is_rigid(scene_.instances[instance].transform, transform))
-        throw Error(ErrorKind::input, name, "can be rotated and moved, but not stretched");
-    requested_[instance] = transform;
-}
-
-void LiveScene::set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
-                           const glm::vec3& factor)
-{
-    const std::string name = "instance " + std::to_string(instance);
-    if (instance >= factors.size())
-        throw Error(ErrorKind::input, name, "is not in the scene");
-    if (!glm::all(glm::greaterThanEqual(factor, glm::vec3(0.0f))))
-        throw Error(ErrorKind::input, name, "cannot emit or reflect a negative amount of light");
-    factors[instance] = factor;
-    light_changes();
+    edits_.move(scene_, instance, transform);
 }
 
 void LiveScene::light_changes()
@@ -222,12 +183,7 @@ void LiveScene::begin_lamps()
 
 void LiveScene::upload_surfaces()
 {
-    Lumels lumels = lumels_;
-    for (Lumel& lumel : lumels.lumels) {
-        lumel.emission *= emission_factor_[lumel.instance];
-        lumel.albedo =
-            glm::min(lumel.albedo * reflectance_factor_[lumel.instance], glm::vec3(1.0f));
-    }
+    Lumels lumels = edits_.scaled(lumels_);
     solver_.pacer().finish();
     // Reflected direct light joins the emission of surfaces: the solver handles no lamps.
     if (const std::vector<glm::vec3> direct = lamps_.irradiance(); !direct.empty()) {
@@ -242,17 +198,14 @@ void LiveScene::upload_surfaces()
 
 void LiveScene::set_emission(std::uint32_t instance, const glm::vec3& factor)
 {
-    set_factor(emission_factor_, instance, factor);
+    edits_.set_emission(instance, factor);
+    light_changes();
 }
 
 void LiveScene::set_reflectance(std::uint32_t instance, const glm::vec3& factor)
 {
-    set_factor(reflectance_factor_, instance, factor);
-}
-
-bool LiveScene::is_move_requested() const
-{
-    return std::any_of(requested_.begin(), requested_.end(), [](auto& move) { return bool(move); });
+    edits_.set_reflectance(instance, factor);
+    light_changes();
 }
 
 bool LiveScene::is_under_way() const
@@ -267,7 +220,7 @@ bool LiveScene::is_redistributing() const
 
 bool LiveScene::is_at_rest() const
 {
-    return !is_under_way() && !is_move_requested() && state_.residual <= options_.residual &&
+    return !is_under_way() && !edits_.is_move_requested() && state_.residual <= options_.residual &&
            (!cross_ || is_crossed());
 }
 
@@ -281,19 +234,18 @@ bool LiveScene::is_crossed() const
 void LiveScene::begin_move()
 {
     move_ = {};
-    for (std::uint32_t i = 0; i < requested_.size(); ++i) {
+    for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
         Instance& instance = scene_.instances[i];
-        const bool moves = requested_[i] && *requested_[i] != instance.transform;
-        move_.moved.push_back(moves ? 1 : 0);
-        if (moves) {
+        const std::optional<glm::mat4> moved = edits_.take_move(scene_, i);
+        move_.moved.push_back(moved ? 1 : 0);
+        if (moved) {
             const MovedBox before = box_of(scene_, i, instance.transform);
-            instance.transform = *requested_[i];
+            instance.transform = *moved;
             const MovedBox after = box_of(scene_, i, instance.transform);
             const std::vector<MovedBox> boxes = around(before, after);
             move_.boxes.insert(move_.boxes.end(), boxes.begin(), boxes.end());
         }
         move_.transforms.push_back(instance.transform);
-        requested_[i].reset();
     }
     world_.bound(scene_);
     if (!cross_) {
@@ -311,8 +263,8 @@ void LiveScene::begin_move()
         knows_crossing_pairs_ = true;
     }
     std::vector<MovedBox> boxes;
-    for (std::uint32_t i = 0; i < movers_.size(); ++i)
-        if (movers_[i])
+    for (std::uint32_t i = 0; i < edits_.movers().size(); ++i)
+        if (edits_.movers()[i])
             boxes.push_back(box_of(scene_, i, scene_.instances[i].transform));
     cross_->begin(boxes, !move_.boxes.empty(), options_.residual);
 }
@@ -365,7 +317,7 @@ void LiveScene::work()
     } else if (is_redistributing()) {
         if (cross_ ? !cross_->step() : !incremental_->step())
             end_move();
-    } else if (is_move_requested() ||
+    } else if (edits_.is_move_requested() ||
                (cross_ && !is_crossed() && state_.residual <= options_.residual)) {
         if (unseen_)
             show();  // also shows objects in constant motion
@@ -430,7 +382,7 @@ void LiveScene::show()
     unseen_ = false;
     gpu::Pacer& pacer = solver_.pacer();
     pacer.work("show", [&](gpu::Commands& commands) {
-        const ShowParams params{std::uint32_t(lumels_.lumels.size())};
+        const CountParams params{std::uint32_t(lumels_.lumels.size())};
         commands.dispatch(show_,
                           {.lumels = world_.lumels(),
                            .far = solver_.light().far,

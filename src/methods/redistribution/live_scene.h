@@ -16,6 +16,7 @@
 #include "methods/redistribution/remaining_light.h"
 #include "methods/redistribution/visibility_rows.h"
 #include "raster/shadow_maps/live_lamps.h"
+#include "solve/solver/instance_edits.h"
 #include "solve/solver/live_state.h"
 
 namespace lumel {
@@ -98,16 +99,13 @@ private:
     void light_changes();
     bool is_under_way() const;
     bool is_redistributing() const;
-    bool is_move_requested() const;
     bool is_at_rest() const;
     bool is_crossed() const;
-    void set_factor(std::vector<glm::vec3>& factors, std::uint32_t instance,
-                    const glm::vec3& factor);
 
     const gpu::Device* device_;
     LiveOptions options_;
     Scene scene_;
-    std::vector<char> movers_;  ///< [instances]
+    InstanceEdits edits_;
     Atlas atlas_;
     Lumels lumels_;
     RayScene rays_;
@@ -120,9 +118,7 @@ private:
     RemainingLight remaining_;
     std::optional<IncrementalRedistribution> incremental_;
     std::optional<CrossRedistribution> cross_;
-    std::vector<std::optional<glm::mat4>> requested_;  ///< [instances] transforms requested
-    std::vector<glm::vec3> emission_factor_, reflectance_factor_;  ///< [instances]
-    Move move_;                                                    ///< current one
+    Move move_;  ///< current one
     LiveState state_;
     int batches_ = 0;            ///< since the last readback of the residual
     bool corrects_ = false;      ///< the unshot light was left by a redistribution

@@ -97,35 +97,28 @@ ShotList VisibilityRows::list_of(std::vector<ChosenPatch> patches) const
     return {std::move(patches), std::move(chosen), gpu::Array<std::uint32_t>(*device_, view(rows))};
 }
 
-RowsParams VisibilityRows::params(std::uint32_t first, std::uint32_t last,
-                                  std::uint32_t place) const
+RowsBatch VisibilityRows::batch(std::uint32_t first, float sign) const
 {
     return {.views = solver_->shots().views().layout(),
-            .first = first,
-            .last = last,
             .count = count_,
             .shots = solver_->shots().batch(),
-            .first_place = place,
+            .first_place = first,
             .near_radius = solver_->near_radius(),
-            .sign_factor = 0.0f};
+            .sign_factor = sign};
 }
 
 void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("record visibility", count_, kProbeLumels,
-                          [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
-                              commands.dispatch(
-                                  record_,
-                                  {.lumels = world_->lumels(),
-                                   .pieces = world_->pieces(),
-                                   .views = {shots.views().image(), shots.views().sampler()},
-                                   .eyes = shots.eyes(),
-                                   .shots = shots.shots(),
-                                   .row_of = list.rows,
-                                   .seen = seen_},
-                                  params(from, to, first), to - from);
-                          });
+    solver_->pacer().dispatch_parts("record visibility", count_, kProbeLumels, record_,
+                                    {.lumels = world_->lumels(),
+                                     .pieces = world_->pieces(),
+                                     .views = {shots.views().image(), shots.views().sampler()},
+                                     .eyes = shots.eyes(),
+                                     .shots = shots.shots(),
+                                     .row_of = list.rows,
+                                     .seen = seen_},
+                                    {.batch = batch(first, 0.0f)});
     const std::size_t last = std::min<std::size_t>(first + shots.batch(), list.patches.size());
     for (std::size_t i = first; i < last; ++i)
         if (row_of(list.patches[i]) != kNoRow)
@@ -135,21 +128,16 @@ void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 void VisibilityRows::shoot(const ShotList& list, std::uint32_t first, float sign)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().work("shoot by visibility", count_, kProbeLumels,
-                          [&](gpu::Commands& commands, std::uint32_t from, std::uint32_t to) {
-                              RowsParams given = params(from, to, first);
-                              given.sign_factor = sign;
-                              commands.dispatch(shoot_,
-                                                {.lumels = world_->lumels(),
-                                                 .pieces = world_->pieces(),
-                                                 .eyes = shots.eyes(),
-                                                 .shots = shots.shots(),
-                                                 .sending = shots.sending(),
-                                                 .row_of = list.rows,
-                                                 .seen = seen_,
-                                                 .far = solver_->light().far},
-                                                given, to - from);
-                          });
+    solver_->pacer().dispatch_parts("shoot by visibility", count_, kProbeLumels, shoot_,
+                                    {.lumels = world_->lumels(),
+                                     .pieces = world_->pieces(),
+                                     .eyes = shots.eyes(),
+                                     .shots = shots.shots(),
+                                     .sending = shots.sending(),
+                                     .row_of = list.rows,
+                                     .seen = seen_,
+                                     .far = solver_->light().far},
+                                    {.batch = batch(first, sign)});
 }
 
 }  // namespace lumel

@@ -47,6 +47,8 @@ public:
     /// Requires that it is taken.
     void shoot(const ShotList& list, std::uint32_t first, float sign);
 
+    /// Parameters of kernels for that batch.
+    RowsBatch batch(std::uint32_t first, float sign) const;
     gpu::Array<std::uint32_t>& seen() { return seen_; }  ///< visibility_rows.glsl
 
 private:
@@ -56,7 +58,6 @@ private:
         std::vector<char> known;  ///< [patches]
     };
 
-    RowsParams params(std::uint32_t first, std::uint32_t last, std::uint32_t place) const;
     void make_room(std::uint32_t rows);
     std::uint32_t most_words() const;
 

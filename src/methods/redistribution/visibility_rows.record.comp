@@ -16,18 +16,18 @@ layout(push_constant, scalar) uniform Params { RowsParams p; };
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)
         return;
-    for (uint k = 0u; k < p.shots; ++k) {
-        const uint row = row_of[p.first_place + k];
+    for (uint k = 0u; k < p.batch.shots; ++k) {
+        const uint row = row_of[p.batch.first_place + k];
         if (row == kNoRow)
             continue;
         const Receiver r =
             receiver_at(receiving_point(lumel, i, shots[k].number, 0u, false), lumel, i);
-        keep_seen(row, i, p.count, is_seen(r, eyes[k], k, p.views));
+        keep_seen(row, i, p.batch.count, is_seen(r, eyes[k], k, p.batch.views));
     }
 }

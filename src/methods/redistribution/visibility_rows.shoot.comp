@@ -17,20 +17,20 @@ layout(scalar) buffer Far { vec3 far[]; };
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & (kLumelBuried | kLumelMoving)) != 0u)
         return;
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < p.shots; ++k) {
-        const uint row = row_of[p.first_place + k];
-        if (shots[k].count == 0u || row == kNoRow || !was_seen(row, i, p.count))
+    for (uint k = 0u; k < p.batch.shots; ++k) {
+        const uint row = row_of[p.batch.first_place + k];
+        if (shots[k].count == 0u || row == kNoRow || !was_seen(row, i, p.batch.count))
             continue;
         const Receiver r =
             receiver_at(receiving_point(lumel, i, shots[k].number, 0u, false), lumel, i);
-        sum += light_without_occluders(r, k, p.near_radius);
+        sum += light_without_occluders(r, k, p.batch.near_radius);
     }
-    far[i] += p.sign_factor * sum;
+    far[i] += p.batch.sign_factor * sum;
 }

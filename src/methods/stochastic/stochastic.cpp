@@ -130,46 +130,37 @@ void StochasticRadiosity::select(std::uint32_t emission_shots)
                               .merge = paper_ ? options_.merge : 0u,
                               .width = atlas_width_,
                               .channels = world_->has_coloured_glass() ? 1u : 0u};
-    pacer_.work("select", [&](gpu::Commands& commands) {
-        commands.dispatch(select_,
-                          {.lumels = world_->lumels(),
-                           .pieces = world_->pieces(),
-                           .emission = iteration_.emission(),
-                           .source = iteration_.source(),
-                           .emission_power = emission_power_pyramid_.array(),
-                           .source_power = source_power_pyramid_.array(),
-                           .eyes = eyes_,
-                           .shots = shots_},
-                          params, batch_);
-    });
+    pacer_.dispatch("select", select_,
+                    {.lumels = world_->lumels(),
+                     .pieces = world_->pieces(),
+                     .emission = iteration_.emission(),
+                     .source = iteration_.source(),
+                     .emission_power = emission_power_pyramid_.array(),
+                     .source_power = source_power_pyramid_.array(),
+                     .eyes = eyes_,
+                     .shots = shots_},
+                    params, batch_);
 }
 
 void StochasticRadiosity::receive(std::uint32_t emission_shots)
 {
-    pacer_.work("receive", iteration_.lumels(), kProbeLumels,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    const ReceiveParams params{
-                        .views = views_.layout(),
-                        .first = first,
-                        .last = last,
-                        .count = iteration_.lumels(),
-                        .shots = batch_,
-                        .emission_shots = emission_shots,
-                        .half_index = iteration_.half(),
-                        .iteration = std::uint32_t(iteration_.state().iterations),
-                        .seed = options_.seed,
-                        .centre = options_.rule == SampleRule::centre ? 1u : 0u,
-                        .near_radius = near_radius_};
-                    commands.dispatch(receive_,
-                                      {.lumels = world_->lumels(),
-                                       .pieces = world_->pieces(),
-                                       .views = {views_.image(), views_.sampler()},
-                                       .eyes = eyes_,
-                                       .shots = shots_,
-                                       .direct = iteration_.direct(),
-                                       .indirect = iteration_.indirect()},
-                                      params, last - first);
-                });
+    pacer_.dispatch_parts("receive", iteration_.lumels(), kProbeLumels, receive_,
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .views = {views_.image(), views_.sampler()},
+                           .eyes = eyes_,
+                           .shots = shots_,
+                           .direct = iteration_.direct(),
+                           .indirect = iteration_.indirect()},
+                          {.views = views_.layout(),
+                           .count = iteration_.lumels(),
+                           .shots = batch_,
+                           .emission_shots = emission_shots,
+                           .half_index = iteration_.half(),
+                           .iteration = std::uint32_t(iteration_.state().iterations),
+                           .seed = options_.seed,
+                           .centre = options_.rule == SampleRule::centre ? 1u : 0u,
+                           .near_radius = near_radius_});
 }
 
 }  // namespace lumel

@@ -16,7 +16,7 @@
 // Pairs of the near field are left out, and with them the disc term A_j/π: the near field holds
 // them exactly. The point x moves over the lumel from batch to batch.
 
-layout(local_size_x = kReceiveGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { ReceiveParams p; };
 layout(scalar) buffer Direct { vec3 direct[]; };  // [2][N] sums
 layout(scalar) buffer Indirect { vec3 indirect[]; };  // [2][N] sums
@@ -31,8 +31,8 @@ vec3 receive(Receiver r, uint k)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

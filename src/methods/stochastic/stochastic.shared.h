@@ -3,13 +3,10 @@
 #include "solve/shooting/shooters.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kReceiveGroup = 64u;
-
 /// Push constants of stochastic.receive.comp.
 struct ReceiveParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
+    DispatchRange range;  ///< lumels of this dispatch
     uint count;           ///< N
     uint shots;           ///< K
     uint emission_shots;  ///< the first of these are from E

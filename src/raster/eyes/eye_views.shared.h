@@ -1,5 +1,6 @@
 #ifndef LUMEL_RASTER_EYES_EYE_VIEWS_SHARED_H
 #define LUMEL_RASTER_EYES_EYE_VIEWS_SHARED_H
+#include "base/core/dispatch.shared.h"
 #include "raster/world/passage.shared.h"
 LUMEL_SHARED_BEGIN
 

@@ -5,7 +5,7 @@
 // Counts the pieces and patches of each block of triangles: running counts per triangle, and
 // totals.
 
-layout(local_size_x = kCutGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };
 layout(scalar) readonly buffer Cuts { uint cuts[]; };
 layout(scalar) writeonly buffer Counts { CutCount counts[]; };           // [eye][slot]

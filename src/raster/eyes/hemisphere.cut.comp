@@ -6,7 +6,7 @@
 // Chooses the subdivision of a triangle's edges for an eye, and whether it is drawn as a strip. An
 // edge's level depends on the edge alone, so that neighbours share vertices.
 
-layout(local_size_x = kCutGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Vertices { vec3 vertices[]; };

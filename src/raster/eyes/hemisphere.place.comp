@@ -3,7 +3,7 @@
 
 // Computes prefix sums of the block counts, and the arguments of the indirect draws.
 
-layout(local_size_x = kCutGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { CutParams p; };
 layout(scalar) buffer BlockCounts { CutCount block_counts[]; };
 layout(scalar) writeonly buffer Draws { DrawnVertices draws[]; };

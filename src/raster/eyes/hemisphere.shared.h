@@ -1,9 +1,8 @@
 #ifndef LUMEL_RASTER_EYES_HEMISPHERE_SHARED_H
 #define LUMEL_RASTER_EYES_HEMISPHERE_SHARED_H
-#include "base/core/shared.h"
+#include "base/core/dispatch.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kCutGroup = 64u;   ///< threads per workgroup of hemisphere.*.comp
 LUMEL_CONST uint kCutBlock = 256u;  ///< triangles per thread of hemisphere.count.comp
 
 /// Numbers of strip pieces and of patches in the triangles before.

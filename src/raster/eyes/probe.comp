@@ -4,7 +4,7 @@
 
 // Visibility of a list of points from one eye.
 
-layout(local_size_x = kProbeGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { ProbeParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Questions { Question questions[]; };

@@ -3,8 +3,6 @@
 #include "raster/eyes/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kProbeGroup = 64u;
-
 /// A surface point to test, world space.
 struct Question {
     vec3 position;  ///< [m]

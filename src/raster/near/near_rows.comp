@@ -1,10 +1,10 @@
 #version 460
-#include "raster/near/near_rows.shared.h"
+#include "base/core/dispatch.shared.h"
 
 // The near field's light:  H_i = Σ_j F_ij X_j  over the sparse row of lumel i.
 
-layout(local_size_x = kNearGroup) in;
-layout(push_constant, scalar) uniform Params { NearParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer First { uint first[]; };
 layout(scalar) readonly buffer Column { uint column[]; };
 layout(scalar) readonly buffer Factor { float factor[]; };

@@ -1,6 +1,6 @@
 #include "raster/near/near_rows.h"
 
-#include "raster/near/near_rows.shared.h"
+#include "base/core/dispatch.shared.h"
 
 namespace lumel {
 namespace {
@@ -42,7 +42,7 @@ void NearRows::light(gpu::Commands& commands, const gpu::Array<glm::vec3>& sourc
     commands.dispatch(
         kernel_,
         {.first = first_, .column = column_, .factor = factor_, .source = source, .near = result},
-        NearParams{count_}, count_);
+        CountParams{count_}, count_);
 }
 
 }  // namespace lumel

@@ -136,26 +136,20 @@ struct LampLight::Stage {
     {
         const gpu::Array<Eye>& eyes = in_flight.emplace_back(*device, batch, "lamps.eyes");
         views.look_from(pacer, eyes, std::uint32_t(batch.size()));
-        pacer.work("lamps", light.lumels(), kProbeLumels,
-                   [&](gpu::Commands& commands, std::uint32_t begin, std::uint32_t end) {
-                       const LampReceiveParams params{.views = views.layout(),
-                                                      .first = begin,
-                                                      .last = end,
-                                                      .lamp = lamp,
-                                                      .first_eye = first,
-                                                      .eyes = std::uint32_t(batch.size()),
-                                                      .seed = options.seed,
-                                                      .centre = options.centre ? 1u : 0u};
-                       commands.dispatch(receive,
-                                         {.lumels = world->lumels(),
-                                          .pieces = world->pieces(),
-                                          .views = {views.image(), views.sampler()},
-                                          .eyes = eyes,
-                                          .lamps = lamps,
-                                          .candela = profiles,
-                                          .sums = light.sums()},
-                                         params, end - begin);
-                   });
+        pacer.dispatch_parts("lamps", light.lumels(), kProbeLumels, receive,
+                             {.lumels = world->lumels(),
+                              .pieces = world->pieces(),
+                              .views = {views.image(), views.sampler()},
+                              .eyes = eyes,
+                              .lamps = lamps,
+                              .candela = profiles,
+                              .sums = light.sums()},
+                             {.views = views.layout(),
+                              .lamp = lamp,
+                              .first_eye = first,
+                              .eyes = std::uint32_t(batch.size()),
+                              .seed = options.seed,
+                              .centre = options.centre ? 1u : 0u});
     }
 
     const gpu::Device* device;

@@ -21,7 +21,7 @@
 // is sampled at more points than V. With coloured glass V depends on the channel, and each eye has
 // one.
 
-layout(local_size_x = kLampGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { LampReceiveParams p; };
 layout(scalar) readonly buffer Eyes { Eye eyes[]; };
 layout(scalar) readonly buffer Lamps { Lamp lamps[]; };
@@ -113,8 +113,8 @@ bool ask_view(Eye eye, uint k, LumelPoint point, out RayMet ray, out bool seen)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

@@ -4,8 +4,6 @@
 #include "raster/shadow_maps/light_sums.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kLampGroup = 64u;  ///< threads per workgroup of lamps.receive.comp
-
 LUMEL_CONST uint kNoProfile = 0xffffffffu;
 
 /// A point or spot light.
@@ -27,8 +25,7 @@ LUMEL_CONST uint kOpenPoints = 4u;  ///< points of a lumel for unoccluded light
 /// Push constants of lamps.receive.comp.
 struct LampReceiveParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
+    DispatchRange range;  ///< lumels of this dispatch
     uint lamp;
     uint first_eye;  ///< index of the batch's first eye
     uint eyes;       ///< K

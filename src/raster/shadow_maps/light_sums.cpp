@@ -18,10 +18,8 @@ SummedLight::SummedLight(const gpu::Device& device, std::size_t lumels)
 
 void SummedLight::finish_source(gpu::Pacer& pacer)
 {
-    pacer.work("sum of a source", [&](gpu::Commands& commands) {
-        commands.dispatch(finish_, {.sums = sums_, .irradiance = irradiance_},
-                          FinishLightParams{lumels()}, lumels());
-    });
+    pacer.dispatch("sum of a source", finish_, {.sums = sums_, .irradiance = irradiance_},
+                   CountParams{lumels()}, lumels());
 }
 
 void SummedLight::finish(gpu::Pacer& pacer)

@@ -3,8 +3,8 @@
 
 // Adds the light of one source, H = U N / D, to the lumels, and clears its sums.
 
-layout(local_size_x = kLightSumsGroup) in;
-layout(push_constant, scalar) uniform Params { FinishLightParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) buffer Sums { LightSums sums[]; };
 layout(scalar) buffer Irradiance { vec3 irradiance[]; };
 

@@ -143,25 +143,19 @@ void ParallelLight::step(std::uint64_t pixels)
     const std::uint32_t begin = next_;
     const std::uint32_t count = std::min({fit, images_.capacity(), total_ - begin});
     images_.look_along(pacer_, views_, begin, count);
-    pacer_.work("parallel light", light_->lumels(), kProbeLumels,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                    const ParallelReceiveParams params{.tiling = images_.layout(),
-                                                       .first = first,
-                                                       .last = last,
-                                                       .first_view = begin,
-                                                       .views = count,
-                                                       .views_per_source = views_per_source_,
-                                                       .seed = options_.seed,
-                                                       .centre = options_.centre ? 1u : 0u};
-                    commands.dispatch(receive_,
-                                      {.lumels = world_->lumels(),
-                                       .pieces = world_->pieces(),
-                                       .views = views_,
-                                       .sources = sources_,
-                                       .parallel_image = {images_.image(), images_.sampler()},
-                                       .sums = light_->sums()},
-                                      params, last - first);
-                });
+    pacer_.dispatch_parts("parallel light", light_->lumels(), kProbeLumels, receive_,
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .views = views_,
+                           .sources = sources_,
+                           .parallel_image = {images_.image(), images_.sampler()},
+                           .sums = light_->sums()},
+                          {.tiling = images_.layout(),
+                           .first_view = begin,
+                           .views = count,
+                           .views_per_source = views_per_source_,
+                           .seed = options_.seed,
+                           .centre = options_.centre ? 1u : 0u});
     next_ += count;
     if (is_done())
         finish();

@@ -17,7 +17,7 @@
 // With coloured glass V depends on the channel, and each view has one. V is summed as described in
 // light_sums.shared.h; P is the mean number of rays that hit a lumel, because all of them count.
 
-layout(local_size_x = kParallelGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { ParallelReceiveParams p; };
 layout(scalar) readonly buffer Views { ParallelView views[]; };
 layout(scalar) readonly buffer Sources { ParallelSource sources[]; };
@@ -88,8 +88,8 @@ Piece piece_asked(Lumel lumel, uint i, uint n, uint draw, out float share)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

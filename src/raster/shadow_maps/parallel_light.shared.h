@@ -4,8 +4,6 @@
 #include "raster/shadow_maps/light_sums.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kParallelGroup = 64u;  ///< threads per workgroup of parallel_light.receive.comp
-
 /// Light from infinity along one direction.
 struct ParallelSource {
     vec3 toward;       ///< unit, from the scene to the light
@@ -15,9 +13,8 @@ struct ParallelSource {
 /// Push constants of parallel_light.receive.comp.
 struct ParallelReceiveParams {
     ParallelLayout tiling;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint first_view;  ///< views [first_view, first_view + views) in tiles 0, 1, …
+    DispatchRange range;  ///< lumels of this dispatch
+    uint first_view;      ///< views [first_view, first_view + views) in tiles 0, 1, …
     uint views;
     uint views_per_source;  ///< consecutive views of a source
     uint seed;

@@ -133,13 +133,13 @@ void World::place(std::span<const glm::mat4> transforms)
                        .local_pieces = local_pieces_,
                        .lumels = lumels_,
                        .pieces = pieces_},
-                      PlaceParams{std::uint32_t(lumels_.size())}, lumels_.size());
+                      CountParams{std::uint32_t(lumels_.size())}, lumels_.size());
     commands.dispatch(place_vertices_,
                       {.placements = placement_array_,
                        .local_vertices = local_vertices_,
                        .instances = vertex_instances_,
                        .vertices = vertices_},
-                      PlaceParams{std::uint32_t(vertices_.size())}, vertices_.size());
+                      CountParams{std::uint32_t(vertices_.size())}, vertices_.size());
     commands.run();
 }
 

@@ -5,8 +5,8 @@
 // its inverse transpose. A mirroring transform also swaps the edges of a piece, so that
 // cross(edge_u, edge_v) still points to the lumel's side.
 
-layout(local_size_x = kPlaceGroup) in;
-layout(push_constant, scalar) uniform Params { PlaceParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Placements { Placement placements[]; };
 layout(scalar) readonly buffer LocalLumels { Lumel local_lumels[]; };
 layout(scalar) readonly buffer LocalPieces { Piece local_pieces[]; };

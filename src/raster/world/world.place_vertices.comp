@@ -3,8 +3,8 @@
 
 // Transforms the occluders' vertices to the world.
 
-layout(local_size_x = kPlaceGroup) in;
-layout(push_constant, scalar) uniform Params { PlaceParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Placements { Placement placements[]; };
 layout(scalar) readonly buffer LocalVertices { vec3 local_vertices[]; };
 layout(scalar) readonly buffer Instances { uint instances[]; };

@@ -7,7 +7,7 @@
 //
 //   [WBW13] S. Woop, C. Benthin, I. Wald. Watertight Ray/Triangle Intersection. 2013.
 
-layout(local_size_x = kBundleGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { BundleCastParams p; };
 layout(scalar) readonly buffer Views { BundleView views[]; };
 layout(scalar) readonly buffer Positions { vec3 positions[]; };

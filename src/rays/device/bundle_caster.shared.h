@@ -1,9 +1,8 @@
 #ifndef LUMEL_RAYS_DEVICE_BUNDLE_CASTER_SHARED_H
 #define LUMEL_RAYS_DEVICE_BUNDLE_CASTER_SHARED_H
-#include "base/core/shared.h"
+#include "base/core/dispatch.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kBundleGroup = 64u;
 LUMEL_CONST uint kNoneListed = 0xffffffffu;  ///< end of a list, or no triangle
 
 /// A parallel view of the scene, a square of pixels: x projects to ((right, up)·x - low) · scale.

@@ -5,7 +5,7 @@
 // Traces rays against the triangles of a scene. Geometry 0 is solid, geometry 1 may transmit light;
 // the caller decides which rays it transmits.
 
-layout(local_size_x = kCastGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { CastParams p; };
 uniform accelerationStructureEXT triangles;
 layout(scalar) readonly buffer Rays { CastRay rays[]; };

@@ -1,9 +1,7 @@
 #ifndef LUMEL_RAYS_DEVICE_QUERY_CASTER_SHARED_H
 #define LUMEL_RAYS_DEVICE_QUERY_CASTER_SHARED_H
-#include "base/core/shared.h"
+#include "base/core/dispatch.shared.h"
 LUMEL_SHARED_BEGIN
-
-LUMEL_CONST uint kCastGroup = 64u;
 
 // Query modes.
 LUMEL_CONST uint kNearestOfAll = 0u;

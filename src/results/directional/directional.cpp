@@ -94,23 +94,18 @@ public:
     /// Ends the gathering: coefficients [4 or 9][N]. Waits for the device.
     std::vector<std::vector<glm::vec3>> finish()
     {
-        pacer_.work("directional near", count_, kProbeLumels,
-                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                        commands.dispatch(
-                            near_,
-                            {.lumels = world_->lumels(),
-                             .pieces = world_->pieces(),
-                             .fit = fit_,
-                             .band0 = bands_[0],
-                             .band1 = bands_[1],
-                             .band2 = bands_[2],
-                             .first = near_rows_.first(),
-                             .column = near_rows_.column(),
-                             .factor = near_rows_.factor(),
-                             .source = source_},
-                            DirectionalNearParams{first, last, count_, order_, float(sent_)},
-                            last - first);
-                    });
+        pacer_.dispatch_parts("directional near", count_, kProbeLumels, near_,
+                              {.lumels = world_->lumels(),
+                               .pieces = world_->pieces(),
+                               .fit = fit_,
+                               .band0 = bands_[0],
+                               .band1 = bands_[1],
+                               .band2 = bands_[2],
+                               .first = near_rows_.first(),
+                               .column = near_rows_.column(),
+                               .factor = near_rows_.factor(),
+                               .source = source_},
+                              {{}, count_, order_, float(sent_)});
         pacer_.finish();
         std::vector<std::vector<glm::vec3>> coefficients;
         for (std::uint32_t l = 0; l <= order_; ++l) {
@@ -134,18 +129,16 @@ private:
                                   .disc = near_radius_ > 0.0f ? 0u : 1u,
                                   .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                   .channels = world_->has_coloured_glass() ? 1u : 0u};
-        pacer_.work("select", [&](gpu::Commands& commands) {
-            commands.dispatch(select_,
-                              {.lumels = world_->lumels(),
-                               .pieces = world_->pieces(),
-                               .emission = source_,
-                               .source = source_,
-                               .emission_power = pyramid_.array(),
-                               .source_power = pyramid_.array(),
-                               .eyes = eyes_,
-                               .shots = shots_},
-                              params, batch_);
-        });
+        pacer_.dispatch("select", select_,
+                        {.lumels = world_->lumels(),
+                         .pieces = world_->pieces(),
+                         .emission = source_,
+                         .source = source_,
+                         .emission_power = pyramid_.array(),
+                         .source_power = pyramid_.array(),
+                         .eyes = eyes_,
+                         .shots = shots_},
+                        params, batch_);
     }
 
     void receive()
@@ -158,22 +151,17 @@ private:
                                         .centre = options_.rule == SampleRule::centre ? 1u : 0u,
                                         .order = order_,
                                         .near_radius = near_radius_};
-        pacer_.work("directional receive", count_, kProbeLumels,
-                    [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t last) {
-                        params.first = first;
-                        params.last = last;
-                        commands.dispatch(receive_,
-                                          {.lumels = world_->lumels(),
-                                           .pieces = world_->pieces(),
-                                           .views = {views_.image(), views_.sampler()},
-                                           .eyes = eyes_,
-                                           .shots = shots_,
-                                           .fit = fit_,
-                                           .band0 = bands_[0],
-                                           .band1 = bands_[1],
-                                           .band2 = bands_[2]},
-                                          params, last - first);
-                    });
+        pacer_.dispatch_parts("directional receive", count_, kProbeLumels, receive_,
+                              {.lumels = world_->lumels(),
+                               .pieces = world_->pieces(),
+                               .views = {views_.image(), views_.sampler()},
+                               .eyes = eyes_,
+                               .shots = shots_,
+                               .fit = fit_,
+                               .band0 = bands_[0],
+                               .band1 = bands_[1],
+                               .band2 = bands_[2]},
+                              params);
     }
 
     DirectionalOptions options_;

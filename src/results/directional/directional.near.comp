@@ -16,7 +16,7 @@
 // Few points, as Mesa's software Vulkan ends all loops of an invocation after 65,535 rounds in
 // total.
 
-layout(local_size_x = kDirectionalGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalNearParams p; };
 layout(scalar) readonly buffer First { uint first[]; };
 layout(scalar) readonly buffer Column { uint column[]; };
@@ -101,8 +101,8 @@ void add_between_centres(Lumel receiver, Lumel sender, vec3 light)
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     load_sums(i, p.count, p.order);

@@ -13,13 +13,13 @@
 // X_j A_j / (π p_j) · V · cosθ_i cosθ_j / (r² + A_j/π), so dH / cosθ_i is the radiance times the
 // solid angle from its direction.
 
-layout(local_size_x = kDirectionalGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { DirectionalReceiveParams p; };
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

@@ -4,8 +4,6 @@
 #include "raster/eyes/eye_views.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kDirectionalGroup = 64u;
-
 LUMEL_CONST uint kElevations = 129u;  ///< rows of the fit's table, z = -1…1
 
 /// Coefficients of a lumel of normal n for radiance × solid angle 1 from ω, with z = n·ω and t = ω
@@ -23,10 +21,9 @@ struct FitRow {
 /// Push constants of directional.receive.comp.
 struct DirectionalReceiveParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint count;  ///< N
-    uint shots;  ///< K
+    DispatchRange range;  ///< lumels of this dispatch
+    uint count;           ///< N
+    uint shots;           ///< K
     uint iteration;
     uint seed;
     uint centre;        ///< 1: receive at the centroid
@@ -36,8 +33,7 @@ struct DirectionalReceiveParams {
 
 /// Push constants of directional.near.comp.
 struct DirectionalNearParams {
-    uint first;
-    uint last;
+    DispatchRange range;  ///< lumels of this dispatch
     uint count;
     uint order;
     float shots;  ///< number of shots in the bands' sums

@@ -1,6 +1,6 @@
 #ifndef LUMEL_RESULTS_PREVIEW_PREVIEW_SHARED_H
 #define LUMEL_RESULTS_PREVIEW_PREVIEW_SHARED_H
-#include "base/core/shared.h"
+#include "base/core/dispatch.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kBackIsBlack = 0u;    ///< back faces show no light
@@ -9,7 +9,6 @@ LUMEL_CONST uint kBackIsAnother = 2u;  ///< a separate face shows it
 
 /// A pixel of the image is the mean of kSupersample × kSupersample samples.
 LUMEL_CONST uint kSupersample = 2u;
-LUMEL_CONST uint kShrinkGroup = 64u;
 
 LUMEL_CONST uint kShowsLight = 0u;  ///< light from surfaces, L = ρ H / π + L_e
 LUMEL_CONST uint kShowsMap = 1u;    ///< the map as it is

@@ -3,7 +3,7 @@
 
 // Averages the samples of each pixel of the image.
 
-layout(local_size_x = kShrinkGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { ShrinkParams p; };
 uniform sampler2D picture;
 layout(scalar) writeonly buffer Pixels { vec4 pixels[]; };

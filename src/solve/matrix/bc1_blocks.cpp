@@ -83,8 +83,9 @@ ColorBlock decode_bc1(const BlockWords& words)
     const std::uint32_t first = words[0] & 0xffffu, second = words[0] >> 16;
     ColorBlock texels;
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::array<int, 4> palette = palette_of(
-            expand(unpack(first)[c], kBits[c]), expand(unpack(second)[c], kBits[c]), first <= second);
+        const std::array<int, 4> palette =
+            palette_of(expand(unpack(first)[c], kBits[c]), expand(unpack(second)[c], kBits[c]),
+                       first <= second);
         for (std::size_t i = 0; i < kBlockTexels; ++i)
             texels[i][c] = float(palette[words[1] >> (2 * i) & 3u]) / kSixths;
     }
@@ -114,9 +115,8 @@ float Bc1Encoder::error_of(const ColorBlock& entries, const Ends& ends,
 {
     std::array<std::array<float, 3>, 4> palette{};
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::array<int, 4> codes =
-            palette_of(expand(ends.color[0][c], kBits[c]), expand(ends.color[1][c], kBits[c]),
-                       ends.black);
+        const std::array<int, 4> codes = palette_of(expand(ends.color[0][c], kBits[c]),
+                                                    expand(ends.color[1][c], kBits[c]), ends.black);
         for (std::size_t index = 0; index < palette.size(); ++index)
             palette[index][c] = scale_[c] * entry_[std::size_t(codes[index])];
     }

@@ -62,8 +62,8 @@ LogImage image_of(const ColorMatrix& rest, LogDecoding& decoding)
         parallel_for(n, kRowsPerTask, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i)
                 for (std::size_t j = 0; j < n; ++j)
-                    image.channel[c][i * side + j] = log_code(
-                        rest.channel[c].values[i * n + j], decoding.largest[c], decoding.offset);
+                    image.channel[c][i * side + j] = log_code(rest.channel[c].values[i * n + j],
+                                                              decoding.largest[c], decoding.offset);
         });
     }
     return image;
@@ -143,9 +143,8 @@ void mend(LogDecoding& decoding, const LogImage& stored)
     const ColorMatrix rest = rest_of(stored, decoding);
     for (int c = 0; c < 3; ++c)
         for (std::size_t entry = 0; entry < decoding.exact.value[c].size(); ++entry)
-            decoding.exact.value[c][entry] -=
-                rest.channel[c].at(std::uint32_t(entry / decoding.exact.per_row),
-                                   decoding.exact.column[c][entry]);
+            decoding.exact.value[c][entry] -= rest.channel[c].at(
+                std::uint32_t(entry / decoding.exact.per_row), decoding.exact.column[c][entry]);
 }
 
 ColorMatrix from_logarithms(const LogImage& stored, const LogDecoding& decoding)

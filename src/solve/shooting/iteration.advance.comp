@@ -5,7 +5,7 @@
 // The next source from the averaged solution ([BJ04] Eq. (2): T* acts on the running average). At
 // the end of a phase, adds this phase's far light (for unit power) to that of earlier phases.
 
-layout(local_size_x = kIterationGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { AdvanceParams p; };
 layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
 layout(scalar) readonly buffer Emission { vec3 emission[]; };

@@ -224,10 +224,8 @@ void Iteration::begin_batch(gpu::Pacer& pacer)
 {
     take_figures(pacer);
     if (leaks())
-        pacer.work("fade", [&](gpu::Commands& commands) {
-            commands.dispatch(fade_, {.direct = direct_, .indirect = indirect_},
-                              FadeParams{2 * count_, float(kept_)}, 2 * count_);
-        });
+        pacer.dispatch("fade", fade_, {.direct = direct_, .indirect = indirect_},
+                       FadeParams{2 * count_, float(kept_)}, 2 * count_);
 }
 
 void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
@@ -278,7 +276,7 @@ std::vector<glm::vec3> Iteration::irradiance(gpu::Pacer& pacer)
                                .near_source = near,
                                .irradiance = irradiance_,
                                .source = scratch_source_},
-                              PolishParams{count_}, count_);
+                              CountParams{count_}, count_);
         };
         sweep(near_source_);
         for (int i = 0; i < kPolishSweeps; ++i) {

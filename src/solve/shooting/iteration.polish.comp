@@ -4,8 +4,8 @@
 // One near-field sweep over the finished far light:  X ← ρH (then near_rows.comp), H ← far + near.
 // The running averages stay.
 
-layout(local_size_x = kIterationGroup) in;
-layout(push_constant, scalar) uniform Params { PolishParams p; };
+layout(local_size_x = kGroup) in;
+layout(push_constant, scalar) uniform Params { CountParams p; };
 layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A
 layout(scalar) readonly buffer Far { vec3 far[]; };
 layout(scalar) readonly buffer NearEmission { vec3 near_emission[]; };

@@ -1,14 +1,8 @@
 #ifndef LUMEL_SOLVE_SHOOTING_ITERATION_SHARED_H
 #define LUMEL_SOLVE_SHOOTING_ITERATION_SHARED_H
+#include "base/core/dispatch.shared.h"
 #include "solve/shooting/lumel_sums.shared.h"
 LUMEL_SHARED_BEGIN
-
-LUMEL_CONST uint kIterationGroup = 64u;
-
-/// Push constants of iteration.polish.comp.
-struct PolishParams {
-    uint count;  ///< N
-};
 
 /// Push constants of iteration.fade.comp.
 struct FadeParams {

@@ -10,7 +10,7 @@
 // defensive term, of fraction a, keeps p_j > 0 where the first is far too small for the light that
 // the lumel sends to its neighbours (a dark room beside a bright one).
 
-layout(local_size_x = kPyramidGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidLeafParams p; };
 layout(scalar) readonly buffer Source { vec3 source[]; };  // X
 layout(scalar) readonly buffer Surface { vec4 surface[]; };  // ρ, A

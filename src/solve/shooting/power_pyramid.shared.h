@@ -1,11 +1,10 @@
 #ifndef LUMEL_SOLVE_SHOOTING_POWER_PYRAMID_SHARED_H
 #define LUMEL_SOLVE_SHOOTING_POWER_PYRAMID_SHARED_H
-#include "base/core/shared.h"
+#include "base/core/dispatch.shared.h"
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kPyramidFanout = 32u;  ///< children summed into one parent
 LUMEL_CONST uint kPyramidLevels = 7u;   ///< for 32⁶ leaves, more than 32 bits can count
-LUMEL_CONST uint kPyramidGroup = 64u;
 
 /// First element of each level in the pyramid's array. Level 0 has the leaves, one per lumel; the
 /// last level used has the root.

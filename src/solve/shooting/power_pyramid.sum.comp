@@ -3,7 +3,7 @@
 
 // One level of the pyramid: each parent sums its children.
 
-layout(local_size_x = kPyramidGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { PyramidSumParams p; };
 layout(scalar) buffer Pyramid { float pyramid[]; };
 

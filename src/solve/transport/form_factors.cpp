@@ -221,26 +221,20 @@ void FormFactors::shoot(std::uint32_t last)
             BlockParams{next_, shots}, shots);
     });
     views_.look_from(pacer_, eyes_, shots);
-    pacer_.work("receive", count_, kProbeLumels,
-                [&](gpu::Commands& commands, std::uint32_t first, std::uint32_t end) {
-                    commands.dispatch(receive_,
-                                      {.lumels = world_->lumels(),
-                                       .pieces = world_->pieces(),
-                                       .views = {views_.image(), views_.sampler()},
-                                       .eyes = eyes_,
-                                       .shots = shots_,
-                                       .sending = sending_,
-                                       .columns = columns_,
-                                       .received = received_},
-                                      FormFactorParams{.views = views_.layout(),
-                                                       .first = first,
-                                                       .last = end,
-                                                       .lumels = count_,
-                                                       .shots = shots,
-                                                       .first_block = next_,
-                                                       .near_radius = near_radius_},
-                                      end - first);
-                });
+    pacer_.dispatch_parts("receive", count_, kProbeLumels, receive_,
+                          {.lumels = world_->lumels(),
+                           .pieces = world_->pieces(),
+                           .views = {views_.image(), views_.sampler()},
+                           .eyes = eyes_,
+                           .shots = shots_,
+                           .sending = sending_,
+                           .columns = columns_,
+                           .received = received_},
+                          {.views = views_.layout(),
+                           .lumels = count_,
+                           .shots = shots,
+                           .first_block = next_,
+                           .near_radius = near_radius_});
     pacer_.finish();
 }
 

@@ -10,7 +10,7 @@
 
 // Eyes of a batch of blocks, and their shots at a radiosity of 1.
 
-layout(local_size_x = kFormFactorGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { BlockParams p; };
 layout(scalar) readonly buffer Blocks { Patch blocks[]; };
 layout(scalar) writeonly buffer Eyes { Eye eyes[]; };

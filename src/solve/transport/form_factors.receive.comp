@@ -15,15 +15,15 @@
 // where V is that of a different point of the lumel for each block, but the distance is that of its
 // centre, so that two lumels agree about each other.
 
-layout(local_size_x = kFormFactorGroup) in;
+layout(local_size_x = kGroup) in;
 layout(push_constant, scalar) uniform Params { FormFactorParams p; };
 layout(scalar) readonly buffer Columns { uint columns[]; };
 layout(scalar) buffer Received { float received[]; };
 
 void main()
 {
-    const uint i = p.first + gl_GlobalInvocationID.x;
-    if (i >= p.last)
+    const uint i = p.range.first + gl_GlobalInvocationID.x;
+    if (i >= p.range.last)
         return;
     const Lumel lumel = lumels[i];
     if ((lumel.flags & kLumelBuried) != 0u)

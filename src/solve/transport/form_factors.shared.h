@@ -3,8 +3,6 @@
 #include "solve/transport/patch_shots.shared.h"
 LUMEL_SHARED_BEGIN
 
-LUMEL_CONST uint kFormFactorGroup = 64u;
-
 /// Push constants of form_factors.look.comp.
 struct BlockParams {
     uint first;  ///< first block
@@ -14,12 +12,11 @@ struct BlockParams {
 /// Push constants of form_factors.receive.comp.
 struct FormFactorParams {
     EyeViewLayout views;
-    uint first;  ///< lumels [first, last) of this dispatch
-    uint last;
-    uint lumels;        ///< N
-    uint shots;         ///< K
-    uint first_block;   ///< the shots are those of blocks [first_block, first_block + K)
-    float near_radius;  ///< pairs closer than this × the larger size are in the near field
+    DispatchRange range;  ///< lumels of this dispatch
+    uint lumels;          ///< N
+    uint shots;           ///< K
+    uint first_block;     ///< the shots are those of blocks [first_block, first_block + K)
+    float near_radius;    ///< pairs closer than this × the larger size are in the near field
 };
 
 LUMEL_SHARED_END

@@ -50,6 +50,14 @@ void add(World& world, const Patch& patch, const glm::mat4& transform = glm::mat
     world.atlas.surfaces.push_back(surface);
 }
 
+World world_of(const std::vector<Patch>& patches)
+{
+    World world;
+    for (const Patch& patch : patches)
+        add(world, patch);
+    return world;
+}
+
 // Length of [from, to] inside the texel that starts at `texel`.
 float overlap(float from, float to, int texel)
 {
@@ -129,9 +137,7 @@ float scattered_light(std::size_t patch, float s, float t)
 TEST(MatchSeams, ASmoothStripInTwoChartsSamplesAlike)
 {
     const std::vector<Patch> patches = cylinder();
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     Image map = lit_map(world, patches, scattered_light);
     const float before = gap(map, patches[0], patches[1]);
     match_seams(map, world.scene, world.atlas, world.lumels);
@@ -142,9 +148,7 @@ TEST(MatchSeams, ASmoothStripInTwoChartsSamplesAlike)
 TEST(MatchSeams, OnlyTexelsAtTheSeamChangeAndByLessThanTheGap)
 {
     const std::vector<Patch> patches = cylinder();
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     const Image before = lit_map(world, patches, scattered_light);
     Image map = before;
     match_seams(map, world.scene, world.atlas, world.lumels);
@@ -168,9 +172,7 @@ TEST(MatchSeams, ARoomCornerKeepsItsContrast)
     const glm::vec3 up(0, 1, 0), x(1, 0, 0), z(0, 0, 1);
     const std::vector<Patch> patches = {{{0, 0, 0}, x, up, z, z, {4, 4}, {16, 16}},
                                         {{1, 0, 0}, z, up, -x, -x, {30, 4}, {16, 16}}};
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     const Image before = lit_map(
         world, patches, [](std::size_t patch, float, float) { return patch == 0 ? 10.0f : 8.0f; });
     Image map = before;
@@ -183,9 +185,7 @@ TEST(MatchSeams, LightDoesNotLeakPastAWallThatStandsOnTheSeam)
     const glm::vec3 up(0, 1, 0), x(1, 0, 0), z(0, 0, 1);
     const std::vector<Patch> patches = {{{0, 0, 0}, x, up, z, z, {4, 4}, {16, 16}},
                                         {{1, 0, 0}, x, up, z, z, {30, 4}, {16, 16}}};
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     Image map = lit_map(world, patches,
                         [](std::size_t patch, float, float) { return patch == 0 ? 10.0f : 0.0f; });
     match_seams(map, world.scene, world.atlas, world.lumels);
@@ -217,9 +217,7 @@ TEST(MatchSeams, NeighbouringInstancesMatchAlsoWhenOneIsMirrored)
 TEST(MatchSeams, TheSameMapGivesTheSameBytes)
 {
     const std::vector<Patch> patches = cylinder();
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     Image first = lit_map(world, patches, scattered_light);
     Image second = first;
     match_seams(first, world.scene, world.atlas, world.lumels);
@@ -240,9 +238,7 @@ TEST(MatchSeams, ObjectsMatchWhereTheirEdgesOverlap)
     const glm::vec3 up(0, 1, 0), x(1, 0, 0), z(0, 0, 1);
     const std::vector<Patch> patches = {{{0, 0, 0}, x, up, z, z, {4, 4}, {16, 16}},
                                         {{1, -0.5f, 0}, x, 2.0f * up, z, z, {30, 4}, {16, 32}}};
-    World world;
-    for (const Patch& patch : patches)
-        add(world, patch);
+    World world = world_of(patches);
     const auto light = [](std::size_t patch, float, float) { return patch == 0 ? 10.0f : 8.0f; };
     const Image before = lit_map(world, patches, light);
     Image map = before;

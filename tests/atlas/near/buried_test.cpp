@@ -10,10 +10,7 @@
 namespace lumel {
 namespace {
 
-using support::box_walls;
-using support::HandMade;
-using support::make_quads;
-using support::Quad;
+using namespace support;
 
 /// 8 × 8 lumels of 1 m, facing up; lumel (x, z) has index 8 x + z.
 Quad floor_8x8()

@@ -88,6 +88,19 @@ TEST(NearField, MatchesTheClosedFormsOfUnitSquares)
     EXPECT_NEAR(entry(table, 0, 2), adjoined_rectangles(1.0, 1.0, 1.0), 1.5e-3);
 }
 
+/// A floor and a wall that meet at an edge, with so many lumels along u and v.
+std::vector<Quad> corner(const glm::ivec2& floor_lumels, const glm::ivec2& wall_lumels)
+{
+    Quad floor, wall;
+    floor.edge_u = {0, 0, 1};
+    floor.edge_v = {1, 0, 0};
+    floor.res_u = floor_lumels.x;
+    floor.res_v = floor_lumels.y;
+    wall.res_u = wall_lumels.x;
+    wall.res_v = wall_lumels.y;
+    return {floor, wall};
+}
+
 TEST(NearField, HoldsNearPairsOnlyInAscendingOrder)
 {
     const HandMade box = closed_box(16);
@@ -107,12 +120,7 @@ TEST(NearField, HoldsNearPairsOnlyInAscendingOrder)
 TEST(NearField, FindsEveryNearPairAlsoBetweenVeryDifferentSizes)
 {
     // A floor of few large lumels and a wall of many small ones that meet at a corner.
-    Quad floor, wall;
-    floor.edge_u = {0, 0, 1};
-    floor.edge_v = {1, 0, 0};
-    floor.res_u = floor.res_v = 2;
-    wall.res_u = wall.res_v = 64;
-    const HandMade made = make_quads({floor, wall});
+    const HandMade made = make_quads(corner({2, 2}, {64, 64}));
     NearFieldOptions options;
     options.centre = true;
     const NearField table = build(made, options);
@@ -128,14 +136,7 @@ TEST(NearField, FindsEveryNearPairAlsoBetweenVeryDifferentSizes)
 
 TEST(NearField, IsReciprocal)
 {
-    Quad floor, wall;
-    floor.edge_u = {0, 0, 1};
-    floor.edge_v = {1, 0, 0};
-    floor.res_u = 3;
-    floor.res_v = 5;
-    wall.res_u = 7;
-    wall.res_v = 4;
-    const HandMade made = make_quads({floor, wall});
+    const HandMade made = make_quads(corner({3, 5}, {7, 4}));
     const NearField table = build(made, {});
     for (std::size_t i = 0; i < made.lumels.lumels.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
@@ -169,15 +170,11 @@ TEST(NearField, IsZeroBetweenOccludedPairsAndHalfBehindAHalfScreen)
 
 TEST(NearField, OfAMirroredInstanceIsTheMirrorImage)
 {
-    Quad floor, wall;
-    floor.edge_u = {0, 0, 1};
-    floor.edge_v = {1, 0, 0};
-    floor.res_u = floor.res_v = 3;
-    wall.res_u = wall.res_v = 3;
+    const std::vector<Quad> quads = corner({3, 3}, {3, 3});
     const glm::mat4 mirror(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
-    const HandMade plain = make_quads({floor, wall});
+    const HandMade plain = make_quads(quads);
     HandMade mirrored;
-    for (const Quad& quad : {floor, wall}) {
+    for (const Quad& quad : quads) {
         add_lumels(mirrored.lumels, quad, std::uint32_t(mirrored.scene.instances.size()), mirror);
         add_quad(mirrored.scene, quad, mirror);
     }

@@ -14,16 +14,13 @@ namespace {
 
 Scene turned_shapes()
 {
-    Scene scene = empty_scene();
-    const int cube = add_mesh(scene, {box({1.0f, 2.0f, 0.5f})}, "box");
-    const int ball = add_mesh(scene, {sphere(24, 12)}, "ball");
-    const int mixed = add_mesh(scene, {helix(60, 3.0f), tube(16, 2.0f)}, "mixed");
+    Scene scene = scene_of_shapes();
     const glm::mat4 one(1.0f);
     const glm::vec3 axis = glm::normalize(glm::vec3(1, 2, 3));
-    add_instance(scene, cube, glm::translate(glm::rotate(one, 0.7f, axis), glm::vec3(9, 0, 4)));
-    add_instance(scene, cube, glm::scale(glm::rotate(one, 1.9f, axis), glm::vec3(-1, 2, 3)));
-    add_instance(scene, ball, glm::scale(glm::rotate(one, 0.3f, axis), glm::vec3(1, 0.4f, 2)));
-    add_instance(scene, mixed, glm::scale(one, glm::vec3(0.5f, 0.5f, -0.5f)));
+    add_instance(scene, kCube, glm::translate(glm::rotate(one, 0.7f, axis), glm::vec3(9, 0, 4)));
+    add_instance(scene, kCube, glm::scale(glm::rotate(one, 1.9f, axis), glm::vec3(-1, 2, 3)));
+    add_instance(scene, kBall, glm::scale(glm::rotate(one, 0.3f, axis), glm::vec3(1, 0.4f, 2)));
+    add_instance(scene, kRamp, glm::scale(one, glm::vec3(0.5f, 0.5f, -0.5f)));
     return scene;
 }
 

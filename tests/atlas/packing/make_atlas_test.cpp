@@ -12,17 +12,14 @@ namespace {
 
 Scene mixed_scene()
 {
-    Scene scene = empty_scene();
-    const int cube = add_mesh(scene, {box({1.0f, 2.0f, 0.5f})}, "box");
-    const int ball = add_mesh(scene, {sphere(24, 12)}, "ball");
-    const int ramp = add_mesh(scene, {helix(60, 3.0f), tube(16, 2.0f)}, "ramp");
+    Scene scene = scene_of_shapes();
     const glm::mat4 one(1.0f);
-    add_instance(scene, cube);
-    add_instance(scene, cube, glm::rotate(one, 0.7f, glm::normalize(glm::vec3(1, 2, 3))));
-    add_instance(scene, cube, glm::scale(one, glm::vec3(-1.0f, 2.0f, 3.0f)));
-    add_instance(scene, ball, glm::translate(one, glm::vec3(5.0f)));
-    add_instance(scene, ball, glm::scale(one, glm::vec3(0.3f, -0.3f, 0.3f)));
-    add_instance(scene, ramp, glm::scale(one, glm::vec3(0.5f)));
+    add_instance(scene, kCube);
+    add_instance(scene, kCube, glm::rotate(one, 0.7f, glm::normalize(glm::vec3(1, 2, 3))));
+    add_instance(scene, kCube, glm::scale(one, glm::vec3(-1.0f, 2.0f, 3.0f)));
+    add_instance(scene, kBall, glm::translate(one, glm::vec3(5.0f)));
+    add_instance(scene, kBall, glm::scale(one, glm::vec3(0.3f, -0.3f, 0.3f)));
+    add_instance(scene, kRamp, glm::scale(one, glm::vec3(0.5f)));
     return scene;
 }
 

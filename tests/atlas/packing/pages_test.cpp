@@ -136,23 +136,24 @@ TEST(Pages, OneIsUsedWhereItIsEnough)
         EXPECT_EQ(a.surfaces[s].texcoord, b.surfaces[s].texcoord);
 }
 
+/// Four times the texels are twice the density, but for what gutters and corners of pages take.
+Atlas expect_twice_as_dense_on_four(const Scene& scene)
+{
+    const Atlas one = make_atlas(scene, {.size = kSide});
+    Atlas four = make_atlas(scene, {.size = kSide, .pages = 4});
+    EXPECT_EQ(four.pages.count, 4);
+    EXPECT_NEAR(four.texels_per_metre / one.texels_per_metre, 2.0, 0.15);
+    return four;
+}
+
 TEST(Pages, OfAGivenSizeAreFilled)
 {
-    const Scene scene = street(60);
-    const Atlas one = make_atlas(scene, {.size = kSide});
-    const Atlas four = make_atlas(scene, {.size = kSide, .pages = 4});
-    EXPECT_EQ(four.pages.count, 4);
-    // Four times the texels are twice the density, but for what gutters and corners of pages take.
-    EXPECT_NEAR(four.texels_per_metre / one.texels_per_metre, 2.0, 0.15);
+    expect_twice_as_dense_on_four(street(60));
 }
 
 TEST(Pages, OfOnePrimitiveAreTwiceAsDenseOnFour)
 {
-    const Scene scene = terrace(60);
-    const Atlas one = make_atlas(scene, {.size = kSide});
-    const Atlas four = make_atlas(scene, {.size = kSide, .pages = 4});
-    EXPECT_EQ(four.pages.count, 4);
-    EXPECT_NEAR(four.texels_per_metre / one.texels_per_metre, 2.0, 0.15);
+    const Atlas four = expect_twice_as_dense_on_four(terrace(60));
     int shared = 0;
     texel_owners(four, shared);
     EXPECT_EQ(shared, 0);

@@ -112,6 +112,15 @@ int add_mesh(Scene& scene, std::vector<Primitive> primitives, const std::string&
     return int(scene.meshes.size()) - 1;
 }
 
+Scene scene_of_shapes()
+{
+    Scene scene = empty_scene();
+    add_mesh(scene, {box({1.0f, 2.0f, 0.5f})}, "box");
+    add_mesh(scene, {sphere(24, 12)}, "ball");
+    add_mesh(scene, {helix(60, 3.0f), tube(16, 2.0f)}, "ramp");
+    return scene;
+}
+
 void add_instance(Scene& scene, int mesh, const glm::mat4& transform)
 {
     scene.instances.push_back({"instance", mesh, int(scene.instances.size()), transform});

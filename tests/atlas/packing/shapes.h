@@ -24,6 +24,12 @@ Primitive tube(int segments, float height);
 /// Helical ramp about y that turns `turns` times: seen from above it lies over itself.
 Primitive helix(int steps, float turns);
 
+/// Meshes of scene_of_shapes(): a box, a sphere, and one of a helix and a tube.
+enum Shapes { kCube, kBall, kRamp };
+
+/// Scene of these meshes, without instances.
+Scene scene_of_shapes();
+
 /// Adds a mesh of these primitives and returns its index.
 int add_mesh(Scene& scene, std::vector<Primitive> primitives, const std::string& name = "mesh");
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../../support/input_error.h"
 #include "../../support/temporary_folder.h"
 #include "base/core/error.h"
 #include "base/images/image_files.h"
@@ -159,13 +160,7 @@ std::string error_with(const std::string& from, const std::string& to)
     std::copy(to.begin(), to.end(), place);
     std::ofstream(folder / "a.exr", std::ios::binary)
         .write(bytes.data(), std::streamsize(bytes.size()));
-    try {
-        read_exr(folder / "a.exr");
-        return "";
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        return error.what();
-    }
+    return test::input_error_of([&] { read_exr(folder / "a.exr"); });
 }
 
 std::string with_zeros(const char* text, std::size_t size)

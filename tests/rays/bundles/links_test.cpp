@@ -1,28 +1,9 @@
 // Links whose rays are cast by drawing, against those of the host.
 
-#include "../../jobs/solved.h"
-#include "../query/rooms.h"
+#include "../query/compared_links.h"
 
 namespace lumel {
 namespace {
-
-/// As many rays for all: an error to stop at may be reached a round earlier by one of them.
-support::Solved solved(const Prepared& world, const LinksOptions& method, std::uint64_t rays)
-{
-    return support::solve_scene(world, {.method = method, .max_shots = rays, .target_error = 0.0});
-}
-
-/// Mean of |difference| in terms of the mean.
-double apart(const std::vector<glm::vec3>& one, const std::vector<glm::vec3>& other)
-{
-    double difference = 0.0, sum = 0.0;
-    for (std::size_t i = 0; i < one.size(); ++i)
-        for (int c = 0; c < 3; ++c) {
-            difference += std::abs(double(one[i][c]) - double(other[i][c]));
-            sum += double(other[i][c]);
-        }
-    return difference / sum;
-}
 
 double power(const Lumels& lumels, const std::vector<glm::vec3>& light)
 {
@@ -32,29 +13,14 @@ double power(const Lumels& lumels, const std::vector<glm::vec3>& light)
     return sum;
 }
 
-/// The host is asked for the same rays.
-void expect_agreement(const Prepared& world)
-{
-    constexpr std::uint64_t kRays = 48;
-    const support::Solved raster = solved(world, {.rays = Rays::raster}, kRays);
-    const support::Solved host =
-        solved(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
-    EXPECT_EQ(raster.state.shots, host.state.shots);
-    const double difference = apart(raster.irradiance, host.irradiance);
-    std::printf("%.5f %% apart\n", 100.0 * difference);
-    EXPECT_LE(difference, 0.005);
-    // A few lumels hold much of an error: one ray that rounding sends elsewhere tells.
-    EXPECT_NEAR(raster.state.error, host.state.error, 0.05 * host.state.error);
-}
-
 /// Directions that lumels share bring the light that directions of their own bring. By the host,
 /// for so many rays that noise does not hide a difference.
 void expect_the_same_level(const Prepared& world)
 {
     constexpr std::uint64_t kRays = 1536;
-    const support::Solved own = solved(world, {.rays = Rays::host}, kRays);
+    const support::Solved own = support::solve_links(world, {.rays = Rays::host}, kRays);
     const support::Solved shared =
-        solved(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
+        support::solve_links(world, {.rays = Rays::host, .interleaved = kInterleaved}, kRays);
     const double more =
         power(world.lumels, shared.irradiance) / power(world.lumels, own.irradiance) - 1.0;
     std::printf("%.3f %% more light, %.2f and %.2f %% stated\n", 100.0 * more,
@@ -63,24 +29,16 @@ void expect_the_same_level(const Prepared& world)
     EXPECT_NEAR(shared.state.error, own.state.error, 0.5 * own.state.error);
 }
 
-TEST(LinksByRaster, LightTheCornellBoxAsTheHostDoes)
-{
-    expect_agreement(Prepared(support::scene_path("cornell-box"), {.size = 64}));
-}
+class LinksInRoomsByRaster : public testing::TestWithParam<support::ComparedRoom> {};
 
-TEST(LinksByRaster, LightTwoRoomsAsTheHostDoes)
-{
-    expect_agreement(Prepared(support::scene_path("two-rooms"), {.size = 64}));
-}
+INSTANTIATE_TEST_SUITE_P(Of, LinksInRoomsByRaster, testing::ValuesIn(support::kComparedRooms),
+                         support::name_of_room);
 
-TEST(LinksByRaster, LightAFurnishedRoomAsTheHostDoes)
+// A few lumels hold much of an error: one ray that rounding sends elsewhere tells.
+TEST_P(LinksInRoomsByRaster, LightAsTheHostDoes)
 {
-    expect_agreement(Prepared(support::scene_path("room"), {.size = 96}));
-}
-
-TEST(LinksByRaster, PassGlassCutOutsAndVeilsAsTheHostDoes)
-{
-    expect_agreement(Prepared(support::room_with_curtains(), {.size = 48}));
+    support::expect_agreement(GetParam(), {.rays = Rays::raster},
+                              {.rays = Rays::host, .interleaved = kInterleaved}, 0.05);
 }
 
 TEST(LinksByRaster, LeaveASealedBoxExactlyDarkUnderSkyAndSun)
@@ -90,7 +48,8 @@ TEST(LinksByRaster, LeaveASealedBoxExactlyDarkUnderSkyAndSun)
     const Scene scene =
         read_scene(support::scene_path("sealed-box"), MaterialModel::diffuse, lights);
     const Prepared world(scene, AtlasOptions{.size = 64});
-    const std::vector<glm::vec3> light = solved(world, {.rays = Rays::raster}, 96).irradiance;
+    const std::vector<glm::vec3> light =
+        support::solve_links(world, {.rays = Rays::raster}, 96).irradiance;
     float brightest = 0.0f;
     std::size_t inside = 0;
     for (std::size_t i = 0; i < light.size(); ++i) {
@@ -121,7 +80,7 @@ TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
     const Prepared world(support::scene_path("cornell-box"), {.size = 128});
     // Two of them, so that their own noise does not count.
     const auto truth = [&](std::uint32_t seed) {
-        return solved(world, {.seed = seed, .rays = Rays::host}, 384).irradiance;
+        return support::solve_links(world, {.seed = seed, .rays = Rays::host}, 384).irradiance;
     };
     const std::vector<glm::vec3> first = truth(101), second = truth(102);
     const auto error = [&](std::uint32_t interleaved) {
@@ -129,8 +88,8 @@ TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
         constexpr std::uint32_t kSeeds = 4;
         for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
             const LinksOptions method{.seed = seed, .rays = Rays::host, .interleaved = interleaved};
-            const double one =
-                support::error_alone(solved(world, method, 96).irradiance, first, second);
+            const double one = support::error_alone(
+                support::solve_links(world, method, 96).irradiance, first, second);
             square += one * one / kSeeds;
         }
         return std::sqrt(square);
@@ -145,8 +104,8 @@ TEST(SharedDirections, LeaveNoPatternIfTheyAreInterleaved)
 TEST(LinksByRaster, GiveTheSameBytesAgain)
 {
     const Prepared world(support::scene_path("cornell-box"), {.size = 32});
-    EXPECT_EQ(solved(world, {.rays = Rays::raster}, 48).irradiance,
-              solved(world, {.rays = Rays::raster}, 48).irradiance);
+    EXPECT_EQ(support::solve_links(world, {.rays = Rays::raster}, 48).irradiance,
+              support::solve_links(world, {.rays = Rays::raster}, 48).irradiance);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "base/core/error.h"
+#include "../../support/input_error.h"
 #include "base/json/json_file.h"
 #include "results/record/bake_record.h"
 #include "results/record/light_settings.h"
@@ -71,13 +71,7 @@ BakeRecord read(const Json& report)
 /// What reading has to say against a report; empty: nothing.
 std::string complaint(const Json& report)
 {
-    try {
-        read(report);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.kind(), ErrorKind::input);
-        return error.what();
-    }
-    return {};
+    return test::input_error_of([&] { read(report); });
 }
 
 /// Pointers to all values that are read of a record's report and are no objects or lists.

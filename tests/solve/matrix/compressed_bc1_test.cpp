@@ -140,8 +140,8 @@ TEST(Bc1Matrix, ComesBackInTheCallersOrderAndIsCloserWhenReordered)
 // 8 bytes for 16 texels of three channels.
 TEST(Bc1Matrix, TakesTheBytesOfItsBlocks)
 {
-    const Bc1Matrix bare = compress_bc1(shuffled_kernel(64, 6),
-                                        {.exact_share = 0.0f, .reordering = Reordering::none});
+    const Bc1Matrix bare =
+        compress_bc1(shuffled_kernel(64, 6), {.exact_share = 0.0f, .reordering = Reordering::none});
     EXPECT_EQ(bare.bytes(), 64u * 64u / 2u);
 }
 

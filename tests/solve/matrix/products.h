@@ -35,7 +35,7 @@ std::vector<glm::vec3> on_gpu(const gpu::Device& device, Product product,
 
 /// Each state's colours within `tolerance` of those by the matrix, relative to the largest.
 inline void expect_products(const std::vector<glm::vec3>& found, const ColorMatrix& matrix,
-                     const std::vector<glm::vec3>& x, float tolerance)
+                            const std::vector<glm::vec3>& x, float tolerance)
 {
     const std::size_t n = matrix.size();
     for (std::size_t first = 0; first < x.size(); first += n) {

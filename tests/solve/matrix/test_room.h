@@ -74,7 +74,8 @@ inline TestRoom box_room(std::uint32_t side)
 }
 
 /// Relative error of light, over patches by area, where each patch in turn is the lit one.
-inline double relative_error(const ColorMatrix& found, const ColorMatrix& truth, const Elements& elements)
+inline double relative_error(const ColorMatrix& found, const ColorMatrix& truth,
+                             const Elements& elements)
 {
     double off = 0.0, all = 0.0;
     for (int c = 0; c < 3; ++c)
