@@ -1,4 +1,5 @@
-// The form's number, then the state of the form. Values are checked before they are used as indices.
+// The form's number, then the state of the form. Values are checked before they are used as
+// indices.
 
 #include "solve/matrix/stored.h"
 
