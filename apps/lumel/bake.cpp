@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "jobs/bake/bake.h"
+#include "jobs/solve/stages.h"
 #include "long_work.h"
 #include "methods/methods.h"
 #include "results/page/page.h"
@@ -25,7 +26,7 @@ int run(const BakeArguments& arguments)
         if (summary.error >= 0.0)
             error = fmt::format(", estimated error {:.2f} %", 100.0 * summary.error);
         if (summary.dark_error >= 0.0)
-            error += fmt::format(" (of dark places {:.2g} %)", 100.0 * summary.dark_error);
+            error += " (dark areas " + percent_text(summary.dark_error) + ")";
         return Conclusion{summary.report,
                           fmt::format("{}: {} {} in {:.1f} s{}", arguments.folder, summary.shots,
                                       method_of(arguments.options.solver.method).shots,

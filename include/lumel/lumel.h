@@ -80,7 +80,7 @@ enum class ErrorKind {
     stopped,  ///< progress ended a bake before it had a solution
 };
 
-/// what() is one sentence for the user: location, fault and remedy.
+/// The message what() is one sentence for the user: location, fault and remedy.
 class LUMEL_API Error : public std::runtime_error {
 public:
     Error(ErrorKind kind, const std::string& sentence);
@@ -480,8 +480,8 @@ public:
     /// it. The last of several pending moves counts. Requires a rigid motion. Throws Error{input}.
     void move(std::uint32_t instance, const Mat4& transform);
     /// Moves or turns all lamps of this name and updates their light at once. Members of `place`
-    /// without a value do not change. Throws Error{input} if there is no such lamp, for positions
-    /// of directional lights, and for values that are not finite.
+    /// without a value do not change. Throws Error{input} if there is no such lamp, for
+    /// positions of directional lights, and for values that are not finite.
     void move_lamp(const std::string& name, const LampPlace& place);
 
     /// Scales all lights of this name and the emission of materials of this name, relative to the

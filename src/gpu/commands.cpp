@@ -41,7 +41,7 @@ void check_texture(const Layout& layout, const Slot& slot, const Target& texture
 {
     if ((slot.kind == SlotKind::uint_texture) != (texture.pixel() == Pixel::rg32u))
         throw std::logic_error(std::string(layout.name()) +
-                               " was given a texture of other texels than it declares");
+                               " was given a texture whose pixels differ from its declaration");
 }
 
 }  // namespace

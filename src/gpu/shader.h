@@ -8,7 +8,7 @@
 // with a type lumel::shaders::StochasticReceive that has
 //
 //     Bindings   one member per array, texture and triangle tree that the shader uses, in the order
-//                of declaration; all are required
+//                declared; all are required
 //     Params     push constants
 //     Mesh       raster passes: one member per input of the vertex shader
 //

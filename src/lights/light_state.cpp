@@ -91,13 +91,13 @@ PunctualLight placed(PunctualLight lamp, const LampPlace& place, const glm::dvec
             refuse(lamp, "is a directional light: it has a direction and no position");
         const glm::dvec3 position = *place.position - origin;
         if (!(glm::length(position) < kFarthest))
-            refuse(lamp, "would be too far away");
+            refuse(lamp, "would be too far out");
         lamp.transform[3] = glm::vec4(glm::vec3(position), 1.0f);
     }
     if (place.direction) {
         const float length = glm::length(*place.direction);
         if (!std::isfinite(length) || length < kMinLength)
-            refuse(lamp, "has a direction that points nowhere");
+            refuse(lamp, "has a direction of no length");
         const glm::vec4 position = lamp.transform[3];
         lamp.transform = glm::mat4(frame_about(*place.direction / -length));
         lamp.transform[3] = position;

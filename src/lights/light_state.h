@@ -15,7 +15,7 @@ namespace lumel {
 /// Position and direction of a lamp in the world of the scene's file.
 struct LampPlace {
     std::optional<glm::dvec3> position;  ///< [m] of point and spot lights; none: as baked
-    std::optional<glm::vec3> direction;  ///< of its light, any length; none: as baked
+    std::optional<glm::vec3> direction;  ///< direction of its light, any length; none: as baked
     /// Rotation of the sky about +y relative to the bake, counter-clockwise from above [degrees].
     /// Stored links only.
     std::optional<double> turn;

@@ -80,7 +80,7 @@ void SceneLights::move(Lights& lights, std::size_t s, const LampPlace& place) co
         return;
     }
     if (source.lights.size() != 1)
-        refuse(is_sky ? "is the sky, which has a \"turn\" alone"
+        refuse(is_sky ? "is the sky, which has only a \"turn\""
                : source.lights.empty()
                    ? "is no lamp: only point, spot and directional lights can be moved"
                    : "is the name of several lamps: give each a name of its "
@@ -103,7 +103,8 @@ void SceneLights::dim_surfaces(Lights& lights, const std::vector<glm::vec3>& fac
                 if (source_of[m] && factors[*source_of[m]] != factors[s])
                     throw Error(ErrorKind::input, "",
                                 lumel::quoted(sources_[*source_of[m]].name) + " and " +
-                                    lumel::quoted(sources_[s].name) + " shine by one material, " +
+                                    lumel::quoted(sources_[s].name) +
+                                    " share the emissive material " +
                                     lumel::quoted(scene_.materials[m].name) +
                                     ": dim them alike, or give each a material of its own");
                 source_of[m] = s;

@@ -18,9 +18,9 @@ public:
 
     /// Throws Error{input} as set() does.
     void check(const LightState& state) const;
-    /// Sets lights, sky and emission to their initial values, modified by the factors and positions
-    /// of the state. Throws Error{input} for unknown names, invalid positions, and factors for a
-    /// part of the surfaces of an emissive material.
+    /// Sets lights, sky and emission to their initial values, modified by the factors and
+    /// positions of the state. Throws Error{input} for unknown names, invalid positions, and
+    /// factors for a part of the surfaces of an emissive material.
     void set(const LightState& state);
 
 private:

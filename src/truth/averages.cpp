@@ -8,11 +8,9 @@ namespace lumel {
 
 namespace {
 
-/// Samples per value between progress reports.
 constexpr int kSamplesPerPass = 16;
 /// Values between progress reports.
 constexpr std::size_t kValuesPerPass = 8192;
-/// Minimum values per task.
 constexpr std::size_t kValuesPerTask = 16;
 
 }  // namespace

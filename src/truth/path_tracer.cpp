@@ -75,11 +75,9 @@ glm::vec3 PathTracer::reflected(PathVertex vertex, const PathSamples& path) cons
     for (int bounce = 0; bounce <= last_bounce_; ++bounce) {
         const BounceSamples samples(path, bounce);
         const bool counts = bounce >= first_bounce_;
-        // Samples the light sources.
         if (counts)
             gathered += throughput * lights_.sought(vertex, samples);
 
-        // Samples the BRDF.
         const glm::vec3 direction = vertex.brdf.sample(samples.point(Draw::direction));
         const float cosine = cosine_above(vertex, direction);
         if (!(cosine > 0.0f))

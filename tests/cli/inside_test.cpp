@@ -47,7 +47,7 @@ TEST(Verbose, TellsStagesSizesMemoryAndDeviceTimesOnStderr)
     EXPECT_TRUE(has(bake.err, "128 shooters in 8 steps")) << bake.err;
     EXPECT_TRUE(has(bake.err, "iB of raster/world/world.cpp:")) << bake.err;
     EXPECT_TRUE(has(bake.err, "solving: \"receive\" took ")) << bake.err;
-    EXPECT_TRUE(has(bake.err, " MiB at most, on the device ")) << bake.err;
+    EXPECT_TRUE(has(bake.err, " MiB, device memory ")) << bake.err;
 }
 
 TEST(Verbose, ChangesNothingElse)

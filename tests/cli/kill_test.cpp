@@ -143,7 +143,7 @@ TEST(Kills, AreGoneOnFromToTheSameBytes)
             continue;
         const Outcome last = run_lumel(resumable(place.path("out"), {.more = {"--resume"}}));
         ASSERT_EQ(last.code, 0) << last.err;
-        EXPECT_NE(last.err.find("going on after"), std::string::npos) << last.err;
+        EXPECT_NE(last.err.find("continuing after"), std::string::npos) << last.err;
         ++went_on;
         same += contents(place.path("out")) == whole && hidden(place.path("out")).empty();
     }
@@ -185,7 +185,7 @@ TEST(Resume, RefusesACheckpointOfOtherWorkOrADamagedOne)
     place.file("out/.lumel-checkpoint", checkpoint.substr(0, checkpoint.size() / 3));
     expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "damaged"});
     place.file("out/.lumel-checkpoint", "something else");
-    expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "no checkpoint"});
+    expect_one_sentence(resume("0.001", {}), 2, {".lumel-checkpoint", "not a checkpoint"});
     // All of it is as it was left.
     EXPECT_EQ(bytes_of(place.path("out/.lumel-checkpoint")), "something else");
 }

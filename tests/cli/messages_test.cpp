@@ -114,8 +114,8 @@ TEST(Messages, TheDensityThatTexturesLoseInTheBakedSceneIsSaid)
         run_lumel({"bake", own_scene("room.gltf"), place.path("out"), "--size", "96", "--shots",
                    "3", "--preview-width", "0", "--baked-size", "96"});
     ASSERT_EQ(bake.code, 0) << bake.err;
-    EXPECT_TRUE(has(bake.err, "scene-baked.glb shows textures at ")) << bake.err;
-    EXPECT_TRUE(has(report_in(place)["notes"].dump(), "% of their density, as --baked-size is 96"));
+    EXPECT_TRUE(has(bake.err, "textures in scene-baked.glb are downsampled to ")) << bake.err;
+    EXPECT_TRUE(has(report_in(place)["notes"].dump(), " %; raise --baked-size, or use scene.glb"));
     // Where there are none, nothing is lost.
     EXPECT_EQ(run_lumel(small_bake(place.path("out"), {"--shots", "6"})).err, "");
 }

@@ -149,7 +149,7 @@ TEST(Render, CtrlCWritesWhatThereIsAndExits130)
     const std::vector<Work> works = {
         {" shots", {"--shots", endless}},
         {"shooting for the eye", {"--shots", "64", "--eye-shots", endless}},
-        {"following lobes", {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"}},
+        {"lobe rays", {"--shots", "64", "--eye-shots", "64", "--lobe-rays", "4096"}},
         {"path tracing", {"--paths", "1000000"}},
     };
     for (const Work& work : works) {

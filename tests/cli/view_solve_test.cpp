@@ -215,9 +215,9 @@ TEST(ViewSolve, WhatCannotBeSolvedIsOneSentence)
              {"solve progressive --dark-error 5\n", {":1", "--dark-error"}},
              {"solve progressive fast\n", {":1", "fast"}},
              {"light moon\n", {":1", "links | solved"}},
-             {"wait\nlight solved\n", {":2", "nothing is solved"}},
+             {"wait\nlight solved\n", {":2", "no solved light"}},
              {"solve stochastic --shots 16\nlamp light 0.5\nlight solved\n",
-              {":3", "nothing is solved"}}})
+              {":3", "no solved light"}}})
         expect_one_sentence(play(script), 2, words);
     expect_one_sentence(
         run_lumel({"view", own_scene("cornell-box.gltf"), "--headless", "--solver", "xray"}), 2,

@@ -305,7 +305,7 @@ TEST_P(PictureStoppedWhile, IsWholeAndSaysSo)
 }
 
 INSTANTIATE_TEST_SUITE_P(Stages, PictureStoppedWhile,
-                         testing::Values("looking", "shooting for the eye", "following lobes",
+                         testing::Values("looking", "shooting for the eye", "lobe rays",
                                          "path tracing"));
 
 TEST(Picture, StoppedBeforeThereIsLightIsNone)
@@ -326,9 +326,7 @@ TEST(Picture, OfFewerRaysThanAskedForIsAsBright)
     RenderOptions options = small(1024);
     options.shots = 0;
     const Image whole = picture("glossy-floor", options);
-    const auto stop = [](const BakeProgress& progress) {
-        return progress.stage != "following lobes";
-    };
+    const auto stop = [](const BakeProgress& progress) { return progress.stage != "lobe rays"; };
     const Image stopped = render(glossy_scene("glossy-floor"), options, stop).image;
     // Seeds 1 to 5 gave 0.04 to 0.2 %.
     EXPECT_NE(stopped.values, whole.values);

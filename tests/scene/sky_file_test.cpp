@@ -96,7 +96,7 @@ TEST(SkyFile, BadFilesEndInOneSentence)
     EXPECT_TRUE(contains(error_of_sky(folder.path("none.exr")), "none.exr: there is no such file"));
     EXPECT_TRUE(contains(error_of_sky(folder.write("sky.png", Bytes{1})), "an .exr or .hdr file"));
     EXPECT_TRUE(contains(error_of_sky(folder.write("noise.hdr", std::string("noise"))),
-                         "noise.hdr: is not a Radiance picture"));
+                         "noise.hdr: is not a readable Radiance image"));
     EXPECT_TRUE(contains(error_of_sky(folder.write("noise.exr", std::string("noise"))),
                          "noise.exr: cannot be read as EXR"));
     EXPECT_TRUE(

@@ -8,13 +8,13 @@
 namespace lumel {
 namespace {
 
-/// Rays between cells run this far above the surface, in sides of the lumel. Less leaves the gap
-/// under furniture open, more passes over lists and low steps.
+/// Height of rays between cells above the surface, in sides of the lumel. Smaller heights keep gaps
+/// under furniture open, larger ones pass over ledges and low steps.
 constexpr float kLift = 0.05f;
-/// Lumels of one task.
+/// Lumels per task.
 constexpr std::size_t kGrain = 256;
 
-/// A disjoint-set forest over the cells.
+/// A disjoint-set forest of the cells.
 class Joined {
 public:
     Joined() { std::iota(above_.begin(), above_.end(), 0u); }
@@ -30,7 +30,7 @@ private:
     std::array<std::uint32_t, kCells> above_;
 };
 
-/// Joins neighbours at an offset where their points see each other.
+/// Joins cells at an offset from each other whose points are mutually visible.
 void join_along(const CellPoints& points, int dx, int dy, float ray_offset, const RayScene& rays,
                 std::uint32_t seed, Joined& joined)
 {
@@ -47,7 +47,7 @@ void join_along(const CellPoints& points, int dx, int dy, float ray_offset, cons
         }
 }
 
-/// The cell with a point that is nearest on the grid.
+/// The nearest cell on the grid that has a point.
 std::uint32_t nearest_used(const CellPoints& points, std::uint32_t cell)
 {
     std::uint32_t best = cell;
@@ -63,7 +63,8 @@ std::uint32_t nearest_used(const CellPoints& points, std::uint32_t cell)
     return best;
 }
 
-/// Two bits for each cell: the number of its part in the lumel. Returns the number of parts.
+/// Stores two bits per cell: the number of its sub-lumel in the lumel. Returns the number of
+/// sub-lumels.
 std::uint32_t number_parts(const CellPoints& points, const Joined& joined, std::uint32_t& code)
 {
     std::array<std::uint32_t, kCells> number{};

@@ -1,10 +1,10 @@
 #pragma once
-// Lumels cut into cells, and cells joined into parts.
+// Cells of lumels, and sub-lumels of mutually visible cells.
 //
-// One radiosity per lumel hands light through walls: a lumel that lies half in the sun gives its
-// mean to both sides of its shadow's edge, and one that passes under a wall gives that of one room
-// to the other. So each lumel has a grid of cells, and those whose points see each other make up
-// a part. Every part has its own irradiance.
+// One radiosity per lumel leaks light through walls. A lumel half in the sun spreads its mean to
+// both sides of the shadow's edge, and one that passes under a wall spreads light from room to
+// room. So each lumel has a grid of cells, and cells whose points see each other form a sub-lumel
+// with its own irradiance.
 
 #include <algorithm>
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace lumel {
 
-/// Cells along each side of a lumel, and in all.
+/// Cells per side of a lumel, and per lumel.
 inline constexpr int kCellSide = 4, kCells = kCellSide * kCellSide;
-/// Most parts of a lumel; what would be more joins the last.
+/// Maximum sub-lumels of a lumel; the last one takes the rest.
 inline constexpr std::uint32_t kMaxParts = 4;
 
-/// The grid of cells over each lumel: the box around its pieces in their plane.
+/// The grid of cells of each lumel: a bounding box of its pieces in their plane.
 class Cells {
 public:
     explicit Cells(const WorldLumels& world);
 
     static std::uint64_t bytes(std::size_t lumels) { return lumels * sizeof(Grid); }
 
-    /// The cell of lumel i that holds a point [m], or the nearest to it: 0…kCells - 1.
+    /// Index of the cell of lumel i nearest to a point [m]: 0…kCells - 1.
     std::uint32_t cell(std::size_t i, const glm::vec3& position) const
     {
         const Grid& grid = grids_[i];
@@ -50,7 +50,7 @@ private:
     std::vector<Grid> grids_;  ///< [N]
 };
 
-/// A point for each cell of a lumel that has one.
+/// A point for each cell that has one.
 struct CellPoints {
     std::array<LumelPoint, kCells> point;
     std::uint32_t used = 0;  ///< bit c: cell c has a point
@@ -59,25 +59,25 @@ struct CellPoints {
 };
 CellPoints cell_points(const WorldLumels& world, const Cells& cells, std::size_t i);
 
-/// Which part a cell belongs to.
+/// The sub-lumels of all lumels.
 class SubLumels {
 public:
-    /// Joins cells whose points see each other by rays lifted off the lumel. Buried lumels are not
-    /// cut.
+    /// Joins cells whose points see each other by rays just above the lumel. Buried lumels stay
+    /// whole.
     SubLumels(const WorldLumels& world, const Cells& cells, const RayScene& rays,
               const std::vector<char>& buried, std::uint32_t seed);
 
-    /// Of lumels with as many parts.
+    /// Memory for these numbers of lumels and sub-lumels [bytes].
     static std::uint64_t bytes(std::size_t lumels, std::size_t parts)
     {
         return 2 * lumels * sizeof(std::uint32_t) + parts * sizeof(std::uint32_t);
     }
 
-    std::size_t count() const { return lumel_.size(); }  ///< P, of all lumels together
+    std::size_t count() const { return lumel_.size(); }  ///< P, the total number of sub-lumels
     std::uint32_t first(std::size_t lumel) const { return first_[lumel]; }
     std::uint32_t end(std::size_t lumel) const { return first_[lumel + 1]; }
     bool is_cut(std::size_t lumel) const { return end(lumel) > first(lumel) + 1; }
-    /// The part of a lumel that holds one of its cells.
+    /// The sub-lumel of a cell.
     std::uint32_t part(std::size_t lumel, std::uint32_t cell) const
     {
         return first_[lumel] + (code_[lumel] >> 2 * cell & 3u);
@@ -86,7 +86,7 @@ public:
 
 private:
     std::vector<std::uint32_t> first_;  ///< [N + 1]
-    std::vector<std::uint32_t> code_;   ///< [N] two bits for each cell
+    std::vector<std::uint32_t> code_;   ///< [N] two bits per cell
     std::vector<std::uint32_t> lumel_;  ///< [P]
 };
 

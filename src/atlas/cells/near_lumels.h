@@ -1,5 +1,5 @@
 #pragma once
-// The lumel that a ray has met.
+// Lumels at ray hits.
 
 #include <cstdint>
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace lumel {
 
-/// Texels around a hit without a lumel that are searched for one.
+/// Search radius around a hit without a lumel [texels].
 inline constexpr int kHitReach = 2;
 
 class NearLumels {
 public:
-    /// The atlas must outlive it.
+    /// The atlas must outlive this.
     NearLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels);
 
     static std::uint64_t bytes(std::size_t texels)
@@ -21,13 +21,13 @@ public:
         return texels * (2 * sizeof(Entry) + 2 * sizeof(std::uint32_t));
     }
 
-    /// The lumel at a hit, or where none is the nearest of its instance and side in the texels
-    /// around: rays that end in no lumel would darken a closed room without bound. kNoLumel where
-    /// there is none; buried ones do not count.
+    /// The lumel at a hit, else the nearest of its instance and side within kHitReach: rays without
+    /// a lumel would darken closed rooms, without bound. kNoLumel if there is none. Ignores buried
+    /// lumels.
     std::uint32_t lumel(const RayHit& hit) const;
 
 private:
-    /// All that a look at a texel needs, together.
+    /// Data of a texel and side, adjacent in memory.
     struct Entry {
         std::uint32_t lumel = kNoLumel, instance = 0;
     };
@@ -35,7 +35,7 @@ private:
     std::uint32_t at(int x, int y, const RayHit& hit) const;
 
     HitLumels places_;
-    int width_, height_;          ///< of the atlas [texels]
+    int width_, height_;          ///< atlas size [texels]
     std::vector<Entry> by_side_;  ///< [texels][2]
 };
 

@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Cells of the scene along each axis, within which lumels are sorted by the side that they face.
+/// Cells of the scene along each axis, within which lumels are sorted by the direction they face.
 constexpr double kOrderCells = 32.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// The order in which lumels send rays.
+// Order in which lumels trace rays.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace lumel {
 
-/// Lumels [N] such that neighbours in space that face alike come together: their rays meet the same
-/// things.
+/// Lumels [N], sorted so that neighbours in space with similar normals are adjacent: their rays
+/// hit the same surfaces.
 std::vector<std::uint32_t> order_in_space(const WorldLumels& world);
 
 }  // namespace lumel

@@ -17,7 +17,7 @@ RayOrigin RayOrigins::start(std::size_t i, const glm::vec2& at) const
     if (glm::dot(geometric, point.normal) < 0.0f)
         geometric = -geometric;  // the instance mirrors
 
-    // Lean towards the middle too, so that no start lies behind a wall that touches the lumel.
+    // Also shifted towards the centre, so that no origin is behind a wall that touches the lumel.
     RayOrigin start{point.position + ray_offset_ * geometric, point.normal, geometric,
                     cells_ ? cells_->cell(i, point.position) : 0u};
     const glm::vec3 inward = lumel.centre - point.position;

@@ -1,18 +1,18 @@
 #pragma once
-// Where rays leave a lumel.
+// Ray origins on lumels.
 
 #include "atlas/cells/cells.h"
 
 namespace lumel {
 
-/// A point just off a lumel, to look from.
+/// A ray origin just above a lumel.
 struct RayOrigin {
-    glm::vec3 position;   ///< [m] world, lifted
+    glm::vec3 position;   ///< [m] world, with the ray offset
     glm::vec3 normal;     ///< unit, interpolated
-    glm::vec3 geometric;  ///< unit, of the surface; rays below it meet the lumel itself
-    std::uint32_t cell;   ///< of the lumel
+    glm::vec3 geometric;  ///< unit, of the surface; rays below it hit the lumel itself
+    std::uint32_t cell;   ///< cell of the lumel
 
-    /// Cosine at the surface of a direction that light may come from; 0 for others.
+    /// Cosine at the surface for directions of incident light; 0 for others.
     float cosine(const glm::vec3& direction) const
     {
         const float cosine = glm::dot(normal, direction);
@@ -22,8 +22,8 @@ struct RayOrigin {
 
 class RayOrigins {
 public:
-    /// What is given must outlive it. centre: all rays leave from the lumel's centre. Without cells
-    /// all starts are in cell 0.
+    /// Pointers must outlive this. centre: all rays start at the lumel's centre. Without cells, all
+    /// origins are in cell 0.
     RayOrigins(const WorldLumels& world, const Cells* cells, float ray_offset, bool centre)
         : world_(&world),
           cells_(cells),
@@ -32,7 +32,7 @@ public:
     {
     }
 
-    /// `at` in the unit square, evenly by area.
+    /// at: uniform sample in the unit square; the origin is uniform by area.
     RayOrigin start(std::size_t i, const glm::vec2& at) const;
 
 private:

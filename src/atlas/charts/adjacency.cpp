@@ -18,7 +18,7 @@ std::vector<glm::dvec3> world_positions(const Primitive& primitive, const glm::m
 
 std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions)
 {
-    // Sort by position; vertices at one place take the lowest index among them.
+    // Sorts by position; coincident vertices get the lowest index among them.
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -38,8 +38,8 @@ std::vector<std::uint32_t> neighbours(const std::vector<std::uint32_t>& welded,
 {
     struct Edge {
         std::uint32_t low, high;  ///< welded ends
-        std::uint32_t corner;     ///< index into indices where it starts
-        bool forward;             ///< runs from low to high
+        std::uint32_t corner;     ///< index into indices of its first vertex
+        bool forward;             ///< directed from low to high
     };
     std::vector<Edge> edges(indices.size());
     for (std::uint32_t corner = 0; corner < indices.size(); ++corner) {

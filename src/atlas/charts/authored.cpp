@@ -16,11 +16,11 @@ namespace {
 
 // Exporters round: 16-bit coordinates are 1.5e-5 apart.
 constexpr double kRangeTolerance = 1e-4;
-// Parts that touch overlap by rounding; this much of a layout does not show.
+// Adjacent parts overlap by rounding; this share of a layout is invisible.
 constexpr double kOverlapTolerance = 1e-3;
-// Surface without room in the layout would get no light.
+// Surfaces without area in the layout would get no light.
 constexpr double kCollapseTolerance = 1e-3;
-// A triangle thinner than this share of what its surface deserves has collapsed.
+// A triangle with less than this share of its expected area has collapsed.
 constexpr double kCollapsed = 1e-6;
 
 Polygon layout_triangle(const Primitive& primitive, std::size_t triangle)
@@ -59,7 +59,7 @@ std::size_t triangle_count(const Mesh& mesh)
     return count;
 }
 
-/// Area of the mesh's layout that lies on what is in the grid already; adds the mesh to it.
+/// Area of the mesh's layout that overlaps the grid's contents; adds the mesh to them.
 double overlap_with(TriangleGrid& grid, const Mesh& mesh)
 {
     double overlap = 0.0;
@@ -86,7 +86,7 @@ std::string AuthoredReport::complaint() const
     if (outside > kRangeTolerance)
         return fmt::format("leaves 0…1 by {:.3g}", outside);
     if (collapsed > kCollapseTolerance)
-        return fmt::format("has no room for {:.3g} per cent of the surface", 100.0 * collapsed);
+        return fmt::format("has no area for {:.3g} per cent of the surface", 100.0 * collapsed);
     if (overlap > kOverlapTolerance)
         return fmt::format("overlaps itself on {}{:.3g} per cent of its area",
                            overlap_is_least ? "at least " : "", 100.0 * overlap);
@@ -121,7 +121,7 @@ AuthoredReport check_authored(const Mesh& mesh)
     if (report.collapsed > kCollapseTolerance)
         return report;
 
-    // More than the unit square holds must overlap, and would be slow to measure exactly.
+    // A larger area than the unit square must overlap, and is slow to measure exactly.
     report.overlap_is_least = report.area > 1.0 + kOverlapTolerance;
     if (report.overlap_is_least) {
         report.overlap = 1.0 - 1.0 / report.area;
@@ -161,7 +161,7 @@ Layout authored_layout(const Primitive& primitive)
     for (const glm::vec2& place : primitive.texcoords[1])
         layout.place.push_back(glm::clamp(glm::dvec2(place), 0.0, 1.0));
 
-    // Parts hang together where vertices agree in space and in the layout.
+    // Parts are connected where vertices agree in space and in the layout.
     std::vector<std::uint32_t> parent(vertex_count);
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](std::uint32_t vertex) {
@@ -183,7 +183,7 @@ Layout authored_layout(const Primitive& primitive)
         join(layout.indices[corner], layout.indices[corner + 2]);
     }
 
-    // Number the parts in order of their first triangle.
+    // Numbers the parts in order of their first triangle.
     std::vector<std::uint32_t> number(vertex_count, kNoNeighbour);
     layout.vertex_chart.assign(vertex_count, 0);
     for (std::size_t corner = 0; corner < layout.indices.size(); ++corner) {

@@ -1,5 +1,5 @@
-// Bundles: parts thinner than a texel, which would each take a chart of their own with a gutter
-// round it, share the texels of their neighbours instead. Leaves, mouldings, the rungs of a chair.
+// Bundles: parts thinner than a texel, which would each need a chart and a gutter, share the
+// texels of their neighbours. Examples: leaves, mouldings, the rungs of a chair.
 
 #include <algorithm>
 #include <array>
@@ -12,24 +12,23 @@ namespace lumel {
 
 namespace {
 
-// Steps of a direction's coordinates: strips up to about 7 degrees apart run side by side.
+// Quantisation of directions: strips within about 7 degrees are parallel.
 constexpr double kDirectionSteps = 8.0;
-// A bundle is this wide [texels], so that rounding makes it one texel at densities near that
-// expected.
+// Width of a bundle [texels], which rounds to one texel at densities near the expected one.
 constexpr double kBundleWidth = 0.6;
 
 /// A chart thinner than a texel.
 struct Thin {
     std::uint32_t chart = 0;
-    glm::dvec3 direction{0.0};    ///< a strip runs along it, unit; zero: smaller than a texel
-    double from = 0.0, to = 0.0;  ///< where the strip lies along it [m]
-    bool turned = false;          ///< its own u axis is reversed
+    glm::dvec3 direction{0.0};    ///< unit, along a strip; zero: smaller than a texel
+    double from = 0.0, to = 0.0;  ///< range of the strip along it [m]
+    bool turned = false;          ///< its u axis is reversed
 };
 
-/// Kind, facing, direction and cell: what is equal in these is bundled.
+/// Type, facing, direction and cell. Charts of equal keys are bundled.
 using Key = std::array<long long, 8>;
 
-/// The vertices of each chart, and the direction that it faces.
+/// The vertices of each chart, and its normal.
 struct ChartShape {
     std::vector<std::uint32_t> vertices;
     glm::dvec3 normal{0.0};
@@ -55,7 +54,7 @@ std::vector<ChartShape> shapes_of(const Layout& layout, const std::vector<glm::d
     return shapes;
 }
 
-/// Which of the six axes a normal is nearest to.
+/// Index of the closest of the six axis directions.
 long long facing(const glm::dvec3& normal)
 {
     const glm::dvec3 size = glm::abs(normal);
@@ -63,7 +62,7 @@ long long facing(const glm::dvec3& normal)
     return 2 * axis + (normal[axis] < 0.0);
 }
 
-/// Measures a strip along its direction, rounded so that neighbours agree on it.
+/// Measures a strip along its direction, rounded so that neighbours agree.
 Thin make_strip(std::uint32_t chart, const ChartShape& shape, const Layout& layout,
                 const std::vector<glm::dvec3>& positions, Key& key)
 {
@@ -114,7 +113,7 @@ std::map<Key, std::vector<Thin>> find_thin(const Layout& layout,
     return found;
 }
 
-/// Lays the charts first…last over each other in one chart.
+/// Superimposes the charts first…last in one chart.
 void lay_over(Layout& layout, const std::vector<ChartShape>& shapes,
               const std::vector<glm::dvec3>& positions, const Thin* first, const Thin* last,
               double width)
@@ -142,7 +141,7 @@ void lay_over(Layout& layout, const std::vector<ChartShape>& shapes,
     layout.chart_size[target] = {strips ? to - from : width, width};
 }
 
-/// Closes the gaps in the numbers of charts.
+/// Removes gaps in the numbering of charts.
 void renumber(Layout& layout)
 {
     std::vector<std::uint32_t> number(layout.chart_size.size(), 0);
@@ -172,7 +171,7 @@ void bundle_thin_charts(Layout& layout, const std::vector<glm::dvec3>& positions
         std::vector<Thin> bundle = thin;
         std::stable_sort(bundle.begin(), bundle.end(),
                          [](const Thin& a, const Thin& b) { return a.from < b.from; });
-        // Strips are bundled as far as they follow each other without a gap.
+        // Bundles strips that follow each other without a gap.
         for (std::size_t first = 0, last; first < bundle.size(); first = last) {
             double end = bundle[first].to;
             for (last = first + 1; last < bundle.size() && bundle[last].from <= end + 1.0 / density;

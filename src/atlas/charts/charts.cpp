@@ -1,4 +1,4 @@
-// Charts: groups of neighbouring triangles that face one direction, projected to their plane.
+// Charts: groups of adjacent triangles with similar normals, projected to a plane.
 
 #include <algorithm>
 #include <numeric>
@@ -12,23 +12,23 @@ namespace lumel {
 
 namespace {
 
-// A chart reaches this far from its mean normal: fewer charts against texels foreshortened to cos.
+// Maximum angle of triangles to a chart's mean normal: fewer charts against foreshortened texels.
 const double kCosChart = std::cos(glm::radians(50.0));
-// The mean drifts while a chart grows; beyond this its first triangles are given back.
+// The mean drifts while a chart grows; triangles beyond this angle are released.
 const double kCosRelease = std::cos(glm::radians(60.0));
-// Edges sharper than this divide charts, so that no lumel bends round a corner.
+// Sharper edges divide charts, so that no lumel bends around a corner.
 const double kCosCrease = std::cos(glm::radians(40.0));
-// Share of a triangle's area that may lie on another by rounding.
+// Share of a triangle's area that may overlap another by rounding.
 constexpr double kOverlapTolerance = 1e-4;
 
-/// A primitive being cut into charts.
+/// State of cutting a primitive into charts.
 struct Cutting {
     const std::vector<std::uint32_t>& indices;
     const std::vector<glm::dvec3>& positions;
     std::vector<std::uint32_t> neighbour;  ///< [3T]
     std::vector<glm::dvec3> normal;        ///< [T] unit, towards the front
     std::vector<double> area;              ///< [T]
-    std::vector<std::uint32_t> chart;      ///< [T] kNoChart: still free
+    std::vector<std::uint32_t> chart;      ///< [T] kNoChart: not assigned
 };
 constexpr std::uint32_t kNoChart = ~0u;
 
@@ -49,7 +49,7 @@ void measure_triangles(Cutting& cutting, bool mirrored)
     }
 }
 
-/// Free triangles reached from `seed` that face its direction, the best aligned first.
+/// Unassigned triangles reachable from `seed` that face its direction, best aligned first.
 std::vector<std::uint32_t> grow(Cutting& cutting, std::uint32_t seed, std::uint32_t chart)
 {
     using Candidate = std::pair<double, std::uint32_t>;  // 1 - cos to the mean, triangle
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> grow(Cutting& cutting, std::uint32_t seed, std::uint3
     return members;
 }
 
-/// The normal of the plane that a chart is projected to: its mean, unless that fails its seed.
+/// Normal of the chart's projection plane: its mean, unless that fails for the seed.
 glm::dvec3 projection_axis(const Cutting& cutting, const std::vector<std::uint32_t>& members)
 {
     glm::dvec3 sum(0.0);
@@ -87,8 +87,8 @@ glm::dvec3 projection_axis(const Cutting& cutting, const std::vector<std::uint32
     return length > 0.0 && glm::dot(sum / length, seed) > kCosRelease ? sum / length : seed;
 }
 
-/// Keeps the members that lie side by side in the plane; the others are free again.
-/// Returns the triangles of those kept, in the plane.
+/// Keeps the members that do not overlap in the plane; releases the others. Returns the kept
+/// triangles, in the plane.
 std::vector<Polygon> keep_flat(Cutting& cutting, std::vector<std::uint32_t>& members,
                                const PlaneFrame& frame, const glm::dvec3& axis)
 {
@@ -129,7 +129,7 @@ void lay_out(Cutting& cutting, const std::vector<std::uint32_t>& members, const 
         cutting.chart[t] = chart;
         for (std::uint32_t corner = 3 * t; corner < 3 * t + 3; ++corner) {
             const std::uint32_t source = cutting.indices[corner];
-            // vertex_of remembers the last copy made of each vertex, perhaps for another chart.
+            // vertex_of has the last copy of each vertex, possibly for another chart.
             if (vertex_of[source] == kNoNeighbour || vertex_of[source] < first) {
                 vertex_of[source] = std::uint32_t(layout.source_vertex.size());
                 layout.source_vertex.push_back(source);
@@ -156,7 +156,7 @@ Layout make_charts(const Primitive& primitive, const std::vector<glm::dvec3>& po
                     {}};
     measure_triangles(cutting, mirrored);
 
-    // The largest triangles lead: they fix the planes that matter.
+    // Largest triangles first: they define the planes.
     std::vector<std::uint32_t> seeds(cutting.area.size());
     std::iota(seeds.begin(), seeds.end(), 0u);
     std::stable_sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -182,7 +182,7 @@ Layout make_charts(const Primitive& primitive, const std::vector<glm::dvec3>& po
                 lay_out(cutting, part, frame, vertex_of, layout);
             }
         }
-        // Triangles given back by one chart start others.
+        // Released triangles start new charts.
         std::erase_if(seeds, [&](std::uint32_t t) { return cutting.chart[t] != kNoChart; });
     }
     layout.chart = std::move(cutting.chart);

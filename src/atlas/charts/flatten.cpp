@@ -10,10 +10,10 @@ namespace lumel {
 
 namespace {
 
-// A new direction must save this share of the area: among equals the first one stays.
+// Minimum share of the area that a new direction must save: among equals the first one is kept.
 constexpr double kWorthTurning = 1e-6;
 
-/// Corners of the convex hull, in turn (Andrew's monotone chain).
+/// Corners of the convex hull in order (Andrew's monotone chain).
 std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points)
 {
     const auto less = [](const glm::dvec2& a, const glm::dvec2& b) {
@@ -50,7 +50,7 @@ glm::dvec2 extent_along(const std::vector<glm::dvec2>& points, const glm::dvec2&
     return high - low;
 }
 
-/// Direction of the hull edge along which the bounding rectangle is smallest.
+/// Direction of the hull edge with the smallest bounding rectangle.
 glm::dvec2 tightest_direction(const std::vector<glm::dvec2>& hull)
 {
     glm::dvec2 best(1.0, 0.0);
@@ -73,7 +73,7 @@ glm::dvec2 tightest_direction(const std::vector<glm::dvec2>& hull)
 
 PlaneFrame::PlaneFrame(const glm::dvec3& normal, const glm::dvec3& origin) : origin_(origin)
 {
-    // Horizontal edges stay horizontal on walls: +y is up.
+    // +y is up, so that horizontal edges of walls remain horizontal.
     const glm::dvec3 up =
         std::abs(normal.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, -1.0);
     right_ = glm::normalize(glm::cross(up, normal));

@@ -1,5 +1,5 @@
 #pragma once
-// From space to a plane, and the tightest rectangle there.
+// Projection to a plane, and minimal bounding rectangles.
 
 #include <span>
 
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// Coordinates in the plane through `origin`, seen from where `normal` points to: u to the
-/// right, v down, as in an image. So u × v = -normal.
+/// Coordinates in the plane through `origin`, seen against `normal`: u to the right, v down, as in
+/// an image, so u × v = -normal.
 class PlaneFrame {
 public:
     PlaneFrame(const glm::dvec3& normal, const glm::dvec3& origin);
@@ -22,8 +22,8 @@ private:
     glm::dvec3 origin_, right_, down_;
 };
 
-/// Turns and shifts the points so that they fill 0…size of the smallest rectangle round them,
-/// lying on its longer side. Returns its size. Edges of a rectangle become parallel to the axes.
+/// Rotates and translates the points into 0…size of their smallest bounding rectangle, longer side
+/// horizontal. Returns its size. Edges of a rectangle become axis-parallel.
 glm::dvec2 turn_to_tight_rectangle(std::span<glm::dvec2> points);
 
 }  // namespace lumel

@@ -47,7 +47,7 @@ void TriangleGrid::for_each_cell(const Polygon& triangle, Visit visit) const
     const int last_row = cell_of(scaled.high().y, rows_);
     const int first_row = cell_of(scaled.low().y, rows_);
     for (int row = first_row; row <= last_row; ++row) {
-        // Rounding may leave corners just outside the grid: its border rows reach for ever.
+        // Rounding may place corners just outside the grid, so its border rows are unbounded.
         const Polygon strip = first_row == last_row
                                   ? scaled
                                   : clip_to_slab(scaled, 1, row == 0 ? -1e300 : row,

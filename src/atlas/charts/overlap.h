@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles of a flat layout lie on top of each other.
+// Overlap of triangles in a flat layout.
 
 #include <cstdint>
 #include <vector>
@@ -8,17 +8,16 @@
 
 namespace lumel {
 
-/// Area common to two triangles of any winding. Triangles that share only an edge have none.
+/// Area common to two triangles of any winding; 0 if they share only an edge.
 double common_area(const Polygon& a, const Polygon& b);
 
-/// Triangles in the plane, found again by place: a uniform grid with about as many cells as
-/// triangles.
+/// Triangles in the plane in a uniform grid, with about as many cells as triangles.
 class TriangleGrid {
 public:
-    /// All triangles to come lie in low…high; `expected_count` of them.
+    /// low…high: bounds of all triangles; `expected_count`: their number.
     TriangleGrid(const glm::dvec2& low, const glm::dvec2& high, std::size_t expected_count);
 
-    /// Area of `triangle` that those already inside cover. Stops counting when it is all covered.
+    /// Area of `triangle` covered by the grid's triangles. Stops when it is completely covered.
     double covered_area(const Polygon& triangle);
 
     void insert(const Polygon& triangle);
@@ -36,7 +35,7 @@ private:
     std::vector<std::int32_t> first_;  ///< [rows][columns] index into links_, -1: none
     std::vector<Link> links_;
     std::vector<Polygon> triangles_;
-    std::vector<std::uint32_t> seen_;  ///< query in which a triangle was last looked at
+    std::vector<std::uint32_t> seen_;  ///< query that last tested a triangle
     std::uint32_t query_ = 0;
 };
 

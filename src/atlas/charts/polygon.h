@@ -1,5 +1,5 @@
 #pragma once
-// Small convex polygons in the plane, on the stack: what is left of a triangle after clipping.
+// Small convex polygons in the plane, on the stack, as results of clipping a triangle.
 
 #include <algorithm>
 #include <array>
@@ -43,7 +43,7 @@ struct Polygon {
         return result;
     }
 
-    /// Twice signed; positive when the corners turn from +x to +y.
+    /// Signed area; positive if the corners turn from +x to +y.
     double signed_area() const
     {
         double twice = 0.0;
@@ -54,7 +54,7 @@ struct Polygon {
 
     double area() const { return std::abs(signed_area()); }
 
-    /// Centre of gravity; the mean of the corners when there is no area.
+    /// Centre of gravity; the mean of the corners if the area is 0.
     glm::dvec2 centroid() const
     {
         glm::dvec2 sum(0.0), mean(0.0);
@@ -83,7 +83,7 @@ struct Polygon {
     }
 };
 
-/// What lies on the side dot(normal, p) ≤ offset.
+/// The part of the polygon with dot(normal, p) ≤ offset.
 inline Polygon clip(const Polygon& polygon, const glm::dvec2& normal, double offset)
 {
     Polygon result;
@@ -103,7 +103,7 @@ inline Polygon clip(const Polygon& polygon, const glm::dvec2& normal, double off
     return result;
 }
 
-/// What lies in low ≤ p[axis] ≤ high.
+/// The part of the polygon in low ≤ p[axis] ≤ high.
 inline Polygon clip_to_slab(const Polygon& polygon, int axis, double low, double high)
 {
     glm::dvec2 normal(0.0);

@@ -8,13 +8,13 @@ namespace lumel {
 
 namespace {
 
-// A chart that fills this share of its rectangle is good enough.
+// A chart that fills this share of its rectangle stays whole.
 constexpr double kGoodFill = 0.5;
-// Seams are worth it if they save this share of the texels.
+// Minimum share of texels that splitting must save, as it adds seams.
 constexpr double kWorthSplitting = 0.25;
 // Bounds the work; a ring ends up as at most 2^kMaxDepth arcs.
 constexpr int kMaxDepth = 10;
-// Trying all pairs of more groups than this would be slow.
+// Maximum number of groups to test in pairs.
 constexpr std::size_t kMaxRejoined = 128;
 
 struct ChartBox {
@@ -27,7 +27,7 @@ struct ChartBox {
     }
 };
 
-/// A triangle to be divided from others.
+/// A triangle to be assigned to a half.
 struct Item {
     std::uint32_t index;
     ChartBox box;
@@ -52,11 +52,11 @@ void sort_along(std::span<Item> items, int axis)
 
 struct Cut {
     int axis = 0;
-    std::size_t position = 0;  ///< items before it go to the first half
+    std::size_t position = 0;  ///< items before it are in the first half
     double cost = 1e300;
 };
 
-/// The straight cut across the rectangle whose two halves cost least.
+/// The straight cut across the rectangle with the lowest cost of both halves.
 Cut best_cut(std::span<Item> items, const ChartCost& cost)
 {
     Cut best;
@@ -105,8 +105,8 @@ Division divide(std::span<Item> items, const ChartCost& cost, int depth)
     return first;
 }
 
-/// Rejoins groups that cost less together: a straight cut may have parted the two triangles of
-/// one bar.
+/// Joins groups that cost less together: a straight cut may have separated the two triangles of one
+/// bar.
 void rejoin(Groups& groups, const std::vector<Item>& items, const ChartCost& cost)
 {
     std::vector<ChartBox> boxes(items.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Dividing charts that leave most of their rectangle empty: frames, rings, skirting boards.
+// Splits charts that leave most of their rectangle empty: frames, rings, skirting boards.
 
 #include <cstdint>
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace lumel {
 
-/// What charts will cost, as far as it is known before packing.
+/// Estimated cost of charts before packing.
 struct ChartCost {
-    double texels_per_metre = 0.0;  ///< estimate; 0: charts are not divided
+    double texels_per_metre = 0.0;  ///< estimate; 0: charts are not split
     int gutter = 2;                 ///< [texels]
 
-    /// Texels that a chart of this size [m] takes, with its gutter.
+    /// Texels of a chart of this size [m], including its gutter.
     double operator()(const glm::dvec2& size) const;
 };
 
-/// Divides the triangles of one flat chart where that saves texels. `triangles` [m]. Returns
-/// groups of indices into `triangles`, one for each chart.
+/// Splits the triangles of a flat chart if that saves texels. `triangles` [m]. Returns groups of
+/// indices into `triangles`, one per chart.
 std::vector<std::vector<std::uint32_t>> split_sparse(const std::vector<Polygon>& triangles,
                                                      const ChartCost& cost);
 

@@ -7,9 +7,10 @@
 namespace lumel {
 namespace {
 
-/// Cells of a grid have the mean length of the edges, but are wider than this many tolerances.
+/// Grid cells have the mean edge length, but at least this many tolerances.
 constexpr double kMinCell = 8.0;
-/// Cells along the longest edge, at most: a ground beside small things would have very many.
+/// Maximum cells along the longest edge: a large ground plane beside small objects would have too
+/// many.
 constexpr double kMaxAlong = 1e4;
 
 struct Cell {
@@ -25,7 +26,7 @@ struct HashOfCell {
     }
 };
 
-/// Ends of edges, to be found by where they are.
+/// Ends of edges in a grid, for queries by position.
 class Ends {
 public:
     Ends(const std::vector<BorderEdge>& edges, double cell, double tolerance)
@@ -37,7 +38,7 @@ public:
                 add(glm::dvec3(end.position));
     }
 
-    /// Where ends lie on an edge but for its own ends, as parts of its length, in order.
+    /// Ends on an edge except its own, as fractions of its length, in order.
     std::vector<double> on(const BorderEdge& edge) const
     {
         const glm::dvec3 from(edge.ends[0].position), to(edge.ends[1].position);

@@ -1,5 +1,5 @@
 #pragma once
-// Borders of charts, in the world and in the atlas.
+// Border edges of charts, in the world and in the atlas.
 
 #include <cstdint>
 #include <vector>
@@ -19,8 +19,8 @@ struct BorderEdge {
     EdgeEnd ends[2];
 };
 
-/// Cuts edges where ends of others lie on them, so that those that overlap share all of an edge.
-/// tolerance: how far off an end may be [m].
+/// Splits edges at ends of others that lie on them, so that overlapping edges coincide. tolerance:
+/// maximum distance of an end [m].
 void cut_at_ends(std::vector<BorderEdge>& edges, float tolerance);
 
 }  // namespace lumel

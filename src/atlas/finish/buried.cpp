@@ -1,6 +1,6 @@
-// A lumel under other geometry sees no light, and nobody sees it; but the texel beside it is seen
-// and is filtered with it. So it takes its neighbours' light, inside its chart only: a chart's
-// neighbour in the atlas may lie in another room.
+// A buried lumel receives no light and is invisible, but filtering mixes it with the visible texel
+// beside it. So it gets its neighbours' light, only from its own chart: an adjacent chart in the
+// atlas may be in another room.
 
 #include <cstddef>
 #include <limits>

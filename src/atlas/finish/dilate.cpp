@@ -1,5 +1,5 @@
-// Uncovered texels take their nearest covered neighbours' light, over the whole map: a mipmap of
-// any level averages nothing else.
+// Uncovered texels get the light of their nearest covered neighbours, over the whole map, so that
+// no mipmap level averages anything else.
 
 #include <cstddef>
 

@@ -16,11 +16,12 @@
 namespace lumel {
 namespace {
 
-// The densest few surfaces, such as a stamp on a letter, do not decide for all.
+// Share of the area that the density serves; a few denser surfaces, such as a stamp on a letter,
+// are ignored.
 constexpr double kShareServed = 0.95;
-// Rows of texels that a core fills at a time.
+// Rows of texels per task.
 constexpr int kBand = 32;
-// Samples per texel along each side: textures may still be denser than it.
+// Samples per side of a texel: textures may still be denser.
 constexpr int kLooks = 2;
 
 const Primitive& primitive_of(const Scene& scene, const Surface& surface)
@@ -35,7 +36,7 @@ double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
 }
 
-// Twice the area of the texture that a triangle shows [its texels]; 0 without a texture.
+// Twice the area of a triangle in its texture [texture texels]; 0 without a texture.
 double texture_area2(const Scene& scene, const TextureUse& use, const Primitive& primitive,
                      const std::array<std::uint32_t, 3>& source)
 {
@@ -53,18 +54,18 @@ double texture_area2(const Scene& scene, const TextureUse& use, const Primitive&
 }
 
 struct Share {
-    double density;  // texels of the texture along the side of an atlas texel
-    double area;     // that has it [texels of the atlas]
+    double density;  // texture texels per side of an atlas texel
+    double area;     // area with that density [atlas texels]
 };
 
-// One triangle of the atlas, to be filled.
+// A triangle of the atlas to be filled.
 struct Fill {
     const Primitive* primitive;
     TexelTriangle triangle;
-    int first_row, last_row;  // of the fine texels
+    int first_row, last_row;  // rows of fine texels
 };
 
-// The look of the material at a place in the atlas [its texels].
+// Material at an atlas position [atlas texels].
 MaterialSample look_at(const Scene& scene, const Fill& fill, const glm::dvec2& place)
 {
     const Primitive& primitive = *fill.primitive;
@@ -82,7 +83,7 @@ MaterialSample look_at(const Scene& scene, const Fill& fill, const glm::dvec2& p
     return sample_material(scene, primitive.material, texcoord, color);
 }
 
-// Bilinear; `place` in texels of the image.
+// Bilinear sample; `place` in texels of the image.
 glm::vec3 light_at(const Image& map, const glm::dvec2& place)
 {
     const auto span = [](double coordinate, int size) {
@@ -100,8 +101,8 @@ glm::vec3 light_at(const Image& map, const glm::dvec2& place)
                     glm::mix(texel(x, y + 1), texel(x + 1, y + 1), right), down);
 }
 
-// Adds the radiance of the looks that lie in the triangle to a fine texel, and 1 for each to its
-// alpha: where two triangles meet in a texel, both have a part of it.
+// Adds the radiance of the samples inside the triangle to a fine texel, and their number to its
+// alpha, because two triangles may share a texel.
 void add_looks(const Scene& scene, const Fill& fill, const Image& irradiance, int x, int y,
                int scale, float* rgba)
 {
@@ -173,7 +174,7 @@ void fill_rows(Image& fine, const Scene& scene, const std::vector<Fill>& fills,
             }
 }
 
-// Texels of the atlas in which no triangle was met show what the coarse map does.
+// Atlas texels without any sample get the value of the coarse map.
 void fill_thin(Image& fine, const Image& coarse, int scale)
 {
     const auto each = [&](int x, int y, const auto& visit) {

@@ -5,18 +5,18 @@
 namespace lumel {
 namespace {
 
-/// One value per texel, of the lumel that it shows.
+/// One value per texel, that of its visible lumel.
 Image layer_map(const std::vector<std::uint32_t>& shown, const Image& light,
                 const std::vector<glm::vec3>& values)
 {
-    Image map = light;  // for its alpha
+    Image map = light;  // copies its alpha
     for (std::size_t texel = 0; texel < shown.size(); ++texel)
         for (int c = 0; c < 3 && shown[texel] != kNoLumel; ++c)
             map.values[texel * 4 + std::size_t(c)] = values[shown[texel]][c];
     return map;
 }
 
-/// The map of one side. `other`: kLumelBack or 0, what marks lumels of the other one.
+/// Map of one side. `other`: the flag of lumels of the other side, kLumelBack or 0.
 Image side_map(const Scene& scene, const Atlas& atlas, const Lumels& lumels,
                std::span<const glm::vec3> values, std::uint32_t other)
 {

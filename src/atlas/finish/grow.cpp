@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // texels of a ring worth a task
+constexpr std::size_t kGrain = 1024;  // texels of a ring per task
 
 class Rings {
 public:
@@ -25,7 +25,7 @@ public:
             if (states_[texel] == TexelState::known)
                 queue_neighbours(texel);
         while (!ring_.empty()) {
-            // A ring reads only texels known before it, so the order inside it does not matter.
+            // A ring reads only texels of previous rings, so the order within it does not matter.
             parallel_for(ring_.size(), kGrain, [&](std::size_t first, std::size_t last) {
                 for (std::size_t i = first; i < last; ++i)
                     fill(ring_[i]);
@@ -40,7 +40,7 @@ public:
     }
 
 private:
-    // Calls visit(neighbour) for the up to eight neighbours that share the texel's label.
+    // Calls visit(neighbour) for up to eight neighbours with the texel's label.
     template <class Visit>
     void for_neighbours(std::size_t texel, const Visit& visit) const
     {

@@ -1,5 +1,5 @@
 #pragma once
-// Filling texels from their neighbours.
+// Fills texels from their neighbours.
 
 #include <cstdint>
 #include <vector>
@@ -9,14 +9,14 @@
 namespace lumel {
 
 enum class TexelState : std::uint8_t {
-    known,    ///< has its value
-    wanted,   ///< takes one from its neighbours
-    outside,  ///< neither gives nor takes
+    known,    ///< has a value
+    wanted,   ///< receives a value from its neighbours
+    outside,  ///< neither reads nor is read
 };
 
-/// Fills wanted texels ring by ring, outwards from the known ones: RGB of a ring's texel is the
-/// mean of those of its eight neighbours that were known before the ring. Light passes only
-/// between texels of equal label; `labels` empty: between all. states [height][width].
+/// Fills wanted texels ring by ring, outwards from the known ones: the RGB of a texel is the
+/// mean of its eight neighbours known before the ring. Only neighbours of equal label count, if
+/// `labels` is not empty. states [height][width].
 void grow(Image& map, std::vector<TexelState> states, const std::vector<std::uint32_t>& labels);
 
 }  // namespace lumel

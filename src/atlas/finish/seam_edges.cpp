@@ -15,21 +15,21 @@
 namespace lumel {
 namespace {
 
-constexpr float kWeldShare = 1e-5f;     // of the scene's size: rounding of transformed vertices
-constexpr float kSameNormal = 0.9397f;  // cos 20°: a crease below this is smooth to the eye
-constexpr float kSamePlace = 1e-3f;     // [texels] in the atlas: no tear
-constexpr std::size_t kLookAhead = 8;   // partners tried per edge, where many edges coincide
+constexpr float kWeldShare = 1e-5f;     // scene sizes: rounding of vertices
+constexpr float kSameNormal = 0.9397f;  // cos 20°: smaller creases count as smooth
+constexpr float kSamePlace = 1e-3f;     // [texels] in the atlas: not a seam
+constexpr std::size_t kLookAhead = 8;   // partners tried per edge, if many edges coincide
 
 using Edge = BorderEdge;
 
-// Gives points closer than `tolerance` on every axis the same number.
+// Gives points within `tolerance` on every axis the same number.
 class Welder {
 public:
     explicit Welder(float tolerance) : tolerance_(tolerance) {}
 
     std::uint32_t number_of(const glm::vec3& point)
     {
-        // Cells are larger than the tolerance, so that most points look into one cell only.
+        // Cells are larger than the tolerance, so most points need only one cell.
         const auto low = cell_of(point - tolerance_), high = cell_of(point + tolerance_);
         for (std::int64_t z = low[2]; z <= high[2]; ++z)
             for (std::int64_t y = low[1]; y <= high[1]; ++y)
@@ -61,7 +61,7 @@ private:
     }
     static std::uint64_t key_of(const Cell& cell)
     {
-        // Colliding cells share a list; near() distinguishes their points.
+        // Cells with colliding keys share a list; near() distinguishes their points.
         return std::uint64_t(cell[0]) * 73856093u ^ std::uint64_t(cell[1]) * 19349663u ^
                std::uint64_t(cell[2]) * 83492791u;
     }
@@ -76,7 +76,7 @@ private:
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };
 
-// Corners (3 t + k, towards the triangle's next corner) of edges that one triangle alone has.
+// Corners (3 t + k, towards the triangle's next corner) of edges of only one triangle.
 std::vector<std::uint32_t> border_corners(const Surface& surface)
 {
     std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>> edges;
@@ -98,7 +98,7 @@ std::vector<std::uint32_t> border_corners(const Surface& surface)
     return borders;
 }
 
-/// turned: the surface is seen from its back.
+/// turned: uses the surface's back.
 void add_borders(const Scene& scene, const Surface& surface, bool turned, std::vector<Edge>& edges)
 {
     const Instance& instance = scene.instances[surface.instance];
@@ -131,7 +131,7 @@ void add_borders(const Scene& scene, const Surface& surface, bool turned, std::v
     }
 }
 
-// Cuts edges that overlap, numbers the end points and lets every edge run from the lower number to
+// Splits overlapping edges, numbers the end points and directs every edge from the lower number to
 // the higher.
 void weld(std::vector<Edge>& edges)
 {
@@ -161,7 +161,7 @@ bool coincide(const Edge& a, const Edge& b)
     return a.ends[0].point == b.ends[0].point && a.ends[1].point == b.ends[1].point;
 }
 
-// Written so that a normal that is not a number never agrees.
+// False for normals that are NaN.
 bool smooth(const Edge& a, const Edge& b)
 {
     return glm::dot(a.ends[0].normal, b.ends[0].normal) >= kSameNormal &&
@@ -186,7 +186,7 @@ std::vector<Seam> find_seams(const Scene& scene, const Atlas& atlas)
     }
     weld(edges);
 
-    // Link each edge to the next one that goes on smoothly; chains link all that coincide.
+    // Links each edge to the next one that continues smoothly; chains link all coincident edges.
     std::vector<Seam> seams;
     for (std::size_t i = 0; i < edges.size(); ++i)
         for (std::size_t j = i + 1; j < std::min(edges.size(), i + 1 + kLookAhead); ++j) {
@@ -219,7 +219,7 @@ SeamSizes seam_sizes(const Atlas& atlas)
 
 std::uint64_t seam_edge_bytes(std::size_t edges)
 {
-    // As they are, cut, and put in order beside that; and a point for each in a table of cells.
+    // The edges, split, and sorted; and a point for each in a table of cells.
     constexpr std::uint64_t kCopies = 3, kOfPoint = sizeof(glm::dvec3) + 3 * sizeof(void*);
     return edges * (kCopies * sizeof(Edge) + kOfPoint);
 }

@@ -1,20 +1,20 @@
 // Least-squares seams, after the idea in M. Iwanicki, "Lighting Technology of The Last of Us",
 // SIGGRAPH 2013 talks.
 //
-// Along a seam the same point p of the world has two places in the atlas. Bilinear sampling there
-// gives Σ a_k x_k on one side and Σ b_k x_k on the other, with four texels each. The texels x
-// that such samples touch are moved, as little as possible, so that both sides agree:
+// Along a seam a point p of the world has two atlas positions. Bilinear sampling gives Σ a_k x_k on
+// one side and Σ b_k x_k on the other, with four texels each. The texels x of such samples are
+// changed as little as possible so that both sides agree:
 //
 //     minimise  Σ_p w_p (Σ a_pk x_k − Σ b_pk x_k)²  +  Σ_t λ_t (x_t − x⁰_t)²
 //
-// x⁰: the dilated map. w_p: kPull times the length of seam [texels] that sample p stands for.
-// λ_t: kHoldGutter + kHold × coverage, so that gutters move freely and solved texels little.
-// With x = x⁰ + d and rows g_p = a_p − b_p this is the linear system
+// x⁰: the dilated map. w_p: kPull times the seam length [texels] per sample p. λ_t: kHoldGutter +
+// kHold × coverage, so that gutters change freely and solved texels little. With x = x⁰ + d and
+// rows g_p = a_p − b_p this is the linear system
 //
 //     (Gᵀ W G + Λ) d = −Gᵀ W G x⁰
 //
-// symmetric, positive definite and sparse: conjugate gradients, scaled by the diagonal, and
-// serial, so that the same map gives the same bytes.
+// symmetric, positive definite and sparse: conjugate gradients with diagonal preconditioner,
+// serial, so that equal maps give equal bytes.
 
 #include <algorithm>
 #include <array>
@@ -32,21 +32,21 @@ namespace {
 constexpr double kPull = 20.0;
 constexpr double kHold = 1.0;
 constexpr double kHoldGutter = 0.02;
-constexpr float kSamplesPerTexel = 2.0f;  // bilinear weights have a kink every texel
+constexpr float kSamplesPerTexel = 2.0f;  // bilinear weights have a kink at every texel
 constexpr float kMaxSamples = 1.0e5f;     // per edge
 constexpr float kLargestJump = 0.5f;      // relative
 constexpr int kMaxIterations = 200;
-constexpr double kTolerance = 1e-4;  // of the residual's first length: gaps change no more
+constexpr double kTolerance = 1e-4;  // relative residual: no visible change beyond
 constexpr std::uint32_t kUntouched = ~0u;
 
-using Colors = std::vector<glm::dvec3>;  // of each unknown
+using Colors = std::vector<glm::dvec3>;  // per unknown
 
 struct Footprint {
     std::array<std::uint32_t, 4> texels;
     std::array<float, 4> weights;
 };
 
-// One sample point of a seam: four texels of one side, then four of the other, subtracted.
+// A sample point of a seam: four texels of one side minus four of the other.
 struct Row {
     std::array<std::uint32_t, 8> unknowns;
     std::array<float, 8> weights;
@@ -55,9 +55,9 @@ struct Row {
 
 struct System {
     std::vector<Row> rows;
-    std::vector<std::uint32_t> texels;  // of each unknown
-    std::vector<double> hold;           // λ of each unknown
-    std::vector<double> diagonal;       // of Gᵀ W G + Λ
+    std::vector<std::uint32_t> texels;  // per unknown
+    std::vector<double> hold;           // λ per unknown
+    std::vector<double> diagonal;       // diagonal of Gᵀ W G + Λ
 };
 
 Footprint bilinear(const Image& map, const glm::vec2& place)
@@ -82,7 +82,8 @@ float brightness(const Image& map, const Footprint& footprint)
     return sum;
 }
 
-// Calls visit(a, b, length) for points along a seam: both places, and the texels each stands for.
+// Calls visit(a, b, length) for points along a seam: both positions, and the texels of length per
+// point.
 template <class Visit>
 void along(const Image& map, const Seam& seam, const Visit& visit)
 {
@@ -98,13 +99,13 @@ void along(const Image& map, const Seam& seam, const Visit& visit)
     }
 }
 
-// More is an edge of the light itself.
+// True for a discontinuity of the light itself.
 bool jumps(float light_a, float light_b)
 {
     return std::abs(light_a - light_b) > kLargestJump * std::max(light_a, light_b);
 }
 
-// Rows hold texel numbers here; number_unknowns replaces them.
+// Rows have texel indices here; number_unknowns replaces them.
 void add_rows(const Image& map, const Seam& seam, std::vector<Row>& rows)
 {
     along(map, seam, [&](const Footprint& a, const Footprint& b, double length) {
@@ -162,7 +163,7 @@ glm::dvec3 dot(const Colors& a, const Colors& b)
     return sum;
 }
 
-// A channel that is solved, or black, has nothing left to divide by.
+// 0 for channels that have converged or are black.
 glm::dvec3 ratio(const glm::dvec3& a, const glm::dvec3& b)
 {
     glm::dvec3 result(0.0);
@@ -172,8 +173,8 @@ glm::dvec3 ratio(const glm::dvec3& a, const glm::dvec3& b)
     return result;
 }
 
-// Solves (Gᵀ W G + Λ) d = −Gᵀ W G x⁰ by preconditioned conjugate gradients, for the three
-// channels side by side.
+// Solves (Gᵀ W G + Λ) d = −Gᵀ W G x⁰ by preconditioned conjugate gradients, for all three channels
+// at once.
 Colors solve(const System& system, const Colors& x0)
 {
     const std::size_t count = x0.size();
@@ -206,7 +207,7 @@ Colors solve(const System& system, const Colors& x0)
     return d;
 }
 
-// Moves the unknowns of a map to where its seams agree, but not below `least`.
+// Updates the unknowns of a map, clamped at `least`.
 void apply(const System& system, Image& map, double least)
 {
     Colors x0;
@@ -260,10 +261,10 @@ void match_seams(Image& map, const Scene& scene, const Atlas& atlas, const Lumel
 
 std::uint64_t finish_bytes(const Atlas& atlas)
 {
-    // Two samples for each texel of a seam, whose two sides are borders; both may touch as many
-    // texels as they are long, on either side of the border.
+    // Two samples per texel of a seam, whose two sides are borders; both may use as many texels as
+    // they are long, on either side of the border.
     constexpr double kRows = kSamplesPerTexel / 2.0, kUnknowns = 2.0;
-    constexpr std::size_t kColors = 6;  // of conjugate gradients
+    constexpr std::size_t kColors = 6;  // vectors of the conjugate gradients
     constexpr double kOfUnknown =
         kColors * sizeof(glm::dvec3) + 2 * sizeof(double) + sizeof(std::uint32_t);
     const SeamSizes sizes = seam_sizes(atlas);

@@ -1,4 +1,4 @@
-// From one value per lumel to one value per texel.
+// Converts values per lumel to values per texel.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The material under a texel, averaged.
+// Mean material of a texel.
 
 #include <algorithm>
 #include <cmath>
@@ -9,14 +9,14 @@ namespace lumel {
 
 namespace {
 
-// Samples along each side of a texel: few where a texture is magnified, one for each of its own
-// texels where it is not, until cost forbids: 64 stratified samples leave well under 1 per cent.
+// Samples per side of a texel: few for magnified textures, otherwise one per texture texel, up to a
+// limit: 64 stratified samples have an error well below 1 per cent.
 constexpr int kMinGrid = 4;
 constexpr int kMaxGrid = 8;
-// A texel with more parts than this is averaged finely enough by one sample each.
+// Above this number of parts per texel, one sample each suffices.
 constexpr std::size_t kManyParts = 16;
 
-/// The material at one point of a part.
+/// Material at a point of a part.
 MaterialSample sample_at(const Scene& scene, const Part& part, const glm::dvec2& point)
 {
     const Primitive& primitive = *part.primitive;
@@ -32,7 +32,7 @@ MaterialSample sample_at(const Scene& scene, const Part& part, const glm::dvec2&
     return sample_material(scene, primitive.material, texcoord, color);
 }
 
-/// Texture texels along the side of one atlas texel.
+/// Texture texels per side of an atlas texel.
 double texture_texels(const Scene& scene, const Part& part, const TextureUse& use)
 {
     if (use.texture < 0 || part.triangle.collapsed)
@@ -49,7 +49,7 @@ double texture_texels(const Scene& scene, const Part& part, const TextureUse& us
                      part.triangle.plane.area());
 }
 
-/// Repeatable pseudo-random number in 0…1 (a multiply-and-shift hash).
+/// Deterministic pseudo-random number in 0…1 (a multiply-and-shift hash).
 double noise(std::uint32_t a, std::uint32_t b)
 {
     std::uint32_t hash = a * 0x9E3779B1u ^ (b + 0x7F4A7C15u) * 0x85EBCA77u;
@@ -58,7 +58,7 @@ double noise(std::uint32_t a, std::uint32_t b)
     return double(hash ^ hash >> 15) / 4294967296.0;
 }
 
-/// Adds a sample that stands for this much area.
+/// Adds a sample that represents this area.
 void add(Look& sum, const MaterialSample& sample, double area)
 {
     sum.albedo += area * double(sample.opacity) * glm::dvec3(sample.albedo);
@@ -70,7 +70,7 @@ void add(Look& sum, const MaterialSample& sample, double area)
     sum.area += area;
 }
 
-/// Samples all parts on a grid over the texel. Notes in `met` which of them a sample fell into.
+/// Samples all parts on a grid over the texel. `met`: parts with at least one sample.
 void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, int y, Look& sum,
                     std::vector<bool>& met)
 {
@@ -82,7 +82,7 @@ void sample_on_grid(const Scene& scene, const std::vector<Part>& parts, int x, i
         std::ceil(std::max(texture_texels(scene, *largest, material.base_color_texture),
                            texture_texels(scene, *largest, material.emissive_texture)));
     const int grid = int(std::clamp(wanted, double(kMinGrid), double(kMaxGrid)));
-    // Strata wider than a texture's texel would beat with its pattern: jitter inside them.
+    // Strata wider than a texture texel would alias with its pattern, so samples are jittered.
     const double jitter = wanted > kMaxGrid ? 1.0 : 0.0;
     for (int j = 0; j < grid; ++j)
         for (int i = 0; i < grid; ++i) {

@@ -1,4 +1,4 @@
-// Lifting: every texel that a surface touches becomes a lumel.
+// Makes a lumel of every texel that a surface touches.
 
 #include <algorithm>
 #include <cmath>
@@ -15,19 +15,19 @@ namespace lumel {
 
 namespace {
 
-// A part this small, and this small a share of its triangle, is rounding at the triangle's edge.
+// Parts below both limits are rounding at a triangle's edge.
 constexpr double kThinPart = 1e-6;  // [texels²]
 constexpr double kThinShare = 1e-3;
-// Texels for a core to do at once.
+// Texels per task.
 constexpr std::size_t kGrain = 1024;
-// Texels lifted before they are collected: bounds what is held twice.
+// Texels converted before they are collected: bounds temporary memory.
 constexpr std::size_t kTexelsAtATime = 1 << 17;
-// Parts of different charts in one texel are one surface if they face within 45 degrees.
+// Parts of different charts in one texel are one surface if their normals are within 45 degrees.
 const double kCosContinues = std::cos(glm::radians(45.0));
-// Up to this many corners a lumel's diameter is measured exactly.
+// Maximum number of corners for an exact diameter.
 constexpr std::size_t kExactDiameter = 32;
 
-/// A triangle touches a texel.
+/// Overlap of a triangle and a texel.
 struct Touch {
     std::uint32_t texel;
     std::uint32_t surface;
@@ -35,7 +35,7 @@ struct Touch {
     float area;  ///< [texels²]
 };
 
-/// Calls visit(x, y, area) for every texel that the triangle covers a part of.
+/// Calls visit(x, y, area) for every texel that the triangle overlaps.
 template <typename Visit>
 void for_each_texel(const TexelTriangle& triangle, int width, int height, Visit visit)
 {
@@ -44,8 +44,8 @@ void for_each_texel(const TexelTriangle& triangle, int width, int height, Visit 
     };
     const Polygon& plane = triangle.plane;
     if (triangle.collapsed) {
-        // Smaller than rounding: it goes whole to the texel of its centre, and if it is a long
-        // line without width it is no surface.
+        // Degenerate: assigned to the texel of its centre, unless it is a long line without
+        // width, which is not a surface.
         const glm::dvec2 extent = plane.high() - plane.low();
         const glm::dvec2 centre = (plane.corner[0] + plane.corner[1] + plane.corner[2]) / 3.0;
         if (std::max(extent.x, extent.y) < 1.0)
@@ -67,7 +67,7 @@ void for_each_texel(const TexelTriangle& triangle, int width, int height, Visit 
     }
 }
 
-/// Every touch, ordered by texel, and within a texel by surface and triangle.
+/// All touches, ordered by texel, then by surface and triangle.
 std::vector<Touch> find_touches(const Scene& scene, const Atlas& atlas)
 {
     std::vector<std::vector<Touch>> found(atlas.surfaces.size());
@@ -101,10 +101,10 @@ std::vector<Touch> find_touches(const Scene& scene, const Atlas& atlas)
     return sorted;
 }
 
-/// The touches of one texel.
+/// The touches of a texel.
 struct TexelTouches {
     std::uint32_t first, last;  ///< range of touches
-    std::uint32_t chart;        ///< that covers most of the texel
+    std::uint32_t chart;        ///< with the largest area in the texel
 };
 
 std::uint32_t chart_of(const Atlas& atlas, const Touch& touch)
@@ -112,8 +112,8 @@ std::uint32_t chart_of(const Atlas& atlas, const Touch& touch)
     return atlas.surfaces[touch.surface].chart[touch.triangle];
 }
 
-/// The chart with the largest part of a texel; the lowest number among equals. Charts we make
-/// never share a texel, layouts of the file may.
+/// The chart with the largest part of a texel; the lowest index among equals. Only charts of the
+/// file may share a texel.
 std::uint32_t main_chart(const Atlas& atlas, const std::vector<Touch>& touches, std::uint32_t first,
                          std::uint32_t last)
 {
@@ -137,7 +137,7 @@ std::uint32_t main_chart(const Atlas& atlas, const std::vector<Touch>& touches, 
     return best.first;
 }
 
-/// Covered texels in the order of lumels: by chart, then along a Morton curve.
+/// Covered texels in lumel order: by chart, then along a Morton curve.
 std::vector<TexelTouches> order_texels(const Atlas& atlas, const std::vector<Touch>& touches)
 {
     std::vector<TexelTouches> texels;
@@ -161,7 +161,7 @@ std::vector<TexelTouches> order_texels(const Atlas& atlas, const std::vector<Tou
     return ordered;
 }
 
-/// Largest distance between two of the points; of many points, a good guess from below.
+/// Largest distance between two points; for many points, a close lower bound.
 double diameter(const std::vector<glm::dvec3>& points)
 {
     double longest = 0.0;
@@ -171,7 +171,7 @@ double diameter(const std::vector<glm::dvec3>& points)
                 longest = std::max(longest, glm::distance(points[i], points[j]));
         return longest;
     }
-    // Walk to the farthest point and from there again.
+    // Goes to the farthest point, repeatedly.
     std::size_t from = 0, to = 0;
     for (int walk = 0; walk < 3; ++walk, from = to)
         for (std::size_t i = 0; i < points.size(); ++i)
@@ -182,7 +182,7 @@ double diameter(const std::vector<glm::dvec3>& points)
     return longest;
 }
 
-/// What one texel becomes: its front lumel with its pieces, or nothing.
+/// A texel's front lumel with its pieces, or none.
 struct Lifted {
     Lumel lumel{};
     Gloss gloss{};
@@ -202,8 +202,8 @@ bool is_double_sided(const Scene& scene, const Atlas& atlas, const std::vector<T
     return false;
 }
 
-/// True if a part of another chart belongs to the same place: layouts of the file may have
-/// parts of one surface side by side without a gap, and then they meet inside a texel.
+/// True if a part of another chart continues the main part: charts of the file may be adjacent
+/// without a gap inside a texel.
 bool continues(const Part& main, const Part& other, int x, int y)
 {
     if (main.surface->instance != other.surface->instance || main.triangle.collapsed ||
@@ -215,7 +215,7 @@ bool continues(const Part& main, const Part& other, int x, int y)
                          other.position(other.polygon.centroid())) < 2.0 * texel_diagonal;
 }
 
-/// The texel's square clipped to the triangles of its main chart and to what continues it.
+/// The texel's square clipped to the triangles of its main chart and its continuations.
 std::vector<Part> clip_to_texel(const Scene& scene, const Atlas& atlas,
                                 const std::vector<Touch>& touches, const TexelTouches& texel,
                                 double& covered)
@@ -246,7 +246,7 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
     double covered = 0.0;
     const std::vector<Part> parts = clip_to_texel(scene, atlas, touches, texel, covered);
 
-    // Measure position, area and extent.
+    // Measures position, area and extent.
     const Instance& instance = scene.instances[parts.front().surface->instance];
     const glm::dmat3 to_world(instance.transform);
     double area = 0.0;
@@ -268,7 +268,7 @@ Lifted lift_texel(const Scene& scene, const Atlas& atlas, const std::vector<Touc
     result.pieces = cut_into_pieces(parts, x, y);
     result.coverage = float(std::min(covered, 1.0) * look.opacity);
     Lumel& lumel = result.lumel;
-    // The centroid of a bent part hangs in the air, or worse, inside the wall.
+    // The centroid of a bent lumel may be off the surface, even inside the wall.
     lumel.position =
         result.pieces.size() > 1 ? nearest_on(result.pieces, position / area) : position / area;
     lumel.normal = glm::length(normal) > 1e-3 * area ? glm::normalize(normal)
@@ -296,7 +296,7 @@ void append_front(const Lifted& lifted, Lumels& lumels)
     lumels.pieces.insert(lumels.pieces.end(), lifted.pieces.begin(), lifted.pieces.end());
 }
 
-/// Adds the other sides of the lumels from `first` on.
+/// Adds the back sides of the lumels from `first` on.
 void append_backs(std::size_t first, Lumels& lumels)
 {
     const std::size_t last = lumels.lumels.size();
@@ -331,8 +331,8 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallbac
     const std::vector<Touch> touches = find_touches(scene, atlas);
     const std::vector<TexelTouches> texels = order_texels(atlas, touches);
 
-    // Lift on all cores, some texels at a time; collect in order, each chart's fronts, then its
-    // backs. All of a chart has one material.
+    // Converts texels in parallel, in blocks; collects them in order, each chart's fronts, then its
+    // backs. A chart has one material.
     std::vector<Lifted> lifted;
     std::size_t chart_first = 0;
     for (std::size_t first = 0; first < texels.size(); first += kTexelsAtATime) {

@@ -9,15 +9,15 @@ namespace {
 
 // Triangles thinner than this in texel space have no usable inverse map.
 constexpr double kCollapsedArea = 1e-10;  // [texels²]
-// Beyond this angle to the surface an interpolated normal is an artefact.
+// Interpolated normals beyond this angle to the surface are artefacts.
 const double kCosNormal = std::cos(glm::radians(75.0));
-// Two maps are one if they agree to this share of a texel's edge anywhere in the texel.
+// Two maps are equal if they agree to this share of a texel's edge over the texel.
 constexpr double kSameMap = 1e-3;
-// A shape is a parallelogram, or fills its rectangle, to this share of a texel.
+// Tolerance for parallelograms and filled rectangles, relative to a texel.
 constexpr double kSameShape = 1e-5;
-// Normals of parts that are merged must agree to about 2.5 degrees.
+// Merged parts must have normals within about 2.5 degrees.
 constexpr double kCosSameNormal = 0.999;
-// Enough to draw points uniformly from a lumel on a finely meshed surface.
+// Sufficient for uniform sampling of a lumel on a finely meshed surface.
 constexpr std::size_t kMaxPieces = 32;
 
 Piece make_piece(const Part& part, const glm::dvec2& origin, const glm::dvec2& u,
@@ -64,7 +64,7 @@ void cut(const Part& part, std::vector<Piece>& pieces)
     }
 }
 
-/// True if all parts lie in one plane in one scale, so that the texel maps as a whole.
+/// True if all parts lie in one plane and scale, so that one map covers the texel.
 bool share_one_map(const std::vector<Part>& parts, int x, int y)
 {
     const std::array<glm::dvec2, 3> probes{glm::dvec2(x, y), glm::dvec2(x + 1, y),
@@ -89,7 +89,7 @@ bool share_one_map(const std::vector<Part>& parts, int x, int y)
     });
 }
 
-/// One parallelogram for all parts, if together they fill a rectangle of the texel.
+/// Adds one parallelogram for all parts, if together they fill a rectangle of the texel.
 bool merge(const std::vector<Part>& parts, int x, int y, std::vector<Piece>& pieces)
 {
     if (!share_one_map(parts, x, y))
@@ -114,11 +114,11 @@ bool merge(const std::vector<Part>& parts, int x, int y, std::vector<Piece>& pie
     return true;
 }
 
-/// The point of a triangle that is nearest to `point`.
+/// The point of a triangle nearest to `point`.
 glm::dvec3 nearest_on_triangle(const glm::dvec3& origin, const glm::dvec3& u, const glm::dvec3& v,
                                const glm::dvec3& point)
 {
-    // Inside: drop the perpendicular.
+    // Inside: the perpendicular foot.
     const glm::dvec3 at = point - origin;
     const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
     const double whole = uu * vv - uv * uv;
@@ -128,7 +128,7 @@ glm::dvec3 nearest_on_triangle(const glm::dvec3& origin, const glm::dvec3& u, co
         if (s >= 0.0 && t >= 0.0 && s + t <= 1.0)
             return origin + s * u + t * v;
     }
-    // Outside: the nearest point is on one of the edges.
+    // Outside: the nearest point is on an edge.
     glm::dvec3 best = origin;
     const std::array<glm::dvec3, 4> corner{origin, origin + u, origin + v, origin};
     for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where on a lumel light is received.
+// Receiving points of a lumel: distributed over its area, or its centroid.
 
 namespace lumel {
 

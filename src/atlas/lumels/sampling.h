@@ -1,5 +1,5 @@
 #pragma once
-// Points on lumels, on the host. The twin of raster/world/lumel.glsl.
+// Points on lumels, on the CPU. Duplicated in raster/world/lumel.glsl.
 
 #include <algorithm>
 #include <cmath>
@@ -9,17 +9,16 @@
 
 namespace lumel {
 
-/// A point of a lumel and the normal there, in the frame of its pieces.
+/// A point of a lumel and its normal, in the frame of its pieces.
 struct LumelPoint {
     glm::vec3 position;
     glm::vec3 normal;
 };
 
-/// Maps (s, t) in the unit square to a point of the lumel that consists of `pieces`, uniform by
-/// area.
+/// Maps (s, t) in the unit square to a point of the lumel with these pieces, uniform by area.
 inline LumelPoint point_on(std::span<const Piece> pieces, float s, float t)
 {
-    // Choose the piece by its share of the area, and stretch s back to 0…1.
+    // Selects the piece by its share of the area, and rescales s to 0…1.
     std::size_t index = 0;
     float below = 0.0f;
     while (index + 1 < pieces.size() && s >= pieces[index].share)
@@ -35,7 +34,7 @@ inline LumelPoint point_on(std::span<const Piece> pieces, float s, float t)
     return {piece.origin + u * piece.edge_u + v * piece.edge_v, piece.normal};
 }
 
-/// The same in the lumel's instance frame.
+/// Maps (s, t) to a point in the lumel's instance frame.
 inline LumelPoint point_on(const Lumels& lumels, const Lumel& lumel, float s, float t)
 {
     return point_on(std::span(lumels.pieces).subspan(lumel.first_piece, lumel.piece_count), s, t);

@@ -1,6 +1,6 @@
 #pragma once
-// Where the map has the two sides of double-sided surfaces. Solvers know both sides of a lumel by
-// one texel, that of the front (Lumel::texel); the map may show the back in texels of its own.
+// Both sides of double-sided surfaces in the map. In solvers both lumels have the front's texel
+// (Lumel::texel); the map may have separate texels for the back.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@ inline bool is_back(const Lumel& lumel)
     return (lumel.flags & kLumelBack) != 0;
 }
 
-/// Where lumels_by_side() has the lumel of a texel and side.
+/// Index of a texel and side in lumels_by_side().
 inline std::size_t place_by_side(std::size_t texel, bool back)
 {
     return 2 * texel + (back ? 1 : 0);
@@ -39,24 +39,24 @@ inline std::uint32_t lit_lumel_at(const Lumels& lumels, std::span<const std::uin
     return i == kNoLumel || (lumels.lumels[i].flags & kLumelBuried) ? kNoLumel : i;
 }
 
-/// True if the map shows the back of a chart in texels of its own. back_shift: an atlas'.
+/// True if the back of a chart has its own texels. back_shift: as in Atlas.
 bool has_own_back(std::span<const glm::ivec2> back_shift, std::uint32_t chart);
 
-/// True if one of the surface's charts has.
+/// True if one of the surface's charts has a back with its own texels.
 bool has_own_back(const Atlas& atlas, const Surface& surface);
 
-/// The texel of the map that shows a lumel, if it is shown.
+/// The map texel of a lumel, if it is shown.
 std::uint32_t map_texel(const Lumels& lumels, const Lumel& lumel);
 
-/// The chart of the map that it belongs to there: backs with texels of their own are charts of
-/// their own, numbered after all others.
+/// The map chart of a lumel: backs with their own texels are separate charts, numbered after all
+/// others.
 std::uint32_t map_chart(const Lumels& lumels, const Lumel& lumel);
 
-/// A surface as seen from its back: triangles turned round, with the places where the map shows
-/// that side. Its vertices are the surface's, one for one.
+/// The back of a surface: reversed triangles with the atlas positions of that side. Vertices
+/// correspond one to one.
 Surface back_of(const Atlas& atlas, const Surface& surface);
 
-/// The same without triangles whose sides share their texels.
+/// The back of a surface without the triangles that share the front's texels.
 Surface own_back_of(const Atlas& atlas, const Surface& surface);
 
 }  // namespace lumel

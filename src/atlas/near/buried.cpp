@@ -11,22 +11,22 @@ namespace lumel {
 
 namespace {
 
-/// Lumels that a watched step looks at, and least that a core takes.
+/// Lumels per progress step, and minimum per task.
 constexpr std::size_t kLumelsPerStep = 8192, kGrain = 64;
-constexpr std::uint32_t kFirstPoints = 8;  ///< all over a lumel, to test whether it is open
-constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are looked at first
-constexpr float kInset = 0.02f;  ///< of points from an edge, in parts of the piece or strip
-constexpr int kStrips = 6;       ///< that a partly hidden lumel is cut into
-constexpr int kBisections = 4;   ///< to find where a strip is cut, to 1/32 of a place
-constexpr std::uint32_t kDirections = 16;  ///< per point
-/// Rays do not leave nearer to the surface than this cosine: what opens only below it is a crack.
+constexpr std::uint32_t kFirstPoints = 8;  ///< over the whole lumel, to test whether it is open
+constexpr std::size_t kCornerPieces = 4;   ///< pieces whose corners are tested first
+constexpr float kInset = 0.02f;  ///< inset of points from edges, relative to the piece or strip
+constexpr int kStrips = 6;       ///< strips of a partly buried lumel
+constexpr int kBisections = 4;   ///< for a strip's open end, to 1/32 of a sample distance
+constexpr std::uint32_t kDirections = 16;  ///< rays per point
+/// Minimum cosine of rays to the surface: openings below it are cracks.
 constexpr float kMinCosine = 0.17f;
-/// A lumel with less than this left open counts as buried: too little is seen of it to hold a value
-/// of its own, and its neighbours' light fills it better.
+/// Minimum open share of a lumel that is not buried: less is too small to hold a value, and its
+/// neighbours' light fills it better.
 constexpr float kMinOpen = 0.1f;
-/// A surface closer than this above a lumel, in the lumel's sizes, lies on it.
+/// A surface closer than this above a lumel, relative to its size, lies on it.
 constexpr float kContact = 0.01f;
-/// Blended surfaces are judged by one draw; which one does not matter.
+/// Seed for blended surfaces; any value serves.
 constexpr std::uint32_t kBlendSeed = 0;
 
 bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lumel,
@@ -41,7 +41,7 @@ bool is_shut_in(const Scene& scene, const RayScene& rays, const WorldLumel& lume
     return hit.distance * glm::dot(direction, point.normal) < kContact * lumel.size;
 }
 
-/// The scene, as everything below uses it.
+/// Common inputs.
 struct Inputs {
     const Scene& scene;
     const RayScene& rays;
@@ -49,13 +49,12 @@ struct Inputs {
     const Lumels& lumels;
 };
 
-/// Tells whether points of one lumel are hidden. The direction that got away last is tried first:
-/// it often does so again.
+/// Tests whether points of a lumel are hidden. Tries the last successful direction first.
 class HiddenPoints {
 public:
     HiddenPoints(const Inputs& look, std::size_t i) : look_(look), lumel_(i) {}
 
-    /// True if every ray of a point is shut in.
+    /// True if all rays from a point are blocked.
     bool operator()(const LumelPoint& point)
     {
         for (std::uint32_t k = 0; k < kDirections; ++k) {
@@ -71,7 +70,7 @@ public:
         return true;
     }
 
-    /// The same for a place on one of its pieces, in the world.
+    /// True if a world-space point on one of its pieces is hidden.
     bool operator()(const Piece& piece, const glm::vec2& uv)
     {
         return (*this)({piece.origin + uv.x * piece.edge_u + uv.y * piece.edge_v, piece.normal});
@@ -85,8 +84,8 @@ private:
 
 enum class Openness { open, partly, hidden };
 
-/// By some first points of the lumel: near the corners of its pieces, where a neighbour would begin
-/// to cover it, and all over.
+/// Tests a few points: near the corners of its pieces, where neighbours begin to cover it, and over
+/// the whole lumel.
 Openness first_look(const Inputs& look, std::size_t i)
 {
     HiddenPoints is_hidden(look, i);
@@ -108,7 +107,7 @@ Openness first_look(const Inputs& look, std::size_t i)
     return any_open ? Openness::open : Openness::hidden;
 }
 
-/// A piece that is cut to its open part in strips. `swapped`: strips lie along v instead of u.
+/// Reduces a piece to its open part, in strips. `swapped`: strips are along v instead of u.
 class Strips {
 public:
     Strips(const Inputs& look, std::size_t i, std::uint32_t index, int count)
@@ -117,8 +116,8 @@ public:
           in_world_(look.world.pieces(look.world[i])[index]),
           count_(count)
     {
-        // Strips should run where the piece changes most. In a parallelogram both grids have the
-        // same places, in a triangle about the same.
+        // Strips run in the direction of more changes. In a parallelogram both grids have the same
+        // points, in a triangle nearly so.
         open_ = grid(false);
         Grid turned{};
         for (int line = 0; line < count_; ++line)
@@ -141,7 +140,7 @@ public:
     }
 
 private:
-    /// [lines][places along a line] whether a place is open.
+    /// [lines][points per line] true if open.
     using Grid = std::array<bool, std::size_t(kStrips) * kStrips>;
     static std::size_t at(int line, int k) { return std::size_t(line) * kStrips + std::size_t(k); }
 
@@ -151,7 +150,7 @@ private:
                            swapped ? glm::vec2(across, along) : glm::vec2(along, across));
     }
 
-    /// Length of the piece along its strips, at a place across them.
+    /// Length of the piece along its strips, at a position across them.
     float length_at(float across) const { return piece_.parallelogram ? 1.0f : 1.0f - across; }
 
     Grid grid(bool swapped)
@@ -166,7 +165,7 @@ private:
         return open;
     }
 
-    /// How often a grid changes between open and hidden along its lines.
+    /// Number of changes between open and hidden along the grid's lines.
     int changes(const Grid& open) const
     {
         int changes = 0;
@@ -176,7 +175,7 @@ private:
         return changes;
     }
 
-    /// Where a strip changes between an open and a hidden place, by bisection.
+    /// Boundary between an open and a hidden point of a strip, by bisection.
     float edge_between(float open, float hidden, float across)
     {
         for (int step = 0; step < kBisections; ++step) {
@@ -186,7 +185,7 @@ private:
         return 0.5f * (open + hidden);
     }
 
-    /// Open stretches of the line through a strip's middle.
+    /// Open intervals of a strip's centre line.
     std::vector<std::pair<float, float>> open_runs(int strip, float across)
     {
         const float length = length_at(across), step = length / float(count_);
@@ -209,7 +208,7 @@ private:
         return runs;
     }
 
-    /// One stretch of a strip; at the long side of a triangle the strip ends in a triangle.
+    /// Appends an interval of a strip; at the long side of a triangle the strip ends in a triangle.
     void append_run(float low, float step, float begin, float end, std::vector<Piece>& parts) const
     {
         const float straight = piece_.parallelogram ? 1.0f : std::max(1.0f - low - step, 0.0f);
@@ -245,8 +244,7 @@ float local_area(const Piece& piece)
            (piece.parallelogram ? 1.0f : 0.5f);
 }
 
-/// What is left of a lumel that is partly hidden: its open pieces, with their shares, and the
-/// share of the area that they are.
+/// The open pieces of a partly buried lumel, with their shares, and their share of the area.
 struct OpenPart {
     std::size_t lumel;
     std::vector<Piece> pieces;
@@ -271,7 +269,7 @@ OpenPart find_open_part(const Inputs& look, std::size_t i)
     return part;
 }
 
-/// Makes the lumel its open part, or buries it. Returns its open share.
+/// Reduces the lumel to its open part, or buries it. Returns its open share.
 float apply(Lumels& lumels, const OpenPart& part)
 {
     Lumel& lumel = lumels.lumels[part.lumel];

@@ -1,11 +1,11 @@
-// The form factor of a polygon seen from a point.
+// Form factor of a polygon from a point.
 //
-// [Lam60] J. H. Lambert, Photometria, 1760. For a polygon with corners c_k, seen from x with
-// normal n, with a_k = c_k - x:
+// [Lam60] J. H. Lambert, Photometria, 1760. For a polygon with corners c_k, from x with normal n,
+// with a_k = c_k - x:
 //
 //     F = 1/2π Σ_k θ_k n·(a_k+1 × a_k) / |a_k+1 × a_k|,    θ_k = angle between a_k and a_k+1
 //
-// for corners counter-clockwise as seen from x, after the part below x's horizon is cut off.
+// for corners counter-clockwise from x, after clipping at x's horizon.
 
 #include "atlas/near/near_field.h"
 
@@ -19,10 +19,10 @@ namespace {
 
 using dvec3 = glm::dvec3;
 
-/// Below this tan²θ a short series stands for the arc tangent: most edges of most near pairs.
+/// Maximum tan²θ for the series of the arc tangent: most edges of most near pairs.
 constexpr double kSeriesLimit = 0.2;
 
-/// θ / sine from (scaled) sine² and cosine of an angle; 0 where the edge has no direction.
+/// θ / sine from (scaled) sine² and cosine of an angle; 0 for an edge without direction.
 double angle_over_sine(double sine2, double cosine)
 {
     if (cosine > 0.0 && sine2 < kSeriesLimit * cosine * cosine) {
@@ -37,7 +37,7 @@ double angle_over_sine(double sine2, double cosine)
     return sine > 0.0 ? std::atan2(sine, cosine) / sine : 0.0;
 }
 
-/// One edge's θ n·Γ from a to b, both relative to the receiver.
+/// Term θ n·Γ of an edge from a to b, both relative to the receiver.
 double edge_term(const dvec3& n, const dvec3& a, const dvec3& b)
 {
     const dvec3 across = glm::cross(b, a);
@@ -54,7 +54,7 @@ float polygon_form_factor(const glm::vec3& x, const glm::vec3& n, const glm::vec
     double above_previous = glm::dot(normal, previous);
     double sum = 0.0;
 
-    // Walk round the polygon. Where it dips below the horizon, remember the gap to close.
+    // Traverses the polygon; closes the gap of a part below the horizon.
     dvec3 leaves(0.0), returns(0.0);
     bool cut = false;
     for (int k = 0; k < count; ++k) {

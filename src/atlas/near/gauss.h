@@ -10,7 +10,7 @@ namespace lumel {
 
 struct GaussPoint {
     float position;  ///< 0…1
-    float weight;    ///< all weights add up to 1
+    float weight;    ///< weights sum to 1
 };
 
 /// The rule with `count` ≥ 1 points on [0, 1], exact for polynomials of degree 2 count - 1.
@@ -18,7 +18,7 @@ inline std::vector<GaussPoint> gauss_legendre(int count)
 {
     std::vector<GaussPoint> rule;
     for (int k = 0; k < count; ++k) {
-        // Newton's method on the Legendre polynomial, from the customary first guess.
+        // Newton's method on the Legendre polynomial, from the usual initial value.
         double x = -std::cos(std::numbers::pi * (k + 0.75) / (count + 0.5)), slope = 1.0;
         for (int step = 0; step < 8; ++step) {
             double before = 0.0, value = 1.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Rays from a lumel over its hemisphere.
+// Hemisphere rays of lumels.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ inline glm::vec3 direction_about(const glm::vec3& n, const glm::vec2& st)
     return glm::normalize(flat + std::sqrt(std::max(0.0f, 1.0f - st.x)) * n);
 }
 
-/// Has the surface that was hit the same on its back?
+/// True if the surface at the hit is double-sided.
 inline bool is_double_sided(const Scene& scene, const RayHit& hit)
 {
     const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];

@@ -1,5 +1,5 @@
 #pragma once
-// Which lumel a ray has hit.
+// Lumels at ray hits, without a search of neighbours.
 
 #include <cstdint>
 #include <vector>
@@ -14,11 +14,11 @@ public:
     /// The atlas must outlive this.
     HitLumels(const Scene& scene, const Atlas& atlas, const Lumels& lumels);
 
-    /// Where in the atlas a ray hit [texels].
+    /// Atlas position of a hit [texels].
     glm::vec2 place(const RayHit& hit) const;
 
     static constexpr std::uint32_t kNone = ~0u;
-    /// Index of the lumel, on the side that was hit; kNone where there is none.
+    /// Index of the lumel on the side that was hit, or kNone.
     std::uint32_t lumel(const RayHit& hit) const;
 
 private:

@@ -3,9 +3,9 @@
 #include "base/core/shared.h"
 LUMEL_SHARED_BEGIN
 
-/// Where something was before it moved, or is now.
+/// Bounds of a moved object, before or after.
 struct MovedBox {
-    vec3 low;  ///< corners [m], world
+    vec3 low;  ///< bounding box [m], world
     vec3 high;
 };
 

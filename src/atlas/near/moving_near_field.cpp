@@ -12,7 +12,7 @@
 namespace lumel {
 namespace {
 
-/// Of the ball about its centre that holds a lumel's corners [m].
+/// Bounding radius of a lumel's corners about its centre [m].
 float radius_of(const WorldLumels& world, const WorldLumel& lumel)
 {
     float most2 = 0.0f;
@@ -89,8 +89,8 @@ bool MovingNearField::is_of(std::uint32_t i, std::uint32_t j) const
            movers_[lumels_->lumels[j].instance];
 }
 
-/// The lines between two balls lie within the larger radius of the line between their centres.
-/// From i to j the answer is that from j to i, however it is rounded.
+/// Segments between two balls are within the larger radius of the segment between their centres.
+/// Symmetric in i and j, despite rounding.
 bool MovingNearField::may_cross(std::uint32_t i, std::uint32_t j, std::span<const Box> boxes) const
 {
     if (j < i)
@@ -105,9 +105,8 @@ bool MovingNearField::may_cross(std::uint32_t i, std::uint32_t j, std::span<cons
     });
 }
 
-/// Both lumels of each pair that may look through a box, and more: a way that may_cross() a box
-/// comes as near to it as a corner of the box grown by the margin, and ends a pair's distance on at
-/// most.
+/// A superset of the lumels of pairs that may cross a box: such a segment is within a corner of the
+/// box, grown by the margin, and at most the pair's distance long.
 std::vector<std::uint32_t> MovingNearField::lumels_near(std::span<const Box> boxes) const
 {
     const float corner = std::sqrt(3.0f) * (most_radius_ + most_lift_);
@@ -121,7 +120,7 @@ std::vector<std::uint32_t> MovingNearField::lumels_near(std::span<const Box> box
     return near;
 }
 
-/// Puts new factors of those pairs of some lumels that are wanted in the place of the old ones.
+/// Replaces the factors of the wanted pairs of some lumels.
 void MovingNearField::build(const RayScene& rays, std::vector<std::uint32_t> some,
                             const WantsPair& wants)
 {
@@ -147,7 +146,7 @@ void MovingNearField::build(const RayScene& rays, std::vector<std::uint32_t> som
     table_ = std::move(next);
 }
 
-/// Appends a lumel's row: what it had, less the pairs built anew, and these, in order.
+/// Appends a lumel's row: its old entries except rebuilt pairs, merged with the new ones.
 void MovingNearField::merge(std::uint32_t lumel, std::span<const std::uint32_t> columns,
                             std::span<const float> factors, const WantsPair& wants, NearField& into)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// The near field of a scene in which things move.
+// Near field of a scene with moving objects.
 
 #include <map>
 #include <span>
@@ -11,25 +11,23 @@
 
 namespace lumel {
 
-/// Which pairs of lumels.
+/// Selection of pairs.
 enum class NearPairsOf {
     all,
-    movers,  ///< one of both, at least, may move
+    movers,  ///< at least one of both is movable
 };
 
-/// After any moves it has the pairs and factors, bit for bit, that build_near_field() finds with
-/// the radius of the beginning, unless the scene's bounding box has grown or shrunk: rays start as
-/// high above lumels as it takes there. (A new build may choose a smaller radius where pairs are
-/// many.)
+/// After any moves the table equals, bit for bit, that of build_near_field() with the initial
+/// radius, unless the scene's bounding box has changed, which defines the ray offset. (A new build
+/// may choose a smaller radius if there are many pairs.)
 class MovingNearField {
 public:
-    /// movers [instances]: 1 if it may move. The lumels must outlive this, unmoved.
+    /// movers [instances]: 1 if movable. The lumels must outlive this and not move.
     MovingNearField(const Scene& scene, const RayScene& rays, const Lumels& lumels,
                     const NearFieldOptions& options, std::vector<char> movers, NearPairsOf which);
 
-    /// Follows instances that now stand elsewhere in the scene. boxes: around all that moved, where
-    /// it was and where it is. Builds pairs anew of which one has moved, or that may look through a
-    /// box; it keeps the others, but copies the table.
+    /// Updates the table after moves of instances. boxes: around all moved objects, before and
+    /// after. Rebuilds pairs that have moved or may cross a box; copies the others.
     void follow(const Scene& scene, const RayScene& rays, std::span<const std::uint32_t> moved,
                 std::span<const Box> boxes);
 
@@ -49,11 +47,11 @@ private:
     std::vector<char> movers_;  ///< [instances]
     NearPairsOf which_;
     WorldLumels world_;
-    std::vector<float> radius_of_;  ///< [N] of the ball about its centre that a lumel fills [m]
-    float most_radius_ = 0.0f, most_lift_ = 0.0f, most_size_ = 0.0f;  ///< of all lumels [m]
+    std::vector<float> radius_of_;  ///< [N] bounding radius about the centre [m]
+    float most_radius_ = 0.0f, most_lift_ = 0.0f, most_size_ = 0.0f;  ///< maxima [m]
     NearField table_;
-    /// Rows that were scaled down to 1, by lumel, as they were before: with a pair built anew the
-    /// others of its row are scaled anew.
+    /// Original values of rows that were scaled down to 1, by lumel: a rebuilt pair changes the
+    /// scale of its row.
     std::map<std::uint32_t, std::vector<float>> unlimited_;
 };
 

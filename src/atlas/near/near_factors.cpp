@@ -5,9 +5,9 @@
 //     F_ij = mean over x of F(x → polygon of j) × o_j × Σ w V(x, y) / Σ w,
 //     w = cosθ_i cosθ_j / (|y - x|² + s_j² / 4π),   s_j the size of j
 //
-// F(x → polygon) is Lambert's edge sum, averaged over Gauss points x: no noise. Only visibility V
-// is sampled, by one ray for each x to a stratified y, and its mean is weighted by the light that
-// would pass; o_j is the opacity of a cut-out.
+// F(x → polygon) is Lambert's edge sum, averaged over Gauss points x, without noise. Only the
+// visibility V is sampled, by one ray from each x to a stratified y; its mean is weighted by the
+// unoccluded light. o_j is the opacity of a cut-out.
 
 #include "atlas/near/near_factors.h"
 
@@ -23,27 +23,26 @@ namespace lumel {
 
 namespace {
 
-/// Pairs farther apart than this, in sizes of the larger, take half as many points along each side.
+/// Distance, in sizes of the larger lumel, beyond which pairs use half as many points per side.
 constexpr float kDistant = 2.0f;
 
-/// Pairs farther apart than this, in sizes of the larger, are taken point by point: their kernel
-/// varies little, and as many as there are of them, their noise averages out.
+/// Distance, in sizes of the larger lumel, beyond which pairs use point samples: their kernel
+/// varies little, and the noise of so many pairs averages out.
 constexpr float kPointwise = 4.0f;
-/// Then one pair of points replaces this number of NearFieldOptions::samples, and more beyond
-/// kOnePoint.
+/// Point pairs per NearFieldOptions::samples, up to kOnePoint and beyond.
 constexpr int kPointPart = 8, kDistantPart = 16;
 constexpr float kOnePoint = 6.0f;
-/// A lumel that lies over more facets than this (foliage, ornaments) is seen through a sample.
+/// Lumels with more facets (foliage, ornaments) are evaluated by a sample of them.
 constexpr std::uint32_t kMaxFacets = 8;
 
-/// Points of one receiver: for close pairs and for distant ones.
+/// Points of a receiver, for close pairs and for distant ones.
 struct ReceiverPoints {
     std::vector<WeightedPoint> close;
     std::vector<WeightedPoint> distant;
-    std::vector<WeightedPoint> torn;  ///< for pairs that only a part of the lumel sees, if any
+    std::vector<WeightedPoint> torn;  ///< for pairs that are partly visible, if any
 };
 
-/// Fills the rows of one table.
+/// Computes the rows of one table.
 class Builder {
 public:
     Builder(const RayScene& rays, const WorldLumels& world, const Lumels& lumels,
@@ -63,7 +62,7 @@ public:
         return {spread(i, close_), spread(i, distant_), {}};
     }
 
-    /// True if the pair's factors are those of pointwise(), which is the same from both sides.
+    /// True if the pair uses pointwise(), which is symmetric.
     bool is_pointwise(std::uint32_t i, std::uint32_t j) const
     {
         const float size = std::max(world_[i].size, world_[j].size);
@@ -80,7 +79,7 @@ public:
             std::max(options_.samples / (is_distant ? kDistantPart : kPointPart), 1);
         float sum = 0.0f;
         for (int k = 0; k < samples; ++k) {
-            // Every second pair is opposite to the one before, about the lumels' middles.
+            // Every second pair mirrors the previous one about the lumels' centres.
             const bool opposite = k % 2 == 1;
             const glm::vec2 s = sobol_pair(std::uint32_t(k / 2), key);
             const glm::vec2 t = sobol_pair(std::uint32_t(k / 2), hash_two(key, 1));
@@ -100,10 +99,10 @@ public:
         return sum / (float(samples) * std::numbers::pi_v<float>);
     }
 
-    /// F_ij × visible fraction. Takes more points where some see the shooter and others do not.
+    /// F_ij × visible fraction. Uses more points if the shooter is partly visible.
     float factor(std::uint32_t i, std::uint32_t j, ReceiverPoints& receiver) const
     {
-        if (is_pointwise(i, j))  // the higher index takes it from the lower, in make_reciprocal
+        if (is_pointwise(i, j))  // make_reciprocal copies it to the higher index
             return i < j || options_.centre ? pointwise(i, j) * lumels_.lumels[j].area : 0.0f;
         const float size = std::max(world_[i].size, world_[j].size);
         const bool is_close = is_near(world_[i].centre, size, world_[j].centre, size, kDistant);
@@ -113,7 +112,7 @@ public:
         return first.whole * torn_fraction(i, j, receiver, is_close);
     }
 
-    /// F_ij with the most points, for pairs that are known to see each other in part.
+    /// F_ij with the maximum number of points, for partly visible pairs.
     float torn_factor(std::uint32_t i, std::uint32_t j) const
     {
         const Sample best = sample(i, j, spread(i, torn_));
@@ -122,12 +121,12 @@ public:
 
 private:
     struct Sample {
-        float whole;    ///< F_ij with nothing between
-        float visible;  ///< fraction of it
-        bool torn;      ///< some of the points see the shooter, others do not
+        float whole;    ///< unoccluded F_ij
+        float visible;  ///< visible fraction of it
+        bool torn;      ///< visible from some of the points only
     };
 
-    /// What a pair's points saw of each other, by weight.
+    /// Weighted visibility between a pair's points.
     struct Seen {
         float lit = 0.0f;
         float looked_at = 0.0f;
@@ -147,7 +146,7 @@ private:
         return seen.fraction();
     }
 
-    /// Tests the k-th point of i against one of j. Returns true if it is seen.
+    /// Tests the k-th point of i against one of j. Returns true if it is visible.
     bool look(std::uint32_t i, std::uint32_t j, const WeightedPoint& from, std::uint32_t k,
               Seen& seen) const
     {
@@ -181,7 +180,7 @@ private:
         return options_.centre ? world_.centroids(i, side) : world_.gauss_points(i, side);
     }
 
-    /// F(x → polygons of j). Of many, only some count, drawn by area; which, changes with k.
+    /// F(x → polygons of j). Of many polygons, a sample by area that depends on k.
     float seen_from(const LumelPoint& x, const WorldLumel& j, std::uint32_t k) const
     {
         const auto form_factor = [&x](const Facet& facet) {
@@ -228,12 +227,12 @@ private:
     const WorldLumels& world_;
     const Lumels& lumels_;
     const NearFieldOptions& options_;
-    const int close_, distant_, torn_;  ///< points along each side of a lumel
+    const int close_, distant_, torn_;  ///< points per side of a lumel
 };
 
-/// Makes A_i F_ij = A_j F_ji hold by averaging the two estimates, which halves their noise. Only
-/// for flat lumels: where shading normals bend, irradiance is not quite reciprocal. Pointwise
-/// pairs were estimated once for both.
+/// Enforces A_i F_ij = A_j F_ji by averaging the two estimates, which halves their noise. Flat
+/// lumels only: with varying shading normals, irradiance is not exactly reciprocal. Pointwise pairs
+/// have one estimate for both.
 void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lumels& lumels,
                      const NearPairs& pairs, std::vector<float>& factors)
 {
@@ -245,7 +244,7 @@ void make_reciprocal(const Builder& builder, const WorldLumels& world, const Lum
         }
         if (!world[i].flat || !world[j].flat)
             return;
-        // If only one estimate found the other lumel visible, the other is repeated.
+        // If only one estimate is positive, repeats the other with more points.
         if (ij <= 0.0f && ji > 0.0f)
             ij = builder.torn_factor(i, j);
         else if (ji <= 0.0f && ij > 0.0f)
@@ -270,7 +269,7 @@ std::vector<float> near_factors(const NearPairs& pairs, const RayScene& rays,
                                 const NearFieldOptions& options)
 {
     const Builder builder(rays, world, lumels, options);
-    // Every pair in place, row by row.
+    // Computes all pairs, row by row.
     std::vector<float> factors(pairs.partner.size());
     parallel_for(pairs.rows(), 32, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {

@@ -45,7 +45,7 @@ NearField build_near_field_among(const std::vector<char>& chosen, const Scene& s
                                  const RayScene& rays, const Lumels& lumels,
                                  NearFieldOptions options)
 {
-    // The others are put aside as if buried, which leaves them without partners.
+    // The others are marked as buried, so they have no partners.
     Lumels some = lumels;
     for (std::size_t i = 0; i < chosen.size(); ++i)
         if (!chosen[i])

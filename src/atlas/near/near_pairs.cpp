@@ -1,6 +1,6 @@
-// Pairs are searched on grids, one for each octave of lumel sizes: a cell is as wide as the reach
-// of the largest lumels in it. A lumel looks for partners of its own octave and larger ones only,
-// so the 3 × 3 × 3 cells around it always suffice; the smaller of two finds the larger.
+// Pairs are found with grids, one per octave of lumel sizes: cells are as wide as the search
+// radius of the largest lumels in it. A lumel searches for partners in its own octave and larger
+// ones, so the 3 × 3 × 3 cells around it suffice; the smaller lumel finds the larger.
 
 #include "atlas/near/near_pairs.h"
 
@@ -16,13 +16,13 @@ namespace lumel {
 
 namespace {
 
-/// A lumel's corner counts as above a plane from this many of the lumel's lifts on.
+/// Minimum height of a corner above a plane, in the lumel's ray offsets.
 constexpr float kAbove = 2.0f;
 
-/// The lumels of one octave of sizes, sorted by cell.
+/// The lumels of an octave of sizes, sorted by cell.
 class Grid {
 public:
-    /// members: rows, of these lumels.
+    /// members: rows, as indices into `lumels`.
     Grid(std::vector<std::uint32_t> members, const std::vector<std::uint32_t>& lumels,
          const WorldLumels& world, float cell)
         : cell_(cell),
@@ -58,7 +58,7 @@ public:
         const glm::ivec3 centre = cell_of(point);
         for (int z = -1; z <= 1; ++z)
             for (int y = -1; y <= 1; ++y) {
-                // Cells are sorted along x, so that three neighbours are one range.
+                // Cells are sorted along x, so three neighbours are one range.
                 const std::uint64_t from = key(centre + glm::ivec3(-1, y, z));
                 auto at =
                     std::size_t(std::lower_bound(keys_.begin(), keys_.end(), from) - keys_.begin());
@@ -83,8 +83,8 @@ private:
     float cell_;
     glm::vec3 low_, high_;
     std::vector<std::uint32_t> members_;  ///< in order of their cells
-    std::vector<std::uint64_t> keys_;     ///< of the cells that have members, ascending
-    std::vector<std::uint32_t> starts_;   ///< first member of each
+    std::vector<std::uint64_t> keys_;     ///< ascending keys of non-empty cells
+    std::vector<std::uint32_t> starts_;   ///< first member of each cell
 };
 
 /// False if flat lumel `from` has all of `to` in or behind its plane.
@@ -116,7 +116,7 @@ void keep_at_lower(std::vector<std::vector<std::uint32_t>>& found)
     });
 }
 
-/// Rows from lists that hold each pair once, at its lower index.
+/// Rows from lists with each pair once, at its lower index.
 NearPairs enter_both_sides(const std::vector<std::vector<std::uint32_t>>& found)
 {
     NearPairs pairs;
@@ -129,7 +129,7 @@ NearPairs enter_both_sides(const std::vector<std::vector<std::uint32_t>>& found)
     for (std::size_t i = 0; i < found.size(); ++i)
         pairs.first[i + 1] += pairs.first[i];
 
-    // Rows come in ascending order, so each row's lower partners do too.
+    // Rows are processed in ascending order, so each row's lower partners ascend too.
     pairs.partner.resize(pairs.first.back());
     pairs.mirror.resize(pairs.first.back());
     pairs.middle.assign(pairs.first.begin(), pairs.first.end() - 1);
@@ -159,7 +159,7 @@ NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float 
     const auto has_partners = [&](std::uint32_t i) {
         return (lumels.lumels[i].flags & kLumelBuried) == 0 && world[i].size > 0.0f;
     };
-    // Sort the rows into octaves of size.
+    // Groups the rows by octave of size.
     std::map<int, std::vector<std::uint32_t>> octaves;
     for (std::uint32_t row = 0; row < some.size(); ++row)
         if (has_partners(some[row]))
@@ -169,7 +169,7 @@ NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float 
         grids.try_emplace(octave, std::move(rows), some, world,
                           radius * std::ldexp(1.0f, octave + 1));
 
-    // Every pair is found once, by the smaller octave, and within one octave by the lower row.
+    // Each pair is found once, by the smaller octave, and within an octave by the lower row.
     std::vector<std::vector<std::uint32_t>> found(some.size());
     parallel_for(some.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t row = begin; row < end; ++row) {
@@ -196,7 +196,7 @@ NearPairs find_near_pairs(const WorldLumels& world, const Lumels& lumels, float 
     return pairs;
 }
 
-/// Half of the neighbours, about, lie in the same plane and make no pair.
+/// About half of the neighbours lie in the same plane and form no pair.
 float fitting_radius(const WorldLumels& world, float radius, std::size_t most_pairs)
 {
     constexpr std::size_t kJudged = 512;

@@ -1,5 +1,5 @@
 #pragma once
-// Stratified points: Sobol's, moved by a hashed digital shift.
+// Stratified points: Sobol's, with a hashed digital shift.
 
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace lumel {
 
-/// A well-mixed number for two.
+/// Hash of two numbers.
 inline std::uint32_t hash_two(std::uint32_t a, std::uint32_t b)
 {
     std::uint32_t x = a * 0x9e3779b1u ^ (b + 0x7f4a7c15u) * 0x85ebca6bu;
@@ -20,7 +20,7 @@ inline std::uint32_t hash_two(std::uint32_t a, std::uint32_t b)
 /// stratified. index < 256.
 inline glm::vec2 sobol_pair(std::uint32_t index, std::uint32_t key)
 {
-    // Direction numbers, one row for each dimension, cut to 8 bits.
+    // Direction numbers, one row per dimension, truncated to 8 bits.
     static constexpr std::uint32_t kColumns[2][8] = {
         {0x80, 0x40, 0x20, 0x10, 0x08, 0x04, 0x02, 0x01},
         {0x80, 0xc0, 0xa0, 0xf0, 0x88, 0xcc, 0xaa, 0xff},

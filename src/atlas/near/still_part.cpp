@@ -12,7 +12,7 @@
 namespace lumel {
 namespace {
 
-/// Lengths may change by this much over a move that counts as rigid: transforms come as floats.
+/// Relative change of lengths allowed for a rigid move: transforms are floats.
 constexpr float kStretch = 1e-3f;
 
 float volume_of(const MovedBox& box)
@@ -37,7 +37,7 @@ Lumels make_lumels(const Scene& scene, const Atlas& atlas, const std::vector<cha
 {
     Lumels lumels = make_lumels(scene, atlas);
     if (lumels.lumels.empty())
-        throw Error(ErrorKind::input, scene.path, "has no surface that light could fall on");
+        throw Error(ErrorKind::input, scene.path, "has no surface that can receive light");
     const Scene still = without(scene, movers);
     const RayScene rays(still);
     const std::vector<Lumel> before = lumels.lumels;
@@ -79,7 +79,7 @@ std::vector<MovedBox> around(const MovedBox& before, const MovedBox& after)
 bool is_open(const Scene& scene, std::uint32_t instance)
 {
     using Point = std::array<float, 3>;
-    std::map<std::pair<Point, Point>, int> joins;  // directed edges, and back: they cancel out
+    std::map<std::pair<Point, Point>, int> joins;  // directed edges; opposite ones cancel
     for (const Primitive& primitive : scene.meshes[scene.instances[instance].mesh].primitives) {
         if (scene.materials[primitive.material].double_sided)
             continue;

@@ -11,14 +11,14 @@
 namespace lumel {
 namespace {
 
-/// Rays of all lumels together, and of one: a thousandth part of the scene thus has a thousand of
-/// them or more. Openings that all of these miss matter as little.
+/// Rays of all lumels together, and per lumel: a thousandth of the scene then has at least a
+/// thousand. Openings that all of them miss do not matter.
 constexpr std::size_t kAllRays = 2'000'000, kMinRays = 16, kMaxRays = 256;
 constexpr std::size_t kLumelsPerTask = 256;
-/// Neighbours are joined if one of the segments between points at these heights above them is
-/// free, in the larger one's sizes: a low one could meet the surface itself where it is bent.
+/// Neighbours are joined if a segment between them is free at one of these heights, in sizes of the
+/// larger lumel: a low segment could hit the surface itself if it is bent.
 constexpr float kHeights[] = {0.05f, 0.5f};
-/// Blended surfaces are judged by one draw; which one does not matter.
+/// Seed for blended surfaces; any value serves.
 constexpr std::uint32_t kBlendSeed = 0;
 
 struct Inputs {

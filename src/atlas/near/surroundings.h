@@ -1,5 +1,5 @@
 #pragma once
-// What lumels have around them, as rays find it.
+// Ray-traced neighbourhood of lumels: open to the outside, joined to the next texel.
 
 #include <vector>
 
@@ -9,11 +9,11 @@
 namespace lumel {
 
 struct Surroundings {
-    /// [N] 1 for lumels some of whose rays leave the scene, meet the back of a single-sided
-    /// surface, or pass glass or what is cut out; else their form factors add up to 1.
+    /// [N] 1 if some rays of the lumel leave the scene, hit the back of a single-sided surface, or
+    /// pass glass or cut-outs; otherwise its form factors sum to 1.
     std::vector<char> open;
-    /// [N] 1 if nothing stands between a lumel and its neighbour on the same side of its chart, in
-    /// the texel to the right and in the one below; 0 too if there is none.
+    /// [N] 1 if the segment to the neighbour on the same side of the chart, in the texel to the
+    /// right or below, is free; 0 if there is none.
     std::vector<char> joined_right, joined_below;
 };
 

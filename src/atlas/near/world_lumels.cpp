@@ -10,13 +10,13 @@ namespace lumel {
 
 namespace {
 
-/// Rays start this far above their lumel, in its sizes: too little to see past anything.
+/// Ray offset relative to the lumel's size: too small to see past anything.
 constexpr float kLift = 1e-4f;
-/// The same, in units of the largest coordinate: a few roundings of a float.
+/// Minimum ray offset relative to the largest coordinate: a few roundings of a float.
 constexpr float kLiftOfExtent = 1e-6f;
-/// A lumel is flat if no corner is farther from its plane than this, in its sizes.
+/// Maximum distance of a flat lumel's corners from its plane, relative to its size.
 constexpr float kFlat = 1e-4f;
-/// Opacities this close to 1 are rounding.
+/// Opacities above this are 1 by rounding.
 constexpr float kOpaque = 0.999f;
 
 glm::vec3 area_vector(const Facet& facet)
@@ -58,7 +58,7 @@ void WorldLumels::place(const Scene& scene, const Lumels& lumels,
         place(i, lumels, placements[lumels.lumels[i].instance]);
 }
 
-/// By instance.
+/// Transforms by instance.
 std::vector<WorldLumels::Placement> WorldLumels::placements_of(const Scene& scene)
 {
     std::vector<Placement> placements;
@@ -131,7 +131,7 @@ std::vector<WeightedPoint> WorldLumels::gauss_points(std::size_t i, int side) co
     for (const Piece& piece : pieces) {
         for (const GaussPoint& s : rule)
             for (const GaussPoint& t : rule) {
-                // In a triangle, v runs to 1 - u only: the square's side shrinks with u.
+                // In a triangle, v ends at 1 - u, so the square's side decreases with u.
                 const float height = piece.parallelogram != 0 ? 1.0f : 1.0f - s.position;
                 const float density = piece.parallelogram != 0 ? 1.0f : 2.0f * height;
                 const glm::vec3 position =

@@ -1,5 +1,5 @@
 #pragma once
-// Lumels where they stand in the world, ready for geometry.
+// Lumels in world space, for geometry.
 
 #include <cstdint>
 #include <span>
@@ -15,27 +15,27 @@
 
 namespace lumel {
 
-/// Most points along a side of a lumel.
+/// Maximum points along a side of a lumel.
 inline constexpr int kMaxSide = 16;
 
-/// A piece of a lumel in the world: corners counter-clockwise as seen from its front.
+/// A piece of a lumel in world space; corners counter-clockwise at its front.
 struct Facet {
     glm::vec3 corner[4];
     int count = 0;  ///< 3 or 4
 };
 
 struct WorldLumel {
-    glm::vec3 centre;         ///< [m]
-    glm::vec3 normal;         ///< unit, mean over the lumel
-    float size = 0.0f;        ///< [m]
-    float ray_offset = 0.0f;  ///< [m] how far above the surface rays start, to miss the surface
-    float opacity = 1.0f;     ///< area / area of its facets: below 1 where it is cut out
-    bool flat = false;        ///< all facets lie in the plane through `centre` along `normal`
-    std::uint32_t first_facet = 0;  ///< also of its pieces
+    glm::vec3 centre;               ///< [m]
+    glm::vec3 normal;               ///< unit, mean over the lumel
+    float size = 0.0f;              ///< [m]
+    float ray_offset = 0.0f;        ///< [m] offset of ray origins above the surface
+    float opacity = 1.0f;           ///< area / area of its facets: below 1 if cut out
+    bool flat = false;              ///< all facets lie in the plane through `centre` with `normal`
+    std::uint32_t first_facet = 0;  ///< also index of the first piece
     std::uint32_t facet_count = 0;
 };
 
-/// A point of a lumel in the world, and the share of the lumel it stands for.
+/// A point of a lumel in world space, and its share of the lumel.
 struct WeightedPoint {
     LumelPoint point;
     float weight;
@@ -45,10 +45,10 @@ class WorldLumels {
 public:
     WorldLumels(const Scene& scene, const RayScene& rays, const Lumels& lumels);
 
-    /// Lumels placed from now on are lifted as it takes in a scene as large as this one now is.
+    /// Sets the ray offset of lumels that are placed from now on, by the scene's current size.
     void fit(const RayScene& rays);
 
-    /// Places some lumels anew, where the scene now has their instances.
+    /// Updates some lumels to the current transforms of their instances.
     void place(const Scene& scene, const Lumels& lumels, std::span<const std::uint32_t> chosen);
 
     std::size_t size() const { return lumels_.size(); }
@@ -56,23 +56,23 @@ public:
     const Facet* begin(const WorldLumel& lumel) const { return &facets_[lumel.first_facet]; }
     const Facet* end(const WorldLumel& lumel) const { return begin(lumel) + lumel.facet_count; }
 
-    /// The pieces of a lumel, in the world.
+    /// The pieces of a lumel in world space.
     std::span<const Piece> pieces(const WorldLumel& lumel) const
     {
         return std::span(pieces_).subspan(lumel.first_facet, lumel.facet_count);
     }
 
-    /// Maps (s, t) in the unit square to a point of lumel i and the normal there, in the world.
+    /// Maps (s, t) in the unit square to a point of lumel i and its normal, in world space.
     LumelPoint point_on(std::size_t i, const glm::vec2& st) const
     {
         return lumel::point_on(pieces(lumels_[i]), st.x, st.y);
     }
 
-    /// Points for averages over lumel i, about side × side in all: Gauss points of each piece, or
-    /// stratified points if it has more pieces than that. side ≤ kMaxSide.
+    /// About side × side quadrature points of lumel i: Gauss points of each piece, or stratified
+    /// points if it has more pieces. side ≤ kMaxSide.
     std::vector<WeightedPoint> gauss_points(std::size_t i, int side) const;
 
-    /// Its centroid, side × side times over.
+    /// Its centroid, repeated side × side times.
     std::vector<WeightedPoint> centroids(std::size_t i, int side) const;
 
 private:
@@ -87,10 +87,10 @@ private:
                       const Placement& placement);
 
     float extent_;                                ///< largest coordinate [m]
-    std::vector<std::vector<GaussPoint>> rules_;  ///< of 1, 2, … points
+    std::vector<std::vector<GaussPoint>> rules_;  ///< [count - 1] rule of that many points
     std::vector<WorldLumel> lumels_;
     std::vector<Piece> pieces_;
-    std::vector<Facet> facets_;  ///< one for each piece, same index
+    std::vector<Facet> facets_;  ///< one per piece, same index
 };
 
 }  // namespace lumel

@@ -1,6 +1,6 @@
 #pragma once
-// From meshes to an atlas: every instance of every surface gets texels of its own. And from
-// texels to lumels. On the CPU, and the same scene gives the same bytes.
+// Atlas: separate texels for each surface of each instance. Lumels: patches made from texels. On
+// the CPU; equal scenes give equal bytes.
 
 #include <cstdint>
 #include <functional>
@@ -17,55 +17,55 @@
 
 namespace lumel {
 
-/// What the map shows of double-sided surfaces.
+/// Sides of double-sided surfaces in the map.
 enum class Sides {
-    automatic,  ///< both, in texels of their own, where light may reach both
-    both,       ///< both, everywhere
-    brighter,   ///< one: chart by chart the side that is brighter on the whole
-    front,      ///< one: the front
+    automatic,  ///< both, with separate texels, if light may reach both
+    both,       ///< both, always
+    brighter,   ///< the brighter side on average, per chart
+    front,      ///< the front
 };
 
-/// The density of what is named so.
+/// Texel density of nodes, meshes or materials whose name matches `pattern`.
 struct DensityRule {
-    std::string pattern;  ///< of names of nodes, meshes or materials, as the shell's: * ? []
+    std::string pattern;  ///< shell wildcards * ? []
     float texels_per_metre = 0.0f;
 };
 
 struct AtlasOptions {
-    float texels_per_metre = 0.0f;  ///< 0: as dense as fits `size`, or a side of 512 and more
-    int size = 0;                   ///< fixes the side of the square atlas [texels], 0: free
-    int max_size = 4096;            ///< largest side allowed [texels]; density is scaled to fit
-    int pages = 1;                  ///< most maps of that side to use where one is too small
-    int gutter = 2;                 ///< empty texels kept between any two charts
+    float texels_per_metre = 0.0f;  ///< 0: the highest that fits `size`, or a side of 512 or more
+    int size = 0;                   ///< fixed side of the square atlas [texels], 0: free
+    int max_size = 4096;            ///< maximum side [texels]; the density is reduced to fit
+    int pages = 1;                  ///< maximum number of such maps if one is too small
+    int gutter = 2;                 ///< empty texels between any two charts
     Sides sides = Sides::automatic;
-    std::vector<DensityRule> densities;  ///< of two that fit, the later one counts
+    std::vector<DensityRule> densities;  ///< the last match applies
     bool coarse_afar = false;  ///< fewer texels far from cameras and detail, see density.h
 };
 
-/// One primitive of one instance, laid out in the atlas. Vertices are split at chart borders.
+/// A primitive of an instance in the atlas. Vertices are split at chart borders.
 struct Surface {
     std::uint32_t instance = 0;                ///< index into Scene::instances
     std::uint32_t primitive = 0;               ///< index into its mesh's primitives
     std::vector<std::uint32_t> source_vertex;  ///< [V] index into the primitive's vertex arrays
-    std::vector<glm::vec2> texcoord;     ///< [V] atlas place [texels], (0, 0): top left corner
-    std::vector<std::uint32_t> indices;  ///< [3T] same triangles, same order as the primitive
-    std::vector<std::uint32_t> chart;    ///< [T] chart of each triangle, global index
-    bool authored = false;               ///< laid out by the file's TEXCOORD_1
-    float texels_per_metre = 0.0f;       ///< its density; 0 in an atlas that was written before
+    std::vector<glm::vec2> texcoord;     ///< [V] atlas position [texels], (0, 0): top left corner
+    std::vector<std::uint32_t> indices;  ///< [3T] triangles in the primitive's order
+    std::vector<std::uint32_t> chart;    ///< [T] global chart index
+    bool authored = false;               ///< from the file's TEXCOORD_1
+    float texels_per_metre = 0.0f;       ///< its density; 0 in an atlas read from a file
 };
 
 struct Atlas {
     int width = 0;                  ///< [texels]
     int height = 0;                 ///< [texels]
-    Pages pages;                    ///< that it is written as
-    float texels_per_metre = 0.0f;  ///< density where people look and none is set
+    Pages pages;                    ///< pages of the files
+    float texels_per_metre = 0.0f;  ///< density near the content, unless a rule applies
     std::uint32_t chart_count = 0;
     std::vector<Surface> surfaces;  ///< in order of instance, then primitive
-    /// [chart_count], or empty: where the map has the light of a chart's back, counted from its
-    /// front [texels]; 0 where both sides share their texels.
+    /// [chart_count] Offset from a chart's front to its back in the map [texels], 0 if both share
+    /// texels; or empty.
     std::vector<glm::ivec2> back_shift;
     bool shows_front = false;        ///< shared texels show the front, not the brighter side
-    std::vector<std::string> notes;  ///< sentences for the user: overlaps, scaled density, …
+    std::vector<std::string> notes;  ///< messages for the user: overlaps, reduced density, …
 };
 
 /// A triangle of an instance.
@@ -73,31 +73,31 @@ struct TriangleOf {
     std::uint32_t instance, primitive, triangle;
 };
 
-/// Which charts, each given by its triangles, show both sides in texels of their own [charts].
-/// Asked before the map is packed. A chart may also be a whole layout of the file's.
+/// Selects charts, given by their triangles, whose two sides get separate texels [charts]. Called
+/// before packing. A chart may also be a whole layout of the file.
 using ShowsBoth =
     std::function<std::vector<char>(const Scene&, std::span<const std::vector<TriangleOf>>)>;
 
-/// Lays the scene out. Charts are whole texels wide and high, so that the edges of rectangles
-/// coincide with edges of texels; parts thinner than a texel share the texels of a neighbour.
-/// Throws Error{input} if it cannot be made to fit. shows_both: if empty, sides share texels.
+/// Builds the atlas. Charts have whole texel sizes, so that edges of rectangles coincide with texel
+/// edges; parts thinner than a texel share a neighbour's texels. Throws Error{input} if it cannot
+/// fit. shows_both: if empty, sides share texels.
 Atlas make_atlas(const Scene& scene, const AtlasOptions& options,
                  const ProgressCallback& progress = {}, const ShowsBoth& shows_both = {});
 
 /// The patches of the radiosity equation, in Morton order within charts.
 struct Lumels {
-    int width = 0;  ///< of the atlas [texels]
+    int width = 0;  ///< atlas size [texels]
     int height = 0;
     std::vector<Lumel> lumels;    ///< [N] front lumels, and back lumels of double-sided surfaces
     std::vector<Gloss> gloss;     ///< [N] gloss of their materials
     std::vector<Piece> pieces;    ///< [P]
-    std::vector<float> coverage;  ///< [height][width] covered share × opacity of each texel, 0…1
-    std::vector<glm::ivec2> back_shift;  ///< as of the atlas
-    bool shows_front = false;            ///< as of the atlas
+    std::vector<float> coverage;  ///< [height][width] covered share × opacity, 0…1
+    std::vector<glm::ivec2> back_shift;  ///< as in Atlas
+    bool shows_front = false;            ///< as in Atlas
 };
 
-/// Lifts every covered texel, however thinly covered, into a lumel. Where charts of a file's own
-/// layout meet in one texel, it belongs to the one that covers most of it.
+/// Makes a lumel of every covered texel, however thinly covered. If charts of the file share a
+/// texel, it belongs to the one with the largest part.
 Lumels make_lumels(const Scene& scene, const Atlas& atlas, const ProgressCallback& progress = {});
 
 /// [texels][2]: front and back lumel of each texel, or kNoLumel.

@@ -11,10 +11,10 @@
 namespace lumel {
 namespace {
 
-/// Triangles up to this many times as large as the median one are detail.
+/// Triangles up to this multiple of the median area are detail.
 constexpr double kDetail = 2.0;
-/// A triangle is divided until it is no longer than this share of its distance from the content:
-/// then 1 / d² varies little over it.
+/// Maximum length of a triangle relative to its distance from the content: 1 / d² then varies
+/// little over it.
 constexpr double kSmooth = 0.5;
 constexpr int kMaxDivisions = 24;
 
@@ -97,7 +97,7 @@ double seen_area(const Content& content, const Triangle& t, int divisions = 0)
     const double reach = content.viewing_distance;
     const auto distance = [&](const glm::dvec3& point) { return content.box.distance(point); };
     if (std::all_of(t.begin(), t.end(), [&](const auto& p) { return distance(p) <= reach; }))
-        return area_of(t);  // what is near is convex
+        return area_of(t);  // the region within L is convex
     const double d = std::max(distance((t[0] + t[1] + t[2]) / 3.0), reach);
     int longest = 0;
     std::array<double, 3> length;
@@ -125,8 +125,8 @@ void lower_far_out(const Scene& scene, std::vector<std::vector<Density>>& densit
 {
     const Content content = content_of(scene);
     if (!(content.viewing_distance > 0.0))
-        return;                                  // flat content has no rim to look from
-    std::vector<std::vector<glm::dvec2>> areas;  // seen and whole [m²]
+        return;                                  // flat content has no viewing distance
+    std::vector<std::vector<glm::dvec2>> areas;  // weighted and true area [m²]
     for (const std::vector<Density>& of_instance : densities)
         areas.emplace_back(of_instance.size(), glm::dvec2(0.0));
     each_triangle(scene, [&](const Triangle& triangle, std::size_t i, std::size_t p) {

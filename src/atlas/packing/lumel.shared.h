@@ -4,14 +4,14 @@
 LUMEL_SHARED_BEGIN
 
 LUMEL_CONST uint kLumelBack = 1u;    ///< flag: the back side of a double-sided surface
-LUMEL_CONST uint kLumelBuried = 2u;  ///< flag: lies under other geometry, no light can reach it
+LUMEL_CONST uint kLumelBuried = 2u;  ///< flag: under other geometry, without light
 LUMEL_CONST uint kLumelMoving =
-    4u;  ///< flag: lit by cross redistribution alone, see methods/redistribution/cross.cpp
+    4u;  ///< flag: lit only by cross redistribution, see methods/redistribution/cross.cpp
 
-LUMEL_CONST uint kNoLumel = 0xffffffffu;  ///< where a texel has none
+LUMEL_CONST uint kNoLumel = 0xffffffffu;  ///< no lumel at a texel
 
-/// One lightmap texel lifted into the world: the patch of the radiosity equation.
-/// Lengths and directions are in the frame of its instance, areas and sizes in the world.
+/// A lightmap texel as a patch of the radiosity equation. Lengths and directions are in the
+/// frame of its instance, areas and sizes in world space.
 struct Lumel {
     vec3 position;  ///< x  [m]     point of the covered part nearest its centroid, instance frame
     vec3 normal;    ///< n  [1]     unit, mean over the covered part, instance frame
@@ -27,21 +27,21 @@ struct Lumel {
     uint flags;        ///< kLumelBack | kLumelBuried | kLumelMoving
 };
 
-/// How a lumel reflects where gloss counts: [NNS99]'s model, see methods/glossy/phong.glsl.
+/// Reflection for glossy methods: [NNS99]'s model, see methods/glossy/phong.glsl.
 struct Gloss {
     vec3 diffuse;     ///< ρ_d [1] diffuse reflectance
     vec3 specular;    ///< ρ_s [1] specular reflectance; ρ_d + ρ_s ≤ 1
     float shininess;  ///< n   [1] exponent, 1…kMaxShininess
 };
 
-/// A flat part of a lumel: the texel's square clipped to one triangle and cut into triangles
-/// or parallelograms. Its points are origin + u edge_u + v edge_v; in a triangle u + v ≤ 1.
+/// A flat part of a lumel: the texel's square, clipped to a triangle and divided into triangles or
+/// parallelograms. Its points are origin + u edge_u + v edge_v; in a triangle u + v ≤ 1.
 struct Piece {
     vec3 origin;  ///< [m] instance frame
     vec3 edge_u;  ///< [m]
     vec3 edge_v;  ///< [m] cross(edge_u, edge_v) points to the lumel's side (before mirroring)
     vec3 normal;  ///< [1] unit, interpolated vertex normal at the piece's centre
-    float share;  ///< running sum of area shares within the lumel; 1 at its last piece
+    float share;  ///< running sum of area shares within the lumel, up to 1
     uint parallelogram;  ///< 1: u, v in 0…1; 0: triangle
 };
 

@@ -1,4 +1,4 @@
-// The atlas: choose a layout for every surface, pack, number the charts.
+// The atlas: chooses a layout for every surface, packs, numbers the charts.
 
 #include <algorithm>
 #include <cmath>
@@ -23,34 +23,34 @@ namespace lumel {
 
 namespace {
 
-constexpr int kLargestSide = 16384;  // what common GPUs take as an image
-constexpr int kLargestGutter = 64;   // clean down to the sixth mip level
-/// How far the work is, roughly, when its parts end.
+constexpr int kLargestSide = 16384;  // image side of common GPUs
+constexpr int kLargestGutter = 64;   // sufficient up to the sixth mip level
+/// Approximate progress at the end of each stage.
 constexpr double kChecked = 0.1, kPlanned = 0.75, kSidesKnown = 0.85, kPacked = 0.9;
-constexpr std::size_t kMaxMeshNotes = 8;  // more of the same is noise
-// Charts end this close to a texel's border end on it: rounding shall not open another texel.
+constexpr std::size_t kMaxMeshNotes = 8;  // further ones are summarised
+// Charts that end this close to a texel's border end on it, so that rounding adds no texel.
 constexpr double kSnapDistance = 1e-3;
 // Share of a map that charts of an ordinary scene cover.
 constexpr double kLikelyFill = 0.5;
-constexpr double kMinLeft = 0.01;  // of that, beside charts whose density is set
-// Transforms that agree to this relative accuracy share their charts.
+constexpr double kMinLeft = 0.01;  // minimum share of that beside charts of fixed density
+// Relative tolerance for transforms that share charts.
 constexpr double kSameScale = 1e-5;
 
-/// A surface that is being put into the atlas.
+/// A surface to be packed.
 struct Plan {
     std::uint32_t instance = 0;
     std::uint32_t primitive = 0;
     bool authored = false;
     std::shared_ptr<const Layout> layout;
-    std::uint32_t first_item = 0;  ///< of its charts' rectangles; authored: the only one
-    glm::dvec2 origin{0.0};        ///< of the rectangle, in the layout's coordinates
+    std::uint32_t first_item = 0;  ///< rectangle of its first chart; the only one if authored
+    glm::dvec2 origin{0.0};        ///< the rectangle's, in layout coordinates
 };
 
-/// Everything to be packed.
+/// All surfaces and rectangles to be packed.
 struct Plans {
     std::vector<Plan> surfaces;
     std::vector<Rectangle> items;
-    std::vector<glm::dvec2> extent;  ///< [items] their sizes in the layout's coordinates
+    std::vector<glm::dvec2> extent;  ///< [items] size in layout coordinates
 };
 
 using Densities = std::vector<std::vector<Density>>;  // [instances][primitives]
@@ -100,10 +100,10 @@ double world_area(const Mesh& mesh, const glm::mat4& transform)
     return area;
 }
 
-/// The density that packing will come to, roughly [texels/m].
+/// Estimate of the packed density [texels/m].
 double likely_density(const Scene& scene, const Densities& densities, const AtlasOptions& options)
 {
-    double area = 0.0, fixed = 0.0;  // [m²], and of what has a density of its own [texels]
+    double area = 0.0, fixed = 0.0;  // [m²], and texels of fixed densities
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const std::vector<Primitive>& primitives = scene.meshes[instance.mesh].primitives;
@@ -123,7 +123,7 @@ double likely_density(const Scene& scene, const Densities& densities, const Atla
     return std::min(density, side * std::sqrt(pages * left / std::max(area, 1e-30)));
 }
 
-/// What lengths a transform makes, rounded: instances that differ only in place share charts.
+/// Rounded metric of a transform: instances that differ only in position and rotation share charts.
 std::vector<long long> scale_key(const glm::mat4& transform)
 {
     const glm::dmat3 linear(transform);
@@ -137,7 +137,7 @@ std::vector<long long> scale_key(const glm::mat4& transform)
     return key;
 }
 
-/// What all primitives of an instance get that share one layout.
+/// Common density of an instance's primitives that share one layout.
 Density densest(const std::vector<Density>& densities)
 {
     Density densest{0.0, 0.0};
@@ -148,7 +148,7 @@ Density densest(const std::vector<Density>& densities)
     return densest;
 }
 
-/// Gives the mesh's own layout one rectangle for the instance, as dense as its surface requires.
+/// Adds one rectangle for the mesh's own layout in the instance, at the density of its surface.
 void plan_authored(const Scene& scene, std::uint32_t instance_index, const AuthoredReport& report,
                    const std::vector<Density>& densities, Plans& plans)
 {
@@ -174,8 +174,8 @@ void plan_authored(const Scene& scene, std::uint32_t instance_index, const Autho
                            std::uint32_t(plans.items.size())});
 }
 
-/// Charts for every planned surface that has no layout yet, on all cores.
-/// `common`: the density that packing will come to, roughly [texels/m].
+/// Makes charts for every planned surface without a layout, in parallel. `common`: estimate of the
+/// packed density [texels/m].
 void plan_charts(const Scene& scene, const Densities& densities, double common, int gutter,
                  Plans& plans)
 {
@@ -238,7 +238,7 @@ Plans plan(const Scene& scene, const std::vector<AuthoredReport>& reports,
     return plans;
 }
 
-/// The file's one layout of the whole scene, kept over the whole map.
+/// Uses the file's single layout of the whole scene for the whole map.
 Packing pack_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& reports,
                         const AtlasOptions& options, Plans& plans, std::vector<std::string>& notes)
 {
@@ -295,11 +295,10 @@ Surface place(const Plan& plan, const Plans& plans, const Packing& packing)
     return surface;
 }
 
-/// Numbers the charts along a Morton curve through the world, so that neighbours in number are
-/// neighbours in space.
+/// Numbers the charts along a Morton curve in world space, so that adjacent numbers are close.
 void number_charts(const Scene& scene, Atlas& atlas)
 {
-    std::vector<glm::dvec4> centre;  // of each chart: area × position, area
+    std::vector<glm::dvec4> centre;  // per chart: area × position, area
     for (Surface& surface : atlas.surfaces) {
         const Instance& instance = scene.instances[surface.instance];
         const Primitive& primitive = scene.meshes[instance.mesh].primitives[surface.primitive];
@@ -341,7 +340,7 @@ std::uint32_t item_of(const Plan& plan, std::size_t triangle)
     return plan.first_item + (plan.authored ? 0u : plan.layout->chart[triangle]);
 }
 
-/// What shows both sides or one: our charts, and whole primitives of the file's layouts.
+/// Units that show one or both sides: our charts, and whole primitives of the file's layouts.
 class Sheets {
 public:
     explicit Sheets(const Plans& plans)
@@ -358,7 +357,7 @@ public:
 
     std::span<const std::vector<TriangleOf>> triangles() const { return triangles_; }
 
-    /// Of a triangle of plan s.
+    /// Index of the unit of a triangle of plan s.
     std::size_t number(const Plan& plan, std::size_t s, std::size_t triangle) const
     {
         return first_[s] + (plan.authored ? 0u : plan.layout->chart[triangle]);
@@ -384,7 +383,7 @@ std::vector<std::vector<TriangleOf>> triangles_of_surfaces(const Scene& scene)
     return triangles;
 }
 
-/// True if the file's one layout of the whole scene can be kept: it has no place for backs.
+/// True if the file's single layout of the whole scene can be kept: it has no space for backs.
 bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& reports,
                       const ShowsBoth& shows_both, std::vector<std::string>& notes)
 {
@@ -395,13 +394,13 @@ bool keeps_scene_wide(const Scene& scene, const std::vector<AuthoredReport>& rep
     const std::vector<char> both = shows_both(scene, triangles_of_surfaces(scene));
     if (std::find(both.begin(), both.end(), 1) == both.end())
         return true;
-    notes.emplace_back("TEXCOORD_1 has no place for the light on the backs of double-sided "
-                       "surfaces, so each mesh is placed anew; --sides brighter keeps the layout");
+    notes.emplace_back("TEXCOORD_1 has no space for the backs of double-sided surfaces, so each "
+                       "mesh is packed again; --sides brighter keeps the layout");
     return false;
 }
 
-/// Packs the rectangles, and one more of the same size for the backs of each item of which a sheet
-/// shows both sides. back: [items] the rectangle of its backs, its own where it has none.
+/// Packs the rectangles, and a second one of equal size for the backs of each item with a two-sided
+/// unit. back: [items] the rectangle of its backs, or its own.
 Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<char>& both,
                    const AtlasOptions& options, std::vector<std::uint32_t>& back,
                    std::vector<std::string>& notes)
@@ -420,7 +419,7 @@ Packing pack_sides(const Plans& plans, const Sheets& sheets, const std::vector<c
     return pack(items, options, notes);
 }
 
-/// Where the backs of charts are, from their fronts.
+/// Offsets from fronts of charts to their backs.
 std::vector<glm::ivec2> back_shifts(const Plans& plans, const Sheets& sheets,
                                     const std::vector<char>& both, const Packing& packing,
                                     const std::vector<std::uint32_t>& back, const Atlas& atlas)
@@ -437,7 +436,7 @@ std::vector<glm::ivec2> back_shifts(const Plans& plans, const Sheets& sheets,
     return shifts;
 }
 
-/// Checks the layouts that come with the file, and warns of those that cannot be used.
+/// Checks the layouts of the file, and warns of unusable ones.
 std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::string>& notes)
 {
     std::vector<AuthoredReport> reports;
@@ -451,8 +450,8 @@ std::vector<AuthoredReport> check_all(const Scene& scene, std::vector<std::strin
                                         mesh.name, reports.back().complaint()));
     }
     if (refused > kMaxMeshNotes)
-        notes.push_back(fmt::format("TEXCOORD_1 of {} more meshes cannot be used either",
-                                    refused - kMaxMeshNotes));
+        notes.push_back(
+            fmt::format("TEXCOORD_1 of {} more meshes is unusable too", refused - kMaxMeshNotes));
     return reports;
 }
 
@@ -473,7 +472,7 @@ Atlas make_atlas(const Scene& scene, const AtlasOptions& requested,
 
     const std::vector<AuthoredReport> reports = check_all(scene, atlas.notes);
     notify(progress, kChecked);
-    // Lay out and pack.
+    // Builds the layouts and packs them.
     Plans plans;
     Packing packing;
     std::optional<Sheets> sheets;

@@ -1,5 +1,5 @@
 #pragma once
-// Morton codes: positions in an order that keeps neighbours together.
+// Morton codes: an order that keeps neighbours together.
 
 #include <cstdint>
 
@@ -17,7 +17,7 @@ inline std::uint64_t morton_code(std::uint32_t x, std::uint32_t y)
     return code;
 }
 
-/// Code of a point in the unit cube, 16 bits an axis.
+/// Code of a point in the unit cube, 16 bits per axis.
 inline std::uint64_t morton_code(const glm::dvec3& point)
 {
     std::uint64_t code = 0;

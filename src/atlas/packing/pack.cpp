@@ -21,14 +21,14 @@ namespace lumel {
 namespace {
 
 constexpr int kSideStep = 4;           // block-compressed textures need multiples of 4
-constexpr int kDefaultSide = 512;      // detail for a room, seconds to minutes on a small machine
-constexpr double kDefaultFill = 0.25;  // below this gutters and tiny charts eat a default map
+constexpr int kDefaultSide = 512;      // detail for a room; seconds to minutes on a small machine
+constexpr double kDefaultFill = 0.25;  // below this, gutters and tiny charts fill a default map
 constexpr int kBisections = 9;         // density to 0.1 per cent
 constexpr double kSideGrowth = 1.02;
-// Shares of pages that are tried: the fuller they are, the fewer are needed, if all then fits.
+// Fill ratios of pages to try: fuller pages are fewer, if everything fits.
 constexpr std::array kPageFills = {0.97, 0.94, 0.91, 0.88, 0.85, 0.8, 0.7, 0.5};
 
-/// The rectangles to place and the rules for doing so.
+/// Rectangles and rules for placing them.
 struct Task {
     const std::vector<Rectangle>& rectangles;
     int gutter;
@@ -36,13 +36,13 @@ struct Task {
 
     static glm::ivec2 texels(const Rectangle& rectangle, double density)
     {
-        // No map is as large as this; it only keeps the conversion defined.
+        // Larger than any map; keeps the conversion defined.
         constexpr double kHuge = 1 << 24;
         return glm::ivec2(
             glm::clamp(glm::round(rectangle.size * rectangle.density.in(density)), 1.0, kHuge));
     }
 
-    /// Texels taken by all rectangles and their gutters.
+    /// Texels of all rectangles with their gutters.
     double footprint(double density) const
     {
         double sum = 0.0;
@@ -53,7 +53,7 @@ struct Task {
         return sum;
     }
 
-    /// Texels that all rectangles cover.
+    /// Texels of all rectangles.
     double covered(double density) const
     {
         double sum = 0.0;
@@ -62,10 +62,10 @@ struct Task {
         return sum;
     }
 
-    /// Texels for each (texel/m)² of the common density, without what is fixed [m²].
+    /// Texels per (texel/m)² of the common density, without fixed rectangles [m²].
     double area() const { return std::max(covered(1.0) - covered(0.0), 1e-30); }
 
-    /// Of what follows the common density [m].
+    /// Longest side of rectangles of the common density [m].
     double longest_side() const
     {
         double longest = 0.0;
@@ -95,12 +95,12 @@ bool pack_page(const Task& task, double density, int side, std::span<const std::
             return false;
         rectangles[i] = {int(chosen[i]), padded.x, padded.y, 0, 0, 0};
     }
-    // The packer's own sort does not specify the order of equal items: leave it no choice.
+    // The packer's own sort leaves the order of equal items unspecified, so items are sorted first.
     std::stable_sort(rectangles.begin(), rectangles.end(),
                      [](const stbrp_rect& a, const stbrp_rect& b) {
                          return a.h > b.h || (a.h == b.h && a.w > b.w);
                      });
-    // Lowest place first, or else tightest place first: neither is always better.
+    // Lowest position first, else tightest position first: neither is always better.
     std::vector<stbrp_node> nodes(std::size_t(side), stbrp_node{});
     const auto packs_with = [&](int heuristic) {
         stbrp_context context{};
@@ -118,7 +118,7 @@ bool pack_page(const Task& task, double density, int side, std::span<const std::
     return true;
 }
 
-/// The rectangles of each page, as few pages as hold them if they are filled so far.
+/// The rectangles of each page, for as few pages as hold them at this fill ratio.
 std::vector<std::vector<std::uint32_t>> deal(const Task& task, double density, int side,
                                              double fill)
 {
@@ -167,14 +167,14 @@ std::optional<Packing> try_pack(const Task& task, double density, int side)
     return std::nullopt;
 }
 
-/// The densest packing that fits a square of this side, no denser than `limit` [texels/m].
+/// The densest packing in a square of this side, at most `limit` [texels/m].
 std::optional<Packing> fill(const Task& task, int side, double limit)
 {
-    // Even rounding down cannot bring more than this much of the rectangles into the square.
+    // Upper bound of the density, even if all rectangles are rounded down.
     double above = std::min(2.0 * side * std::sqrt(task.pages / task.area()), limit);
     if (std::optional<Packing> packing = try_pack(task, above, side))
         return packing;
-    // Below `least` every rectangle is a single texel.
+    // At `least` every rectangle is a single texel.
     const double least = 1.0 / std::max(task.longest_side(), 1e-30);
     double below = above;
     std::optional<Packing> best;
@@ -258,7 +258,7 @@ Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& optio
                                     "{:.4g} to {:.4g} texels per metre",
                                     options.pages > 1 ? fmt::format("{} × ", options.pages) : "",
                                     side, side, density, packing->density));
-    if (task.longest_side() == 0.0)  // nothing follows the common density
+    if (task.longest_side() == 0.0)  // all densities are fixed
         packing->density = task.largest_fixed();
     return *packing;
 }

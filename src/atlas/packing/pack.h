@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles into a square.
+// Packs rectangles into squares.
 
 #include <string>
 #include <vector>
@@ -11,16 +11,16 @@
 
 namespace lumel {
 
-/// Side of the map where no option sets it: detail for a room, seconds to minutes on a small
-/// machine. It is doubled while charts do not fit well.
+/// Default side of the map: detail for a room, seconds to minutes on a small machine. It is doubled
+/// while charts do not fit well.
 constexpr int kDefaultSide = 512;
 
-/// What is to be placed.
+/// A rectangle to place.
 struct Rectangle {
     glm::dvec2 size{0.0};  ///< [m]
     Density density;
-    std::uint32_t group = 0;  ///< rectangles of one group are on one page where they fit
-    std::uint32_t lot = 0;    ///< those of one lot always are
+    std::uint32_t group = 0;  ///< rectangles of a group share a page if possible
+    std::uint32_t lot = 0;    ///< rectangles of a lot always share a page
 };
 
 struct PackedRectangle {
@@ -30,15 +30,14 @@ struct PackedRectangle {
 
 struct Packing {
     Pages pages;
-    double density = 0.0;  ///< of rectangles whose own is neither fixed nor lowered [texels/m]
+    double density = 0.0;  ///< common density of rectangles [texels/m]
     std::vector<PackedRectangle> rectangles;
 };
 
-/// Places rectangles with `options.gutter` empty texels between any two, and half as many along
-/// the rim of each page. More than one page is used where the density that is asked for needs it,
-/// or to fill maps of `options.size` where none is asked for. Each size is rounded to whole texels.
-/// Adds to `notes` where the requested density was not possible. Throws Error{input} if they cannot
-/// be made to fit.
+/// Places rectangles with `options.gutter` empty texels between any two, and half as many along the
+/// border of each page. Uses several pages if the requested density needs them, or to fill maps of
+/// `options.size` if no density is requested. Sizes are rounded to whole texels. Adds to `notes` if
+/// the requested density is not possible. Throws Error{input} if they cannot fit.
 Packing pack(const std::vector<Rectangle>& rectangles, const AtlasOptions& options,
              std::vector<std::string>& notes);
 

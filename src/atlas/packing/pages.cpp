@@ -78,7 +78,7 @@ void paste_page(const Pages& pages, int page, const Image& part, Image& map)
 
 namespace {
 
-/// Lots [lots] of one group.
+/// Lots of a group, as indices.
 struct Group {
     std::vector<std::size_t> lots;
     double weight = 0.0;
@@ -97,7 +97,7 @@ std::vector<Group> groups_of(const std::vector<Lot>& lots)
     return groups;
 }
 
-/// Pages that are being filled.
+/// Pages during the assignment.
 class Dealing {
 public:
     Dealing(const std::vector<Lot>& lots, double room, int most)
@@ -130,7 +130,7 @@ private:
             std::find_if(left_.begin(), left_.end(), [&](double left) { return left >= weight; }) -
             left_.begin());
     }
-    /// With room for it; a new one where none has.
+    /// The page with the most space, if sufficient, else a new one.
     std::size_t emptiest(double weight) const
     {
         const auto most = std::max_element(left_.begin(), left_.end());

@@ -12,20 +12,20 @@
 namespace lumel {
 namespace {
 
-/// Walks from a side: at least so many, and about as many more in all as areas ask for.
+/// Walks per side: at least kMinWalks, and about kSharedWalks more in total, by area.
 constexpr std::uint32_t kMinWalks = 32, kMaxWalks = 512;
 constexpr double kSharedWalks = 1 << 15;
-/// A side is lit if one of so many walks finds light: what gets through cracks into furniture is
-/// less, and nobody sees it.
+/// A side is lit if one of this many walks finds light: less light, as through cracks in furniture,
+/// is invisible.
 constexpr std::uint32_t kWalksForLight = 64;
-constexpr std::uint32_t kMaxSteps = 24;  ///< of a walk
-/// Walks from each lamp, which light what they meet; fewer where lamps are many.
+constexpr std::uint32_t kMaxSteps = 24;  ///< steps per walk
+/// Walks from each lamp, which light the surfaces that they hit; fewer if there are many lamps.
 constexpr std::uint32_t kLampWalks = 256, kMinLampWalks = 16, kAllLampWalks = 1 << 16;
 constexpr std::uint32_t kLampSteps = 3;
-/// Walks begin away from the edges of their triangle by this share of it: next to an edge they
-/// could begin beyond the neighbouring wall.
+/// Inset of walks from the edges of their triangle, relative to it: close to an edge they could
+/// start beyond the adjacent wall.
 constexpr float kInset = 0.01f;
-/// And go on from this share of a ray before its end, a place that is surely on this side.
+/// Fraction of a ray before its end at which the walk continues, surely on the same side.
 constexpr float kBefore = 1e-3f;
 
 const Primitive& primitive_of(const Scene& scene, const TriangleOf& at)
@@ -43,10 +43,10 @@ bool is_double_sided(const Scene& scene, const TriangleOf& at)
     return material_of(scene, at).double_sided;
 }
 
-/// Where a walk is.
+/// Position of a walk.
 struct Place {
     glm::vec3 position;  ///< [m]
-    glm::vec3 normal;    ///< unit, of the side that it is on
+    glm::vec3 normal;    ///< unit, of its side
 };
 
 /// The double-sided triangles of a chart.
@@ -70,7 +70,7 @@ public:
 
     double area() const { return sums_.empty() ? 0.0 : sums_.back(); }  ///< [m²]
 
-    /// Walk `index` of `count` begins here, lifted off the side.
+    /// Start of walk `index` of `count`, offset from the side.
     Place start(bool back, std::uint32_t index, std::uint32_t count, float ray_offset) const
     {
         const double at = (double(index) + 0.5) / double(count) * area();
@@ -99,11 +99,11 @@ private:
 
     const Scene& scene_;
     std::vector<TriangleOf> triangles_;
-    std::vector<double> sums_;  ///< running, over triangles [m²]
+    std::vector<double> sums_;  ///< running sums over triangles [m²]
     bool glows_ = false;
 };
 
-/// Does light of one lamp, another with each `seed`, arrive at a place?
+/// True if light of one lamp, chosen by `seed`, reaches the position.
 bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::uint32_t seed)
 {
     if (scene.lights.empty())
@@ -121,7 +121,7 @@ bool sees_lamp(const Scene& scene, const RayScene& rays, const Place& at, std::u
            rays.sees(at.position, place, rays.ray_offset(), seed);
 }
 
-/// Follows one walk to its end. True if it found light.
+/// Follows a walk to its end. Returns true if it finds light.
 bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32_t key)
 {
     for (std::uint32_t step = 0; step < kMaxSteps; ++step) {
@@ -144,7 +144,7 @@ bool finds_light(const Scene& scene, const RayScene& rays, Place at, std::uint32
     return false;
 }
 
-/// The charts by their triangles.
+/// Charts by triangle.
 class ChartOfTriangle {
 public:
     ChartOfTriangle(const Scene& scene, std::span<const std::vector<TriangleOf>> charts)
@@ -167,7 +167,7 @@ private:
     std::vector<std::vector<std::vector<std::uint32_t>>> chart_;
 };
 
-/// Even over all directions.
+/// Uniform over the sphere.
 glm::vec3 any_direction(std::uint32_t seed)
 {
     const float z = 2.0f * unit_float(mixed_bits(seed)) - 1.0f;
@@ -176,8 +176,8 @@ glm::vec3 any_direction(std::uint32_t seed)
     return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// [2 × charts] 1 for fronts and backs, in turn, that walks from lamps meet. A side asks for one of
-/// all lamps at a time: where they are many it may miss the one beside it.
+/// [2 × charts] 1 for fronts and backs, alternately, that walks from lamps hit. Walks from sides
+/// test one lamp per step and may miss a near one of many.
 std::vector<char> lit_by_lamps(const Scene& scene, const RayScene& rays,
                                std::span<const std::vector<TriangleOf>> charts)
 {

@@ -9,7 +9,7 @@
 namespace lumel {
 namespace {
 
-/// How far the work is, roughly, when its parts end.
+/// Approximate progress at the end of each stage.
 constexpr double kRaysReady = 0.1, kLaidOut = 0.3, kLifted = 0.5;
 
 bool is_black(const glm::vec3& light)
@@ -17,7 +17,7 @@ bool is_black(const glm::vec3& light)
     return light == glm::vec3(0.0f);
 }
 
-/// Whether anything sends light at all; whether it meets a surface is another question.
+/// True if there is any light source, whether or not it lights a surface.
 bool gives_light(const Scene& scene)
 {
     const auto shines = [](const PunctualLight& light) {

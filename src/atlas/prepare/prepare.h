@@ -1,5 +1,5 @@
 #pragma once
-// What every method needs before it can begin.
+// Scene, rays, atlas and lumels: the inputs of every method.
 
 #include <functional>
 #include <string>
@@ -13,21 +13,21 @@ namespace lumel {
 /// Reads a scene and adds the lights of the options. Throws Error.
 Scene read_scene(const std::string& path, MaterialModel model, const LightOptions& lights);
 
-/// Throws Error{input} if the scene has no camera of that number; -1 stands for any.
+/// Throws Error{input} if the scene has no such camera; -1 means any.
 void check_camera(const Scene& scene, int camera);
 
-/// A scene with its lumels; buried ones are marked. Stays where it was made, since the rays look
-/// into the scene.
+/// A scene with its lumels; buried ones are marked. Not movable, because the rays refer to the
+/// scene.
 struct Prepared {
-    /// Lays out and lifts a scene. Throws Error.
+    /// Builds the atlas and the lumels of a scene. Throws Error.
     Prepared(Scene scene, const AtlasOptions& options, const ProgressCallback& progress = {});
-    /// The same with an atlas that `lay_out` makes of the scene, and with `bury` in place of
-    /// mark_buried; its result is `open`.
+    /// Uses the atlas that `lay_out` makes, and `bury`, whose result is `open`, instead of
+    /// mark_buried.
     using LayOut = std::function<Atlas(const Scene&, const RayScene&, const ProgressCallback&)>;
     using Bury = std::function<std::vector<float>(const Scene&, const RayScene&, Lumels&)>;
     Prepared(Scene scene, const LayOut& lay_out, const Bury& bury = {},
              const ProgressCallback& progress = {});
-    /// Reads it first.
+    /// Reads the scene first.
     Prepared(const std::string& scene_path, const AtlasOptions& options);
     Prepared(const Prepared&) = delete;
     Prepared& operator=(const Prepared&) = delete;

@@ -32,8 +32,8 @@ glm::vec3 scale_color(double place);
 /// Text of a tick in the legend: "0.05", "200", "10000".
 std::string tick_text(double lux);
 
-/// Display-referred image with 3 channels. lux: one channel, negative where there is no surface,
-/// which becomes grey.
+/// Display-referred image with 3 channels. lux: one channel, negative where there is no
+/// surface, which becomes grey.
 Image colours_of(const Image& lux, const LuxScale& scale);
 
 /// As colours_of, with a legend of the scale in `unit`.

@@ -1,4 +1,4 @@
-// The score: the whole of Lumel, in order.
+// The bake pipeline.
 
 #include "jobs/bake/bake.h"
 
@@ -29,7 +29,7 @@ bool is_lit(const std::vector<glm::vec3>& irradiance)
                        [](const glm::vec3& light) { return light != glm::vec3(0.0f); });
 }
 
-/// Without any, the scene's reader has warned.
+/// False if the scene has no light sources; the reader has warned then.
 bool has_sources(const Prepared& prepared)
 {
     const std::vector<Lumel>& lumels = prepared.lumels.lumels;
@@ -38,7 +38,7 @@ bool has_sources(const Prepared& prepared)
                        [](const Lumel& lumel) { return lumel.emission != glm::vec3(0.0f); });
 }
 
-/// All but light probes. output: made when the scene has been read.
+/// Bakes everything except light probes. output: created once the scene is read.
 BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
                        BakeOptions options, std::optional<OutputFolder>& output,
                        const ProgressFunction& progress)
@@ -56,7 +56,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     Stages stages(progress);
     stages.begin("reading");
     Scene scene = read_scene(scene_path, method.materials, options.lights);
-    // What can fail before the long work should.
+    // Checks for failures before the long work.
     output.emplace(folder);
     std::optional<OutputFolder> dump;
     if (!options.dump.empty())
@@ -94,7 +94,7 @@ BakeSummary bake_light(const std::string& scene_path, const std::string& folder,
     }
 
     const bool stopped = stages.stopped();
-    // Of no light there is no error.
+    // Without light there is no error.
     const bool lit = is_lit(solution->irradiance);
     if (!lit && has_sources(setting.prepared))
         stages.warn("no light reaches any surface: the lightmap is black");
@@ -129,7 +129,7 @@ BakeSummary bake(const std::string& scene_path, const std::string& folder,
 {
     std::optional<OutputFolder> output;
     BakeSummary summary = bake_light(scene_path, folder, options, output, progress);
-    // A map that is done stays where its probes are stopped.
+    // A complete map is kept even if its probes are stopped.
     if (options.probe_spacing > 0.0 && !summary.interrupted)
         summary.interrupted =
             !unless_stopped([&] { add_probes(*output, options.probe_spacing, progress); });

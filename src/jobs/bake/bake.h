@@ -12,7 +12,7 @@ namespace lumel {
 BakeSummary bake(const std::string& scene_path, const std::string& folder,
                  const BakeOptions& options, const ProgressFunction& progress = {});
 
-/// lumel info: what is in the scene and what a bake would take, as text or JSON.
+/// lumel info: contents of the scene and cost of a bake, as text or JSON.
 std::string describe(const std::string& scene_path, const BakeOptions& options, bool json);
 
 }  // namespace lumel

@@ -1,4 +1,4 @@
-// lumel info: what is in a scene and what a bake would take.
+// lumel info: contents of a scene and cost of a bake.
 
 #include <algorithm>
 #include <array>
@@ -36,14 +36,14 @@ Json json_of(const HostMemory& bytes)
             {"links", bytes.links},     {"working", bytes.working}};
 }
 
-/// Buried lumels and open area, from looks at some of the lumels.
+/// Buried lumels and open area, estimated from a sample of lumels.
 struct Open {
     std::size_t buried = 0;
     double area = 0.0;  ///< [m²]
 };
 
-/// A scene made ready as for a bake, but that it looks at a part of the lumels only, by chance, to
-/// see which are buried: in a large atlas that takes most of the time.
+/// A scene prepared as for a bake, except that only a random sample of lumels is tested for burial,
+/// which takes most of the time in a large atlas.
 class SampledScene {
 public:
     SampledScene(Scene scene, const AtlasOptions& options)
@@ -64,8 +64,8 @@ public:
 private:
     std::vector<float> mark_some(const Scene& scene, const RayScene& rays, Lumels& lumels)
     {
-        constexpr std::size_t kLooks = std::size_t(1) << 17;  // states the share to 0.2 %
-        constexpr std::uint32_t kMix = 2654435761u;           // Knuth's: lumels lie in rows
+        constexpr std::size_t kLooks = std::size_t(1) << 17;  // estimates the fraction to 0.2 %
+        constexpr std::uint32_t kMix = 2654435761u;           // Knuth's multiplier
         const std::size_t count = lumels.lumels.size();
         const std::size_t every = (count + kLooks - 1) / kLooks;
         std::vector<char> chosen(count);
@@ -91,7 +91,7 @@ private:
     Prepared prepared_;
 };
 
-/// Of the device that is taken where none is named; empty if there is none.
+/// Limits of the default device; empty if there is none.
 std::optional<MemoryLimits> usual_limits(const BakeOptions& options)
 {
     try {
@@ -99,19 +99,19 @@ std::optional<MemoryLimits> usual_limits(const BakeOptions& options)
         if (const gpu::DeviceInfo* best = gpu::best_of(infos))
             return memory_limits(options, *best);
     } catch (const Error&) {
-        // What is wrong with devices, a bake says, and lumel devices.
+        // Device errors are reported by bake and lumel devices.
     }
     return std::nullopt;
 }
 
-/// Lamps of the file, without the sun that the options add.
+/// Lamps of the file, without the options' sun.
 std::size_t lamp_count(const Scene& scene, const LightOptions& options)
 {
     const bool sun_is_up = options.sun && options.sun->elevation > 0.0;
     return scene.lights.size() - (sun_is_up ? 1 : 0);
 }
 
-/// What each surface gets: primitives of one object may differ by their materials.
+/// Density of each surface: primitives of one object can differ by material.
 Json densities(const Scene& scene, const Atlas& atlas)
 {
     Json all = Json::array();
@@ -190,12 +190,12 @@ std::string lightmap_uv_text(const Json& json)
     const auto all = json["surfaces"].get<std::size_t>();
     const auto own = json["surfaces_with_own_lightmap_uv"].get<std::size_t>();
     if (own == 0)
-        return "charts are made (the file brings no TEXCOORD_1 that can be used)";
+        return "generated (the file has no usable TEXCOORD_1)";
     return own == all ? "the file's TEXCOORD_1 is used"
                       : fmt::format("the file's TEXCOORD_1 is used on {} of {} surfaces", own, all);
 }
 
-/// Empty where everything is mapped alike.
+/// Empty if all densities are equal.
 std::string densities_text(const Json& json)
 {
     const double common = json["texels_per_metre"].get<double>();
@@ -209,7 +209,7 @@ std::string densities_text(const Json& json)
     }
     if (other == 0)
         return {};
-    return fmt::format("{:.4g} to {:.4g} texels per metre, {} of {} surfaces unlike the others "
+    return fmt::format("{:.4g} to {:.4g} texels per metre, {} of {} surfaces differ "
                        "(--json lists them)",
                        least, most, other, json["densities"].size());
 }
@@ -238,8 +238,8 @@ std::string text_of(const Json& json)
                               json["texels_per_metre"].get<double>(), count("charts")));
     if (const std::string densities = densities_text(json); !densities.empty())
         line("densities", densities);
-    line("lumels", fmt::format("{}, {} of them on back sides, about {} buried", count("lumels"),
-                               count("back_lumels"), count("buried_lumels")));
+    line("lumels", fmt::format("{}, {} on back sides, about {} hidden by other geometry",
+                               count("lumels"), count("back_lumels"), count("buried_lumels")));
     line("graphics memory",
          fmt::format("about {:.1f} MiB", json["graphics_memory_bytes"].get<double>() / 1048576.0));
     line("host memory",

@@ -6,8 +6,8 @@
 namespace lumel {
 namespace {
 
-/// Filling and seams mix lumels of slightly different normals: brings the layers of covered texels
-/// back in line with the map.
+/// Filling and seams mix lumels of slightly different normals: matches the layers of covered texels
+/// to the map again.
 void match_texels(FinishedMaps& maps, const Prepared& prepared,
                   const std::vector<std::uint32_t>& shown)
 {

@@ -11,19 +11,19 @@
 
 namespace lumel {
 
-/// A finished lightmap and the layers sh.0, sh.1, … beside it.
+/// A finished lightmap with its layers sh.0, sh.1, …
 struct DirectionalMaps {
     Image light;
     std::vector<Layer> layers;
 };
 
-/// irradiance [N] [lx], coefficients [4 or 9][N] [cd/m²]. At every covered texel the layers give
-/// the irradiance of the map back, for the shading normal of the lumel there.
+/// irradiance [N] [lx], coefficients [4 or 9][N] [cd/m²]. At every covered texel the layers
+/// reproduce the irradiance of the map for the shading normal of the lumel there.
 DirectionalMaps finish_directional(const Prepared& prepared,
                                    const std::vector<glm::vec3>& irradiance,
                                    const std::vector<std::vector<glm::vec3>>& coefficients);
 
-/// The layers' description in the file.
+/// Description of the layers for the file.
 std::map<std::string, std::string> directional_metadata();
 
 }  // namespace lumel

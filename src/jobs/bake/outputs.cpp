@@ -39,7 +39,7 @@ std::vector<glm::vec3> radiance_of(const Lumels& lumels, const std::vector<glm::
     return radiance;
 }
 
-/// What does not fit into half precision.
+/// Warns of values that half precision cannot hold.
 void warn_of_clipping(const Image& map, const std::string& name, Stages& stages)
 {
     std::size_t clipped = 0;
@@ -106,20 +106,20 @@ void outdate_other_pages(OutputFolder& folder, const Pages& pages)
 
 namespace {
 
-/// The picture of a bake [cd/m²]. One that cannot be made costs no more than itself.
+/// The preview [cd/m²]; empty, with a warning, if it cannot be rendered.
 std::optional<Image> draw_preview(const gpu::Device& device, const Prepared& prepared,
                                   const Image& map, const View& view, int width)
 {
     try {
         return render_preview(device, prepared.scene, prepared.atlas, map, view, width);
     } catch (const Error& error) {
-        log_warning(std::string("there is no ") + kPreview + ": " + error.what());
+        log_warning(std::string("no ") + kPreview + ": " + error.what());
         return std::nullopt;
     }
 }
 
-/// One exposure for all that shows the bake [1/lx]: white paint under H lx sends H / π, and shows
-/// exposure × H. It suits the picture, or what surfaces send where there is none.
+/// Exposure of all images of the bake [1/lx]: a white surface with irradiance H sends H / π, and is
+/// shown as exposure × H. Fits the preview, or the surfaces' light without one.
 float exposure_of(const std::optional<Image>& picture, const Image& radiance)
 {
     const bool seen = picture && bright_end(*picture) > 0.0f;
@@ -133,9 +133,9 @@ Image baked_texture(const BakeOptions& options, const Prepared& prepared, const 
     const int wanted = texture_density(prepared.scene, prepared.atlas);
     const int scale = std::clamp(options.baked_size / prepared.atlas.pages.side, 1, wanted);
     if (scale < wanted)
-        stages.tell("scene-baked.glb shows textures at " + std::to_string(100 * scale / wanted) +
-                    " % of their density, as --baked-size is " +
-                    std::to_string(options.baked_size) + "; scene.glb keeps all of it");
+        stages.tell("textures in scene-baked.glb are downsampled to " +
+                    percent_text(double(scale) / wanted) +
+                    "; raise --baked-size, or use scene.glb");
     return scale == 1 ? radiance
                       : fine_radiance(prepared.scene, prepared.atlas, map, radiance, scale);
 }
@@ -167,7 +167,7 @@ WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
     write_map(folder, kLightmapName, map, options.half, prepared, stages, written.exposure,
               maps.layers);
     write_solution(folder.path(kSolutionFile), prepared.lumels, irradiance, prepared.open);
-    // Where only indirect light is baked, viewers add the direct light of lamps themselves.
+    // If only indirect light is baked, viewers add direct light of lamps themselves.
     write_scene_glb(folder.path(kSceneFile), prepared.scene, prepared.atlas, map,
                     {.keep = options.keep_lights || options.parts == Parts::indirect,
                      .exposure = written.exposure,

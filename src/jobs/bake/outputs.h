@@ -1,5 +1,5 @@
 #pragma once
-// From a solved scene to the files of a bake.
+// Writes a solved scene to the files of a bake.
 
 #include <string>
 #include <vector>
@@ -19,7 +19,7 @@ class Solver;
 
 struct ReferenceOptions;
 
-/// What a solve has come to.
+/// Results of a solve.
 struct Results {
     std::uint64_t shots = 0;
     std::uint64_t iterations = 0;
@@ -29,36 +29,35 @@ struct Results {
     std::vector<ConvergencePoint> curve;
     bool relightable = false;  ///< scene.lumelmat was written
     std::optional<FormFactorRow> form_factors;
-    DirectLight lamps;             ///< of sky and lamps
-    DirectionalLight directional;  ///< empty if not asked for
+    DirectLight lamps;             ///< by sky and lamps
+    DirectionalLight directional;  ///< empty if not requested
 };
 
-/// Writes a finished map as NAME.exr [lx], with layers beside it, and NAME.png for looking; of
-/// several pages as NAME-0.exr and so on.
-/// exposure of the latter [1/lx], 0: that suits the map. Returns it. Warns of what half precision
-/// cannot hold.
+/// Writes a finished map as NAME.exr [lx], with layers, and NAME.png for display; several pages as
+/// NAME-0.exr and so on. exposure: of the PNG [1/lx], 0: fitted to the map. Returns it. Warns of
+/// values that half precision cannot hold.
 float write_map(const OutputFolder& folder, const std::string& name, const Image& map, bool half,
                 const Prepared& prepared, Stages& stages, float exposure = 0.0f,
                 std::span<const Layer> directional = {});
 
-/// Takes from the folder what a bake with other pages has left there.
+/// Removes files of bakes with another number of pages from the folder.
 void outdate_other_pages(OutputFolder& folder, const Pages& pages);
 
-/// What write_light() wrote.
+/// Results of write_light().
 struct WrittenLight {
-    float exposure = 0.0f;     ///< of all pictures [1/lx]
-    std::optional<View> view;  ///< that the preview shows, if there is one
+    float exposure = 0.0f;     ///< common to all images [1/lx]
+    std::optional<View> view;  ///< view of the preview, if there is one
 };
 
-/// Writes the maps, what update() needs to find the solution again, and the scenes lit by it.
-/// device: for the preview, which is left out without one, and with a warning where it cannot be
-/// made. irradiance [N] [lx], coefficients as of DirectionalLight.
+/// Writes the maps, the data that update() needs, and the lit scenes. device: for the preview;
+/// null: none. A preview that cannot be rendered is a warning. irradiance [N] [lx], coefficients:
+/// see DirectionalLight.
 WrittenLight write_light(const OutputFolder& folder, const BakeOptions& options,
                          const Prepared& prepared, const gpu::Device* device,
                          const std::vector<glm::vec3>& irradiance,
                          const std::vector<std::vector<glm::vec3>>& coefficients, Stages& stages);
 
-/// Writes all files of `lumel bake`; to commit them is left to the caller. irradiance [N] [lx].
+/// Writes all files of `lumel bake`; the caller commits them. irradiance [N] [lx].
 BakeSummary write_bake(OutputFolder& folder, const BakeOptions& options, const Prepared& prepared,
                        const gpu::Device& device, const Solver& solver,
                        const std::vector<glm::vec3>& irradiance, const Results& results,

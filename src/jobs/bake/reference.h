@@ -1,5 +1,5 @@
 #pragma once
-// The truth: the score of `lumel reference` and of `lumel render --paths`.
+// Pipelines of `lumel reference` and of `lumel render --paths`.
 
 #include <cstdint>
 #include <string>
@@ -12,14 +12,14 @@
 
 namespace lumel {
 
-/// lumel reference: the same atlas by path tracing on the CPU: lightmap.exr, lightmap.png,
-/// report.json. `materials`: what is read of them, as the solver to compare with does.
+/// lumel reference: path traces the atlas of a bake on the CPU: lightmap.exr, lightmap.png,
+/// report.json. materials: as used by the solver to compare with.
 BakeSummary bake_reference(const std::string& scene_path, const std::string& folder,
                            const BakeOptions& options, const ReferenceOptions& reference,
                            MaterialModel materials, const ProgressFunction& progress = {});
 
-/// A picture of width × height pixels [cd/m²] by this number of paths for each, as the stage "path
-/// tracing". Throws Error{stopped} if stopped before each has some.
+/// Path traces an image of width × height pixels [cd/m²] with `paths` paths per pixel, as the stage
+/// "path tracing". Throws Error{stopped} if stopped before each pixel has some.
 Image path_traced_picture(const Scene& scene, const RayScene& rays, const View& view,
                           const glm::ivec2& size, int paths, std::uint32_t seed, Stages& stages);
 

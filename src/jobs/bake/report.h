@@ -1,5 +1,5 @@
 #pragma once
-// The record and report of a bake and the report of a reference.
+// Record and report of a bake, and report of a reference.
 
 #include "jobs/bake/outputs.h"
 #include "results/record/bake_record.h"
@@ -8,18 +8,16 @@ namespace lumel {
 
 struct ReferenceOptions;
 
-/// What a bake is. exposure: of lightmap.png.
+/// Record of a bake. written.exposure: of lightmap.png.
 BakeRecord record_of(const BakeOptions& options, const Prepared& prepared, const Results& results,
                      const WrittenLight& written);
 
-/// From where preview.png shows the scene; nothing if there is no preview.
+/// View of preview.png; empty without a preview.
 std::optional<PreviewRow> preview_row(const WrittenLight& written, const Scene& scene);
 
-/// The facts of a bake.
 Report bake_report(const BakeRecord& record, const Prepared& prepared, const gpu::Device& device,
                    const Solver& solver, const Results& results, const Stages& stages);
 
-/// The facts of a reference.
 Report reference_report(const BakeOptions& options, const ReferenceOptions& reference,
                         const Prepared& prepared, bool stopped, const Stages& stages);
 

@@ -1,11 +1,12 @@
-// The difference between two transports of light, T' and T, at a lumel's point x with normal n:
+// Difference of two transport operators T' and T at a lumel's point x with normal n:
 //
-//     ((T' - T) B)(x) = ∫ (L'(x, ω) - L(x, ω)) / π · π cosθ dω / π,    L = B / π of what ω meets.
+//     ((T' - T) B)(x) = ∫ (L'(x, ω) - L(x, ω)) / π · π cosθ dω / π,    L = B / π of the hit along
+//     ω.
 //
-// L' and L differ only along ω that meet something which moved, where it was or where it is. So ω
-// is drawn from the cones of balls around it, and followed through both scenes: what both see alike
-// cancels to 0, and what is far from all that moved needs few rays. Emission is looked for by
-// points drawn on lamps too, and the two techniques are weighted by the balance heuristic.
+// L' and L differ only along ω that hit a moved object at its old or new position. So ω is drawn
+// from the cones of bounding spheres, and traced through both scenes: equal hits cancel to 0, and
+// lumels far from moved objects need few rays. Emission is also sampled by points on lamps; the
+// balance heuristic weights both techniques.
 //
 //   [VG95] E. Veach, L. Guibas. Optimally Combining Sampling Techniques for Monte Carlo Rendering.
 //          SIGGRAPH 1995.
@@ -33,30 +34,30 @@ namespace {
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kFar = std::numeric_limits<float>::max();
 
-/// More balls than this are joined: each costs every ray a little.
+/// Maximum number of spheres: each costs every ray a little. More are merged.
 constexpr std::size_t kMaxBalls = 16;
-/// A ball is drawn larger by this part, so that rounding leaves nothing outside.
+/// Relative enlargement of spheres, against rounding.
 constexpr float kSlack = 1e-3f;
-/// How the error of stratified points falls with their number n: n^-0.75.
+/// The error of n stratified points is proportional to n^-0.75.
 constexpr float kPointsPerFineness = 4.0f / 3.0f;
-/// Points of one half for a lumel, at least and at most.
+/// Minimum and maximum points of one half per lumel.
 constexpr std::uint32_t kMinPoints = 2, kMaxPoints = 256;
-/// Points of one half for each lamp that is no surface and has a size.
+/// Points of one half per lamp of finite size that is not a surface.
 constexpr std::uint32_t kLampPoints = 16;
-/// Lumels of one task, and between two progress reports.
+/// Lumels per task, and between progress reports.
 constexpr std::size_t kLumelsPerTask = 16, kLumelsPerStep = 4096;
 
 /// Dimension pairs of a sample's random numbers.
 constexpr std::uint32_t kPointPair = 0, kDirectionPair = 1, kLampPointPair = 2, kLampChoicePair = 3,
                         kDiscPair = 4, kSeedPair = 5;
 
-/// A cone of directions as a point sees a ball: all of them from within it.
+/// Cone of directions from a point to a sphere; from within it, all directions.
 struct Cone {
     glm::vec3 axis{0.0f, 0.0f, 1.0f};
-    float angle = kPi;      ///< half of it [rad]
-    float cosine = -1.0f;   ///< of the angle
-    float share = 0.0f;     ///< of the directions that are drawn
-    bool all_round = true;  ///< the point is in the ball: drawn by the cosine about its normal
+    float angle = kPi;      ///< half of the opening angle [rad]
+    float cosine = -1.0f;   ///< cosine of `angle`
+    float share = 0.0f;     ///< fraction of the directions drawn from it
+    bool all_round = true;  ///< the point is inside the sphere: cosine-distributed about its normal
 
     float solid_angle() const { return 2.0f * kPi * (1.0f - cosine); }
 };
@@ -76,7 +77,7 @@ Cone cone_of(const Ball& ball, const glm::vec3& x)
     return cone;
 }
 
-/// The part of a hemisphere, weighted by the cosine, that a cone may fill.
+/// Upper bound on the cosine-weighted fraction of a hemisphere that a cone fills.
 float cosine_share(const Cone& cone, const glm::vec3& normal)
 {
     if (cone.all_round)
@@ -86,7 +87,7 @@ float cosine_share(const Cone& cone, const glm::vec3& normal)
     return std::clamp(cone.solid_angle() * std::max(steepest, 0.0f) / kPi, 0.0f, 1.0f);
 }
 
-/// Directions drawn toward balls; none of them: by the cosine.
+/// Directions drawn towards spheres; without spheres, cosine-distributed.
 class BallDirections {
 public:
     /// shares [balls]
@@ -115,7 +116,7 @@ public:
         return frame_about(normal_) * by_cosine(at);
     }
 
-    /// Per solid angle, of a direction with that cosine to the normal.
+    /// Density per solid angle, for a direction with this cosine to the normal.
     float density(const glm::vec3& direction, float cosine) const
     {
         float sum = 0.0f;
@@ -143,7 +144,7 @@ bool meets(const Ball& ball, const glm::vec3& from, const glm::vec3& direction, 
     return glm::dot(d, d) <= ball.radius * ball.radius;
 }
 
-/// Points on emissive lumels, of both scenes.
+/// Points on emissive lumels of both scenes.
 class LampPoints {
 public:
     LampPoints(const SeenScene& before, const SeenScene& now,
@@ -174,8 +175,8 @@ public:
     }
 
     struct Entry {
-        std::uint32_t before, now;  ///< lumels, kNoLumel: not in that scene
-        double sum;                 ///< of powers up to this one
+        std::uint32_t before, now;  ///< lumels; kNoLumel: not in that scene
+        double sum;                 ///< cumulative power
         double density;             ///< power per area
     };
 
@@ -187,7 +188,7 @@ public:
                              [](double value, const Entry& entry) { return value < entry.sum; });
         return found == entries_.end() ? entries_.back() : *found;
     }
-    /// Per area [1/m²], of a point on a lumel.
+    /// Density on a lumel [1/m²].
     float density_before(std::uint32_t j) const { return density_before_[j]; }
     float density_now(std::uint32_t i) const { return density_now_[i]; }
 
@@ -205,10 +206,10 @@ private:
     std::vector<float> density_before_, density_now_;
 };
 
-/// What a ray meets.
+/// Light at a ray's hit.
 struct Met {
     glm::vec3 reflected{0.0f}, emitted{0.0f};  ///< radiance [cd/m²]
-    float lamp_density = 0.0f;  ///< with which a point of a lamp is drawn there, per solid angle
+    float lamp_density = 0.0f;  ///< density of drawing the point as one on a lamp, per solid angle
 };
 
 class Gatherer {
@@ -257,10 +258,10 @@ private:
 
 struct Gatherer::Receiver {
     std::uint32_t lumel;
-    bool whole;                       ///< all light is found
-    std::uint32_t stream;             ///< of random numbers
+    bool whole;                       ///< all light is gathered, not the change
+    std::uint32_t stream;             ///< random stream
     std::uint32_t directions, lamps;  ///< directions, and points on emissive lumels
-    std::vector<float> shares;        ///< [balls] of the directions
+    std::vector<float> shares;        ///< [balls] fraction of directions
     std::uint64_t* rays;
 };
 
@@ -286,7 +287,7 @@ glm::vec3 Gatherer::gather(std::uint32_t i, std::uint32_t half, std::uint64_t& r
         const WorldLumel& lumel = world_now_[i];
         float sum = 0.0f;
         for (std::size_t b = 0; b < balls_.size(); ++b) {
-            // From anywhere on the lumel.
+            // For any point of the lumel.
             const Ball ball{balls_[b].centre, balls_[b].radius + lumel.size};
             sum += receiver.shares[b] = cosine_share(cone_of(ball, lumel.centre), lumel.normal);
         }
@@ -464,7 +465,7 @@ Ball joined(const Ball& a, const Ball& b)
     return {a.centre + (b.centre - a.centre) * ((radius - a.radius) / apart), radius};
 }
 
-/// Joins the two balls whose union is smallest.
+/// Merges the two spheres whose union is smallest.
 void join_closest(std::vector<Ball>& balls)
 {
     std::size_t first = 0, second = 1;

@@ -1,13 +1,13 @@
-// With T and T' the transports of light before and now, H = D + T (E + ρH) as baked, D the light of
-// sky and lamps, and primes for the edited scene, H' = D' + T' (E' + ρ'H') is found as
+// With T and T' the transport operators before and now, H = D + T (E + ρH) as baked, D the light of
+// sky and lamps, and primes for the edited scene, H' = D' + T' (E' + ρ'H') is computed as
 //
-//     H~ = H + D' - D          a guess: of what is new or moved, what arrives there at a first look
-//     B° = E + ρH              what is sent: E' + ρ'H~ where the lumel is another than before
-//     R  = (T' - T) B°         what arrives otherwise since things moved  (update/changed_light)
-//     X  = T' (B~ - B° + ρ'(R + X)),   B~ = E' + ρ'H~                      (update/carried_light)
+//     H~ = H + D' - D          initial estimate; for new or moved lumels, gathered with few rays
+//     B° = E + ρH              radiosity: E' + ρ'H~ if the lumel differs from before
+//     R  = (T' - T) B°         change by moved objects             (jobs/edit/changed_light)
+//     X  = T' (B~ - B° + ρ'(R + X)),   B~ = E' + ρ'H~              (jobs/edit/signed_light)
 //     H' = H~ + R + X.
 //
-// The error of the bake stays; R and X are as large as the change, and so is their noise.
+// The error of the bake stays; the noise of R and X is in proportion to the change.
 
 #include "jobs/edit/correction.h"
 
@@ -21,19 +21,17 @@
 namespace lumel {
 namespace {
 
-/// Rays of the first look at lumels that are new or moved.
+/// Rays of the initial estimate of new or moved lumels.
 constexpr std::uint32_t kFirstLook = 64;
-/// Lumels whose light is too noisy are gathered with this factor more rays, up to the second
-/// factor.
+/// Lumels with too much noise are gathered again with kMoreEffort × as many rays, up to kMaxEffort
+/// ×.
 constexpr std::uint32_t kMoreEffort = 4, kMaxEffort = 64;
-/// But not beyond about this number of rays for each lumel of the scene: then the residual stays
-/// larger.
+/// Limit on the rays per lumel of the scene, on average; the residual then stays larger.
 constexpr std::uint64_t kMaxRays = 1024;
-/// More particles than this for each lumel take longer than a new solution, if they are more than a
-/// solver's start is worth.
+/// With more particles per lumel, and more than kFewParticles in total, a new solution is faster.
 constexpr std::uint64_t kMaxParticles = 256, kFewParticles = 1 << 21;
 
-/// Mean over open lumels and channels, of which errors are parts [lx].
+/// Mean over open lumels and channels, to which errors are relative [lx].
 double mean_light(const Lumels& lumels, const std::vector<glm::vec3>& irradiance)
 {
     double sum = 0.0, count = 0.0;
@@ -95,21 +93,21 @@ double Correction::change(const std::vector<glm::vec3>& lights) const
     return change > 0.0 ? change / std::max(whole, 1e-30) : 0.0;
 }
 
-/// Guesses the light of lumels whose whole light is to be found.
+/// Estimates the light of lumels that need all of it.
 void Correction::look_first(UpdateRow& row)
 {
     std::vector<Wanted> wanted = wanted_;
     std::replace(wanted.begin(), wanted.end(), Wanted::difference, Wanted::nothing);
     if (std::find(wanted.begin(), wanted.end(), Wanted::all) == wanted.end())
         return;
-    watch_.begin("first look");
+    watch_.begin("initial estimate");
     const TwoEstimates light = gather(wanted, {.whole = kFirstLook}, row);
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (wanted[i] == Wanted::all)
             guess_[i] = light.mean(i);
 }
 
-/// Of all lumels, once more and more finely where it is needed for an error of `residual`.
+/// Gathers at all lumels, then with more rays where needed for an error of `residual`.
 TwoEstimates Correction::gather_until(double residual, UpdateRow& row)
 {
     watch_.begin("gathering");

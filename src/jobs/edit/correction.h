@@ -1,5 +1,5 @@
 #pragma once
-// The light of a bake, corrected for an edited scene. See correction.cpp for the equations.
+// Corrects the light of a bake for an edited scene. Equations: correction.cpp.
 
 #include <cstdint>
 #include <functional>
@@ -12,10 +12,10 @@
 
 namespace lumel {
 
-/// Who follows a correction.
+/// Progress callbacks of a correction.
 struct CorrectionWatch {
     std::function<void(const char* stage)> begin;  ///< a stage begins
-    /// How far the stage is, 0…1, and particles so far; false: it is to stop.
+    /// Receives the fraction of the stage, 0…1, and the number of particles; false: stop.
     std::function<bool(double fraction, std::uint64_t particles)> follow;
 };
 
@@ -25,12 +25,12 @@ public:
     Correction(const EditedScene& edit, const StoredSolution& solution, const BakeRecord& baked,
                CorrectionWatch watch);
 
-    /// Emission that came, went or changed, and what is reflected otherwise of `lights`, D' - D [N]
-    /// or empty, as a part of all that is sent.
+    /// Change of emission, including reflected light of `lights`, D' - D [N] or empty, relative to
+    /// all emitted light.
     double change(const std::vector<glm::vec3>& lights) const;
 
-    /// H' [N] [lx] with an error of about `residual`, a part of all light; nothing if too much
-    /// changed to be carried. Fills the row's rays, particles and residual.
+    /// H' [N] [lx] with an error of about `residual` relative to all light; empty if the change is
+    /// too large. Fills the row's rays, particles and residual.
     std::optional<std::vector<glm::vec3>> correct(const std::vector<glm::vec3>& lights,
                                                   double residual, UpdateRow& row);
 
@@ -50,7 +50,7 @@ private:
     HitLumels hits_before_, hits_now_;
     std::vector<Wanted> wanted_;     ///< [N now]
     std::vector<glm::vec3> before_;  ///< H [N before]
-    std::vector<glm::vec3> guess_;   ///< H~ [N now], but for D' - D
+    std::vector<glm::vec3> guess_;   ///< H~ [N now], without D' - D
 };
 
 }  // namespace lumel

@@ -13,13 +13,13 @@
 namespace lumel {
 namespace {
 
-/// Parts of a reflectance, and of an emission, that do not count as a change: places in the map
-/// were rounded.
+/// Relative differences of reflectance and emission that do not count as changes: texture
+/// coordinates were rounded.
 constexpr float kSameColour = 1e-4f;
-/// The same of a lumel's area.
+/// Relative difference of area that does not count as a change.
 constexpr float kSameArea = 1e-3f;
 
-/// What is open of a lumel, but for its pieces.
+/// Scales a lumel's area to its open part; keeps its pieces.
 void shrink(Lumel& lumel, float share)
 {
     if (share > 0.0f)
@@ -28,7 +28,7 @@ void shrink(Lumel& lumel, float share)
         lumel.flags |= kLumelBuried;
 }
 
-/// A texel in an atlas that was `side` texels wide and grew, or nothing.
+/// Its texel in an atlas `side` texels wide that has grown since; empty if outside.
 std::optional<std::size_t> texel_before(const Lumel& lumel, int width, int side)
 {
     const int x = int(lumel.texel) % width, y = int(lumel.texel) / width;
@@ -37,11 +37,11 @@ std::optional<std::size_t> texel_before(const Lumel& lumel, int width, int side)
     return std::size_t(y) * std::size_t(side) + std::size_t(x);
 }
 
-/// Lumels [N] that may be buried otherwise than before: new, moved, or near what moved.
+/// Lumels [N] whose burial can have changed: new, moved, or near a moved object.
 std::vector<char> disturbed(const Scene& scene, const Lumels& lumels, const Matches& matches,
                             const std::vector<Ball>& balls, int side)
 {
-    constexpr float kReach = 2.0f;  // sizes from its position that no point of a lumel is beyond
+    constexpr float kReach = 2.0f;  // bounding radius of a lumel, in sizes
     std::vector<char> flags;
     for (const Lumel& lumel : lumels.lumels) {
         const glm::vec3 x(scene.instances[lumel.instance].transform *
@@ -157,7 +157,7 @@ EditedScene::EditedScene(Scene scene_before, Scene scene_now, const StoredSoluti
 {
 }
 
-// Searched again only where needed: searching everywhere takes longer than all the rest.
+// Tests only where needed: testing everywhere takes longer than all other work.
 std::vector<float> EditedScene::bury_anew(const Scene& scene, const RayScene& rays,
                                           const StoredSolution& solution, Lumels& lumels)
 {

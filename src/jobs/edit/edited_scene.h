@@ -1,5 +1,5 @@
 #pragma once
-// A baked scene and an edited one, side by side, in one atlas.
+// A baked scene and its edited version in one atlas.
 
 #include <vector>
 
@@ -16,12 +16,12 @@ inline bool is_buried(const Lumel& lumel)
     return (lumel.flags & kLumelBuried) != 0;
 }
 
-/// Stays where it was made.
+/// Must not move.
 struct EditedScene {
     /// before: as read from the bake's scene.glb. Throws Error.
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked);
-    /// The same where the bake's atlas is known as it was: then all lumels now are as a bake makes
-    /// them, in that atlas. Solution: to tell what changed, as above.
+    /// For a known original atlas: all lumels `now` are then as a bake makes them in that atlas.
+    /// solution: to detect changes, as above.
     EditedScene(Scene before, Scene now, const StoredSolution& solution, const BakeRecord& baked,
                 const Prepared::LayOut& atlas_before);
     EditedScene(const EditedScene&) = delete;
@@ -29,16 +29,15 @@ struct EditedScene {
 
     Prepared before;
     Matches matches;
-    std::vector<Ball> balls;  ///< around what moved
-    /// [N now] Open shares of lumels whose pieces are still the whole; 1 of others. Light
-    /// gathered at points all over them is this part of that of their open part, as the rest sees
-    /// nothing.
+    std::vector<Ball> balls;  ///< bounding spheres of moved objects
+    /// [N now] Open fractions of lumels whose pieces still cover the whole; 1 for others. Light
+    /// gathered over all of such a lumel is this fraction of that of its open part, as the rest
+    /// receives none.
     std::vector<float> thinned;
     Prepared now;
-    /// [N now] The lumel of the same texel and side before, kNoLumel where there was none that
-    /// could be seen.
+    /// [N now] The visible lumel of the same texel and side before, else kNoLumel.
     std::vector<std::uint32_t> same;
-    /// [N now] Of those, the lumels that are also in the same place, as open as they were.
+    /// [N now] Lumel before with unchanged position and open area, else kNoLumel.
     std::vector<std::uint32_t> partner;
 
 private:
@@ -48,13 +47,13 @@ private:
                                  const StoredSolution& solution, Lumels& lumels);
 };
 
-/// Buries the lumels that a bake found buried, as mark_buried() did. Returns their open shares [N].
+/// Buries the lumels that the bake buried, as mark_buried() did. Returns their open fractions [N].
 std::vector<float> bury_as_before(const StoredSolution& solution, Lumels& lumels);
 
-/// Do two lumels reflect and emit alike?
+/// True if two lumels have equal reflectance and emission.
 bool looks_alike(const Lumel& a, const Lumel& b);
 
-/// What was done to the scene.
+/// Counts of the scene's changes.
 UpdateRow changes_of(const EditedScene& edit);
 
 }  // namespace lumel

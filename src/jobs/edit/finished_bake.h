@@ -1,5 +1,5 @@
 #pragma once
-// A finished bake, read back: its scene, its lumels and their light.
+// A finished bake: its scene, lumels and light.
 
 #include <string>
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace lumel {
 
-/// Stays where it was made.
+/// Must not move.
 struct FinishedBake {
-    /// Reads what lumel bake wrote into a folder, all of one bake whatever is written there
-    /// meanwhile. Throws Error{input} for a bake of a part of the light.
+    /// Reads the folder of a bake, consistently even if it is being replaced. Throws Error{input}
+    /// if the bake has only part of the light.
     explicit FinishedBake(const std::string& folder);
-    /// The same of what a bake has written and not yet committed.
+    /// Reads a bake that is written but not yet committed.
     explicit FinishedBake(const OutputFolder& written);
     FinishedBake(const FinishedBake&) = delete;
     FinishedBake& operator=(const FinishedBake&) = delete;

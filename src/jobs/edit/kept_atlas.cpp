@@ -10,7 +10,7 @@
 namespace lumel {
 namespace {
 
-/// Corners this close to a border of texels lie on it: places were written as parts of the side.
+/// Corners this close to a texel border lie on it: coordinates were stored relative to the side.
 constexpr float kSnap = 1e-3f;  // [texels]
 
 float snapped(float texel)
@@ -33,7 +33,7 @@ std::uint32_t chart_at(const Atlas& atlas, const StoredCharts& charts, const glm
                            std::size_t(cell(texel.x, atlas.width))];
 }
 
-/// The charts of a surface's triangles, from the texels that they cover.
+/// Charts of a surface's triangles, from the texels that they cover.
 std::vector<std::uint32_t> charts_of(const Surface& surface, const Atlas& atlas,
                                      const StoredCharts& charts)
 {
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> charts_of(const Surface& surface, const Atlas& atlas,
     return chart;
 }
 
-/// The surface of a primitive with the triangles of `kept`'s, in their order.
+/// Surface of a primitive with the triangles of `kept`, in their order.
 Surface moved_over(const Surface& kept, const Primitive& primitive, std::uint32_t instance)
 {
     Surface surface = kept;
@@ -57,7 +57,7 @@ Surface moved_over(const Surface& kept, const Primitive& primitive, std::uint32_
     return surface;
 }
 
-/// Texels of a square map that no chart, nor the gutter around it, touches; finds free rectangles.
+/// Texels of a square map without charts and gutters; finds free rectangles.
 class Room {
 public:
     Room(const Atlas& atlas, int gutter)
@@ -78,7 +78,7 @@ public:
                     taken[std::size_t(y) * std::size_t(side_) + std::size_t(x)];
     }
 
-    /// The corner of a free rectangle on one page, or (-1, -1).
+    /// Corner of a free rectangle on one page, or (-1, -1).
     glm::ivec2 find(const glm::ivec2& size) const
     {
         const auto on_one = [&](int first, int count) {
@@ -105,7 +105,7 @@ private:
             take(surface, k, gutter, taken);
     }
 
-    /// The triangle's rectangle: charts fill theirs well enough.
+    /// Marks the triangle's bounding rectangle: charts fill theirs well enough.
     void take(const Surface& surface, std::size_t k, int gutter, std::vector<char>& taken) const
     {
         glm::vec2 low(std::numeric_limits<float>::max()), high(-low);
@@ -121,10 +121,10 @@ private:
     }
 
     int side_, page_side_;
-    std::vector<std::uint32_t> sums_;  // [side + 1][side + 1] of taken texels above and left of it
+    std::vector<std::uint32_t> sums_;  // [side + 1][side + 1] taken texels above and left
 };
 
-/// Corners of what the atlas covers [texels].
+/// Bounds of the covered texels.
 struct Extent {
     glm::ivec2 low{0}, high{0};
 };
@@ -140,7 +140,7 @@ Extent extent_of(const Atlas& atlas)
     return {glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(high))};
 }
 
-/// An atlas of what is new alone, as dense as the rest.
+/// Atlas of the new objects alone, at the density of the rest.
 Atlas atlas_of_new(const Scene& after, const Matches& matches, float texels_per_metre, int gutter)
 {
     Scene fresh = after;
@@ -151,21 +151,20 @@ Atlas atlas_of_new(const Scene& after, const Matches& matches, float texels_per_
     return make_atlas(fresh, {.texels_per_metre = texels_per_metre, .gutter = gutter});
 }
 
-/// Puts the surfaces of `fresh` where `atlas` has room for them, or makes it larger.
+/// Places the surfaces of `fresh` in free space of `atlas`, or enlarges it.
 void add_beside(Atlas& atlas, Atlas fresh, int gutter)
 {
     const Extent extent = extent_of(fresh);
     const glm::ivec2 size = extent.high - extent.low;
     glm::ivec2 corner = Room(atlas, gutter).find(size);
     if (corner.x < 0 && atlas.pages.count > 1)
-        throw Error(
-            ErrorKind::input, "",
-            "what is new does not fit into the pages of the lightmap; bake the scene again");
+        throw Error(ErrorKind::input, "",
+                    "new objects do not fit into the pages of the lightmap; bake the scene again");
     if (corner.x < 0) {
         corner = {atlas.width + gutter, 0};
         atlas.width = atlas.height = std::max(corner.x + size.x, std::max(atlas.height, size.y));
         atlas.pages.side = atlas.width;
-        atlas.notes.emplace_back("what is new did not fit, so the map is larger than it was");
+        atlas.notes.emplace_back("new objects did not fit: the lightmap has been enlarged");
     }
     atlas.pages.count = std::max(atlas.pages.count, atlas.pages.at(glm::vec2(corner)) + 1);
     for (Surface& surface : fresh.surfaces) {
@@ -190,7 +189,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
     atlas.width = atlas.height = pages.map_side();
     if (charts.of_texel.size() != std::size_t(atlas.width) * std::size_t(atlas.height))
         throw Error(ErrorKind::input, scene.path,
-                    "does not fit the files beside it: their maps have other sizes");
+                    "does not match the files beside it: their maps have other sizes");
     atlas.texels_per_metre = texels_per_metre;
     for (const std::uint32_t chart : charts.of_texel)
         if (chart != kNoChart)
@@ -201,7 +200,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
             const Primitive& primitive = mesh.primitives[p];
             if (primitive.texcoords[1].empty())
                 throw Error(ErrorKind::input, scene.path,
-                            "has no TEXCOORD_1: it is not as lumel bake wrote it");
+                            "has no TEXCOORD_1: it was changed after the bake");
             Surface surface{.instance = i, .primitive = p, .indices = primitive.indices};
             for (std::uint32_t v = 0; v < primitive.positions.size(); ++v) {
                 const int page = page_of(scene, primitive, v);
@@ -214,7 +213,7 @@ Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_met
                 surface.texcoord.emplace_back(snapped(texel.x), snapped(texel.y));
             }
             surface.chart = charts_of(surface, atlas, charts);
-            // What covers no texel's middle with a known chart gets one of its own.
+            // Triangles that cover no texel centre with a known chart get their own.
             for (std::uint32_t& chart : surface.chart)
                 if (chart == kNoChart)
                     chart = atlas.chart_count;

@@ -1,5 +1,5 @@
 #pragma once
-// The atlas of a bake, found again in its files, and made to hold an edited scene.
+// Restores the atlas of a bake from its files, and extends it for an edited scene.
 
 #include <vector>
 
@@ -12,20 +12,20 @@ inline constexpr std::uint32_t kNoChart = ~0u;
 
 /// The charts of a bake.
 struct StoredCharts {
-    std::vector<std::uint32_t> of_texel;  ///< [height][width] number, kNoChart where there is none
-    std::vector<glm::ivec2> back_shift;   ///< [charts] as of the atlas
-    bool shows_front = false;             ///< as of the atlas
+    std::vector<std::uint32_t> of_texel;  ///< [height][width] chart number, or kNoChart
+    std::vector<glm::ivec2> back_shift;   ///< [charts] as in Atlas
+    bool shows_front = false;             ///< as in Atlas
 };
 
-/// The atlas of these pages that `scene`, as written by write_scene_glb, has in TEXCOORD_1.
-/// charts: of the same atlas. Throws Error{input} if the scene has no such coordinates, or the
-/// charts are of another atlas.
+/// The atlas with these pages in TEXCOORD_1 of `scene`, as written by write_scene_glb.
+/// charts: of the same atlas. Throws Error{input} if the scene lacks such coordinates, or the
+/// charts do not match.
 Atlas written_atlas(const Scene& scene, const Pages& pages, float texels_per_metre,
                     const StoredCharts& charts);
 
-/// An atlas for the edited scene: what was there before keeps its texels; what is new gets a place
-/// where there is room, beside the rest if there is none; its sides share their texels. Throws
-/// Error{input} if it gets too large.
+/// Atlas for the edited scene: existing objects keep their texels; new ones are placed in free
+/// space, or beside the rest; their sides share texels. Throws Error{input} if it becomes too
+/// large.
 Atlas kept_atlas(const Scene& before, const Atlas& atlas, const Scene& after,
                  const Matches& matches, int gutter);
 

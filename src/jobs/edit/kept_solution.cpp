@@ -17,13 +17,13 @@ void check_keep_links(const BakeOptions& options)
         refuse("another solver", "only --solver links has links");
     side_of_rays(options.keep_links);
     if (options.parts != Parts::all)
-        refuse("--only", "what is kept is lit by all light");
+        refuse("--only", "stored links are lit by all light");
     if (options.resume)
         refuse("--resume", "it has no checkpoints");
     if (links->rule == SampleRule::centre)
-        refuse("--sampling centre", "rays start all over each lumel");
+        refuse("--sampling centre", "their rays start all over each lumel");
     if (links->rays == Rays::query || links->rays == Rays::raster)
-        refuse("--rays query or raster", "the host traces the links that are kept");
+        refuse("--rays query or raster", "stored links are traced on the CPU");
 }
 
 KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links)
@@ -37,7 +37,7 @@ KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& link
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before)
 {
     const Lumels &then = edit.before.lumels, &now = edit.now.lumels;
-    // A larger atlas rounds places otherwise; and a file may be of another scene.
+    // A larger atlas rounds coordinates differently; and a file can belong to another scene.
     if (then.width != now.width || then.lumels.size() != before.lumels.size() ||
         edit.before.scene.instances.size() != before.instances.size())
         return {};

@@ -1,5 +1,5 @@
 #pragma once
-// A bake over links that are kept for later runs.
+// Bakes with links stored for later runs.
 
 #include <memory>
 #include <optional>
@@ -11,21 +11,21 @@
 
 namespace lumel {
 
-/// Throws Error{input} where a bake asks for what links that are kept cannot.
+/// Throws Error{input} if the bake's options cannot be met with stored links.
 void check_keep_links(const BakeOptions& options);
 
-/// How `rays` of each lumel are traced and lit for the options of links.
+/// Options for tracing and lighting `rays` links per lumel.
 KeptLightOptions kept_light_options(std::uint32_t rays, const LinksOptions& links);
 
-/// Links of the scene before an edit, for the scene now.
+/// Stored links renumbered for the scene after an edit.
 StoredLinks links_for(const EditedScene& edit, const StoredLinks& before);
 
-/// Light over kept links, as a method that has run.
+/// Light over stored links, with the interface of a finished method.
 class KeptLinksSolver final : public Solver {
 public:
-    /// Traces links, or takes over those of `kept` that still hold, in the stage "links", and
-    /// lights them in the stage "solving". What is given must outlive it. Throws Error{stopped}
-    /// where the caller wants to stop.
+    /// Traces links, or reuses valid ones of `kept`, in the stage "links", and lights them in the
+    /// stage "solving". All arguments must outlive this. Throws Error{stopped} if the caller stops
+    /// it.
     KeptLinksSolver(const Prepared& prepared, const KeptLightOptions& options, Stages& stages,
                     const StoredLinks* kept = nullptr);
 
@@ -41,10 +41,10 @@ public:
 private:
     std::optional<LinkRelighter> light_;
     std::vector<glm::vec3> irradiance_;  ///< [N] [lx]
-    gpu::StageTimes times_;              ///< none: it works on the host
+    gpu::StageTimes times_;              ///< none: runs on the CPU
 };
 
-/// Solves by options.keep_links rays of each lumel, and leaves them in Solution::links.
+/// Solves with options.keep_links rays per lumel, and stores the links in Solution::links.
 std::unique_ptr<Solution> solve_over_kept_links(const Setting& setting, const BakeOptions& options,
                                                 Stages& stages);
 

@@ -8,8 +8,8 @@
 namespace lumel {
 namespace {
 
-/// Exporters write transforms as products of rounded parts: corners that stay within this part of
-/// an object's distance from the origin, or of its size, have not moved.
+/// Tolerance of positions, relative to an object's distance from the origin or its size: exporters
+/// write transforms as products of rounded parts.
 constexpr float kSamePlace = 1e-5f;
 
 template <class T>
@@ -18,7 +18,7 @@ void append(std::string& bytes, const T& value)
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// What decides how the surface blocks light.
+/// Appends the properties by which the surface blocks light.
 void append_opacity(std::string& bytes, const Scene& scene, const Primitive& primitive)
 {
     const Material& material = scene.materials[primitive.material];
@@ -39,7 +39,7 @@ void append_opacity(std::string& bytes, const Scene& scene, const Primitive& pri
             append(bytes, texcoords[index]);
 }
 
-/// Equal for meshes that block light alike, however their vertices are shared.
+/// Equal for meshes that block light alike, independent of vertex sharing.
 std::size_t shape_key(const Scene& scene, const Mesh& mesh)
 {
     std::string bytes;

@@ -1,5 +1,5 @@
 #pragma once
-// Which object of an edited scene is which of the scene before.
+// Matches the objects of an edited scene to those before.
 
 #include <cstdint>
 #include <vector>
@@ -10,16 +10,15 @@ namespace lumel {
 
 inline constexpr std::uint32_t kNoInstance = ~0u;
 
-/// Pairs of instances with equal triangles, in equal order, that block light alike. What they
-/// reflect and emit may differ.
+/// Pairs of instances with equal triangles in equal order that block light alike. Reflectance and
+/// emission can differ.
 struct Matches {
-    std::vector<std::uint32_t> before;  ///< [instances after] its number before; kNoInstance: new
-    std::vector<std::uint32_t> after;   ///< [instances before] its number now; kNoInstance: gone
-    std::vector<char> moved;            ///< [instances after] 1: it stands elsewhere, or is new
+    std::vector<std::uint32_t> before;  ///< [instances after] index before; kNoInstance: new
+    std::vector<std::uint32_t> after;   ///< [instances before] index after; kNoInstance: removed
+    std::vector<char> moved;            ///< [instances after] 1: moved or new
 };
 
-/// Of several that could be meant, one in the same place, else one of the same name, else the
-/// first.
+/// Prefers candidates at the same position, then of the same name, then the first.
 Matches match_instances(const Scene& before, const Scene& after);
 
 }  // namespace lumel

@@ -1,6 +1,6 @@
-// Particles start at points drawn by |A_j 𝓛(source_j)|, leave by the cosine, and deposit all they
-// carry at each lumel that they meet; reflected by its ρ, they continue at random. The difference
-// of two independent halves gives the error.
+// Particles start at points drawn by |A_j 𝓛(source_j)|, leave cosine-distributed, and deposit their
+// power at each lumel that they hit; reflected by its ρ, they continue by Russian roulette. The
+// difference of two independent halves gives the error.
 
 #include "jobs/edit/signed_light.h"
 
@@ -18,15 +18,14 @@
 namespace lumel {
 namespace {
 
-/// Particles of each half in the first round. A round at most doubles what there is, as the error
-/// that it foresees is noisy itself, and takes this many times the number that follows from it.
+/// Particles of each half in the first round. A later round at most doubles the total, as its error
+/// estimate is noisy, and takes kMargin × the required number.
 constexpr std::size_t kFirstParticles = 1 << 15;
 constexpr double kMargin = 1.1;
-/// Particles worth a task, and followed before their landings are added up.
+/// Particles per task, and per summation of their landings.
 constexpr std::size_t kParticlesPerTask = 1024, kParticlesPerStep = 1 << 17;
-/// Lumels that a particle meets at most: white rooms would hold it for ever.
+/// Maximum bounces of a particle: white rooms would reflect it forever.
 constexpr std::uint32_t kMaxBounces = 256;
-/// Bounces whose directions are stratified.
 constexpr std::uint32_t kStratifiedBounces = 1;
 /// Dimension pairs of a particle's random numbers.
 constexpr std::uint32_t kPointPair = 0, kFirstBouncePair = 1, kPairsPerBounce = 2;
@@ -101,7 +100,7 @@ SignedLight LightCarrier::carry(std::span<const glm::vec3> source, double error,
     std::vector<glm::dvec3> sum[2] = {std::vector<glm::dvec3>(count),
                                       std::vector<glm::dvec3>(count)};
     TwoEstimates both(count);
-    std::size_t done = 0;  // of each half
+    std::size_t done = 0;  // per half
     const auto follow_some = [&](std::uint32_t h, std::size_t first, std::size_t last) {
         const std::size_t tasks = (last - first + kParticlesPerTask - 1) / kParticlesPerTask;
         std::vector<std::vector<Landing>> landings(tasks);

@@ -1,5 +1,5 @@
 #pragma once
-// Light of either sign, carried from lumel to lumel until it is absorbed.
+// Signed light, transported by particles from lumel to lumel until absorbed.
 
 #include <cstdint>
 #include <functional>
@@ -13,11 +13,11 @@
 
 namespace lumel {
 
-/// Where the particles' error stands.
+/// Status of a particle transport.
 struct CarryState {
-    std::uint64_t particles = 0;  ///< so far
-    double error = 0.0;           ///< [lx] root mean square over lumels and channels
-    bool gave_up = false;         ///< too many would be needed
+    std::uint64_t particles = 0;  ///< total
+    double error = 0.0;           ///< [lx] RMS over lumels and channels
+    bool gave_up = false;         ///< true: too many particles would be needed
 };
 
 struct SignedLight {
@@ -27,7 +27,7 @@ struct SignedLight {
 
 class LightCarrier {
 public:
-    /// All that is given must outlive this, unmoved.
+    /// All arguments must outlive this, unmoved.
     LightCarrier(const RayScene& rays, const Lumels& lumels, const WorldLumels& world,
                  const HitLumels& hits)
         : rays_(&rays),
@@ -37,9 +37,9 @@ public:
     {
     }
 
-    /// X = T (source + ρ X), source [N] [lm/m²] of either sign, by particles: until their error is
-    /// at most `error` [lx], or more than `most` of them turn out to be needed, or go_on, called
-    /// from time to time, returns false. The same seed gives the same bytes unless that stops them.
+    /// X = T (source + ρ X), for signed source [N] [lm/m²], by particles: until their error is at
+    /// most `error` [lx], more than `most` of them are needed, or go_on, called regularly, returns
+    /// false. The same seed gives the same bytes unless that stops them.
     SignedLight carry(std::span<const glm::vec3> source, double error, std::uint64_t most,
                       std::uint32_t seed,
                       const std::function<bool(const CarryState&)>& go_on) const;

@@ -21,7 +21,7 @@ std::vector<glm::vec3> colors_of(const Image& image)
     return colors;
 }
 
-/// Where the map has the backs of the chart that a texel belongs to.
+/// Stores the position of the backs of the texel's chart.
 void set_shift(const Lumels& lumels, const Lumel& lumel, Image& image)
 {
     float* shift = image.values.data() + std::size_t(lumel.texel) * 4;
@@ -36,7 +36,7 @@ void set_shift(const Lumels& lumels, const Lumel& lumel, Image& image)
     throw Error(ErrorKind::input, path, "is damaged; bake the scene again");
 }
 
-/// A whole number of at most `most` either way.
+/// An integer in [-most, most], or throws.
 int whole(float value, int most, const std::string& path)
 {
     if (!(std::abs(value) <= float(most)) || value != std::floor(value))
@@ -89,7 +89,7 @@ void write_solution(const std::string& path, const Lumels& lumels,
         shares.values[std::size_t(lumel.texel) * 4 + (lumel.flags & kLumelBack ? 1 : 0)] = open[i];
         set_shift(lumels, lumel, shift);
     }
-    std::vector<Layer> layers;  // moved in: a list in braces would copy them
+    std::vector<Layer> layers;  // moved in: an initializer list would copy them
     layers.push_back({kBackLayer, std::move(back)});
     layers.push_back({kOpenLayer, std::move(shares)});
     layers.push_back({kShiftLayer, std::move(shift)});
@@ -104,7 +104,7 @@ StoredSolution read_solution(const std::string& path)
 {
     const Image front = read_exr(path), back = read_exr(path, kBackLayer);
     if (front.width != front.height)
-        throw Error(ErrorKind::input, path, "is not square: it is not as lumel bake wrote it");
+        throw Error(ErrorKind::input, path, "is not square: it was changed after the bake");
     return {.side = front.width,
             .charts = charts_of(front, read_exr(path, kShiftLayer), path),
             .front = colors_of(front),

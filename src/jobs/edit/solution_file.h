@@ -1,5 +1,5 @@
 #pragma once
-// solution.exr: the light of each lumel as solved, from which a bake can be corrected.
+// solution.exr: the solution per lumel, from which a bake can be corrected.
 
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace lumel {
 
-/// What the file says, texel by texel.
+/// Contents of the file, per texel.
 struct StoredSolution {
-    int side = 0;  ///< of the atlas [texels]
+    int side = 0;  ///< side of the atlas [texels]
     StoredCharts charts;
-    std::vector<glm::vec3> front, back;  ///< [side][side] H [lx], 0 where there is no such lumel
-    std::vector<glm::vec3> open;         ///< [side][side] open shares: of fronts, of backs
+    std::vector<glm::vec3> front, back;  ///< [side][side] H [lx], 0 without a lumel
+    std::vector<glm::vec3> open;         ///< [side][side] open fractions of fronts, of backs
 
-    /// H, and the open share of the area, of a lumel that has the texel in that atlas.
+    /// H and open fraction of a lumel at this texel of the stored atlas.
     const glm::vec3& irradiance(const Lumel& lumel, std::size_t texel) const
     {
         return (lumel.flags & kLumelBack ? back : front)[texel];
@@ -27,10 +27,10 @@ struct StoredSolution {
     }
 };
 
-/// R, G, B: H [lx] of fronts; A: the number of the chart, from 1; layer "back": H of backs; layer
-/// "open": Prepared::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the
-/// chart in R and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N].
-/// Throws Error{output}.
+/// R, G, B: H [lx] of fronts; A: the chart number, from 1; layer "back": H of backs; layer "open":
+/// Prepared::open of fronts in R, of backs in G; layer "shift": Atlas::back_shift of the chart in R
+/// and G, in B 1 for Atlas::shows_front. 32-bit float. irradiance [N], open [N]. Throws
+/// Error{output}.
 void write_solution(const std::string& path, const Lumels& lumels,
                     const std::vector<glm::vec3>& irradiance, const std::vector<float>& open);
 

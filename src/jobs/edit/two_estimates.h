@@ -1,5 +1,5 @@
 #pragma once
-// A noisy value of each lumel, found twice.
+// Pairs of independent estimates per lumel.
 
 #include <cmath>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// Two independent estimates [N]; their mean is the better one.
+/// Two independent estimates [N], best used by their mean.
 struct TwoEstimates {
     explicit TwoEstimates(std::size_t count)
         : half{std::vector<glm::vec3>(count, glm::vec3(0.0f)),
@@ -18,7 +18,7 @@ struct TwoEstimates {
 
     glm::vec3 mean(std::size_t i) const { return 0.5f * (half[0][i] + half[1][i]); }
 
-    /// Root mean square of the mean's error, over lumels and channels, from their difference.
+    /// RMSE of the mean over lumels and channels, from the difference.
     double error() const
     {
         double square = 0.0;

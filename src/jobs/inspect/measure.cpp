@@ -18,13 +18,13 @@
 namespace lumel {
 namespace {
 
-/// Points that a watched step measures, and least that a core takes.
+/// Points per progress report, and minimum per task.
 constexpr std::size_t kPointsPerStep = 64, kGrain = 1;
-/// Of the longer side of a plane without --spacing.
+/// Points along the longer side of a plane without --spacing.
 constexpr double kPointsAlongPlane = 20.0;
 constexpr double kPercent = 100.0;
 
-/// All of the scene unless bounds are given.
+/// The work plane, over the whole scene unless bounds are given.
 WorkPlane plane_of(const MeasureOptions& options, const Prepared& prepared)
 {
     const glm::dvec3 low = glm::dvec3(prepared.rays.low()) + prepared.scene.origin;
@@ -38,7 +38,7 @@ WorkPlane plane_of(const MeasureOptions& options, const Prepared& prepared)
     plane.spacing =
         options.spacing > 0.0 ? options.spacing : std::max(size.x, size.y) / kPointsAlongPlane;
     if (!(plane.spacing > 0.0))
-        throw Error(ErrorKind::input, "--plane", "the scene has no surfaces; --bounds is needed");
+        throw Error(ErrorKind::input, "--plane", "the scene has no surfaces; use --bounds");
     return plane;
 }
 
@@ -61,7 +61,7 @@ void read_all(const FinishedBake& bake, const LightMeter& meter, std::vector<Mea
         throw_stopped();
 }
 
-/// What an open plane receives, if there is no light but that of the overcast sky.
+/// Illuminance of an open plane, if the overcast sky is the only light.
 std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter,
                                MeasureSummary& summary)
 {
@@ -70,7 +70,7 @@ std::optional<double> outdoors(const FinishedBake& bake, const LightMeter& meter
         return std::nullopt;
     if (meter.has_lamps()) {
         summary.notes.emplace_back(
-            "no daylight factors are given: the bake has other lights beside the overcast sky");
+            "no daylight factors: the bake has other lights than the overcast sky");
         return std::nullopt;
     }
     return double(*lights.overcast) * double(lights.sky_scale);

@@ -12,11 +12,11 @@
 namespace lumel {
 namespace {
 
-/// Of a plane's picture, and of a point in it [pixels].
+/// Side of a plane's image, and maximum size of a point in it [pixels].
 constexpr int kPlaneSide = 720, kMaxOfPoint = 96;
-/// Less of a pixel than this is not counted as covered.
+/// Minimum alpha of a covered pixel.
 constexpr float kCovered = 0.5f;
-constexpr float kNothing = -1.0f;  ///< as of false_colour()
+constexpr float kNothing = -1.0f;  ///< see false_colour()
 
 }  // namespace
 
@@ -45,7 +45,7 @@ Image preview_picture(const gpu::Device& device, const Prepared& prepared,
     for (int y = 0; y < seen.height; ++y)
         for (int x = 0; x < seen.width; ++x) {
             const float* pixel = seen.at(x, y);
-            // White paper sends H / π.
+            // White materials send H / π.
             const double arriving =
                 std::numbers::pi * luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]);
             lux.at(x, y)[0] = pixel[3] < kCovered ? kNothing : float(arriving);

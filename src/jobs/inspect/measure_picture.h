@@ -1,5 +1,5 @@
 #pragma once
-// The pictures of lumel measure: illuminance in false colours, with a legend in lux.
+// Images of lumel measure: illuminance in false colours, with a legend in lux.
 
 #include <span>
 
@@ -10,12 +10,12 @@
 
 namespace lumel {
 
-/// A plane from above, +x to the right and +z down. Points inside of things are grey.
-/// readings [rows][columns] of the grid.
+/// A plane from above, +x to the right and +z down. Points inside objects are grey. readings
+/// [rows][columns] of the grid.
 Image plane_picture(const PlaneGrid& grid, std::span<const Reading> readings);
 
-/// The view of preview.png, `width` pixels wide beside the legend; what is no surface is grey.
-/// irradiance [N] [lx].
+/// The view of preview.png, `width` pixels wide without the legend; pixels without surfaces are
+/// grey. irradiance [N] [lx].
 Image preview_picture(const gpu::Device& device, const Prepared& prepared,
                       std::span<const glm::vec3> irradiance, int width);
 

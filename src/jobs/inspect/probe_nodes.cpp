@@ -14,7 +14,7 @@ namespace lumel {
 namespace {
 
 constexpr std::size_t kAlignment = 4, kWord = 4;
-/// Of a .glb: "glTF", version, length; length of the JSON, "JSON".
+/// Header of a .glb: "glTF", version, length; length of the JSON, "JSON".
 constexpr std::size_t kLengthAt = 8, kJsonLengthAt = 12, kJsonAt = 20;
 
 Json node_of(const ProbeRow& row)
@@ -35,7 +35,7 @@ void put_word(Bytes& file, std::size_t at, std::size_t value)
         file[at + i] = std::uint8_t(value >> (8 * i));
 }
 
-/// A .glb with other JSON.
+/// Replaces the JSON of a .glb.
 Bytes with_json(const Bytes& file, const Json& json, std::size_t old_size)
 {
     std::string text = json.dump();

@@ -1,5 +1,5 @@
 #pragma once
-// Light probes as nodes of the glTF files that a bake has written.
+// Light probes as nodes in the glTF files of a bake.
 
 #include <vector>
 
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// Puts probes into the scene.glb and scene-baked.glb that a bake has written and not yet
-/// committed. Throws Error; then one of them may have probes.
+/// Adds probes to the scene.glb and scene-baked.glb of a bake that is not yet committed. Throws
+/// Error; one of the files can then have probes.
 void write_probe_nodes(const OutputFolder& written, const std::vector<ProbeRow>& rows);
 
 }  // namespace lumel

@@ -15,9 +15,9 @@
 namespace lumel {
 namespace {
 
-/// Probes that a watched step reads, and least that a core takes.
+/// Probes per progress report, and minimum per task.
 constexpr std::size_t kProbesPerStep = 64, kGrain = 1;
-/// Of the file's form, which readers may ask for.
+/// Version of the file format, for readers.
 constexpr int kVersion = 1;
 
 ProbeGrid grid_of(const ProbesOptions& options, const Prepared& prepared)
@@ -112,7 +112,7 @@ std::string report_of(const FinishedBake& bake, const ProbesSummary& summary)
     return json_text(json);
 }
 
-/// All but its file. scene: the path of the bake's.
+/// Computes everything except the file. scene: path of the bake's scene.
 ProbesSummary found(const FinishedBake& bake, const std::string& scene,
                     const ProbesOptions& options, Stages& stages)
 {
@@ -147,7 +147,7 @@ void check_probe_spacing(double spacing, const Prepared& prepared)
         grid_of(options, prepared);
     } catch (const Error&) {
         throw Error(ErrorKind::input, "--probes",
-                    "would make more than a million probes; a wider spacing is needed");
+                    "would make more than a million probes; use a wider spacing");
     }
 }
 

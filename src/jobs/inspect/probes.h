@@ -1,5 +1,5 @@
 #pragma once
-// lumel probes: the light in the air of a finished bake, as spherical harmonics.
+// lumel probes: light in the air of a finished bake, as spherical harmonics.
 
 #include <array>
 #include <optional>
@@ -18,11 +18,11 @@
 
 namespace lumel {
 
-/// Beside the probes that the scene names itself.
+/// In addition to probes named in the scene.
 struct ProbesOptions {
-    double spacing = 0.0;                         ///< of a grid [m]; 0: none
-    std::optional<std::array<double, 6>> bounds;  ///< of the grid: two corners; else the scene's
-    std::vector<glm::dvec3> places;               ///< in the world [m]
+    double spacing = 0.0;                         ///< spacing of a grid [m]; 0: none
+    std::optional<std::array<double, 6>> bounds;  ///< two corners of the grid; default: the scene's
+    std::vector<glm::dvec3> places;               ///< world space [m]
     std::uint32_t samples = LightProbeOptions{}.samples;
     std::string file;  ///< JSON to write; empty: kProbesFile in the folder
 };
@@ -33,26 +33,25 @@ struct ProbeRow {
 };
 
 struct ProbesSummary {
-    std::vector<ProbeRow> rows;  ///< those of the grid first
+    std::vector<ProbeRow> rows;  ///< grid first
     std::optional<ProbeGrid> grid;
-    std::size_t inside = 0;  ///< probes inside of things
-    std::string file;        ///< that was written, or is to be
-    std::string report;      ///< JSON: what it holds
+    std::size_t inside = 0;  ///< number of probes inside objects
+    std::string file;        ///< path of the JSON file
+    std::string report;      ///< its contents
 };
 
-/// Coefficients as files have them: red, green and blue of each in turn.
+/// Coefficients for files: red, green and blue of each in turn.
 Json coefficients_of(const ProbeLight& light);
 
 /// Throws Error{input} if a grid over this scene would have too many probes.
 void check_probe_spacing(double spacing, const Prepared& prepared);
 
-/// Finds the light at probes of a bake that is written and not yet committed, and writes
-/// kProbesFile and the probes into scene.glb and scene-baked.glb beside it. The first is that of
-/// the function below. Throws Error, of kind `stopped` if the caller wanted to stop: then
-/// what the bake wrote is as it was.
+/// Computes probes for a bake that is not yet committed; writes kProbesFile, and adds the probes to
+/// scene.glb and scene-baked.glb. Uses a grid of this spacing, like the overload below. Throws
+/// Error, of kind `stopped` if the caller stops it; the bake's files are then unchanged.
 void add_probes(const OutputFolder& written, double spacing, const ProgressFunction& progress);
 
-/// Finds the light at probes in a folder that lumel bake wrote. Throws Error.
+/// Computes probes for the folder of a bake. Throws Error.
 ProbesSummary probes(const std::string& folder, const ProbesOptions& options,
                      const ProgressFunction& progress = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// The scene as if it were of white paper: what a picture of it shows is the light that arrives.
+// Replaces all materials by white diffuse ones, so that renders show irradiance.
 
 #include "scene/values/scene.h"
 

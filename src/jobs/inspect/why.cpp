@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kPicture = "why.png";
 
-/// In the whole map.
+/// Texel in the whole map.
 glm::ivec2 texel_of(const WhyOptions& options, const Pages& pages)
 {
     if (options.page >= pages.count)
@@ -43,7 +43,7 @@ glm::ivec2 texel_of(const WhyOptions& options, const Pages& pages)
     return corner + *options.texel;
 }
 
-/// As the user counts: --texel X,Y, and --page where there are several.
+/// In terms of the options: --texel X,Y, and --page if there are several.
 std::string name_of(const glm::ivec2& texel, const Pages& pages)
 {
     const int page = pages.at(glm::vec2(texel));
@@ -52,7 +52,6 @@ std::string name_of(const glm::ivec2& texel, const Pages& pages)
                        there.x, there.y);
 }
 
-/// The texel of `shown` that is nearest.
 glm::ivec2 nearest(const std::vector<std::uint32_t>& shown, int side, const glm::ivec2& texel)
 {
     glm::ivec2 best(0);
@@ -83,8 +82,8 @@ std::uint32_t lumel_at(const glm::ivec2& texel, const Pages& pages, const Lumels
         return shown[at];
     const glm::ivec2 other = nearest(shown, lumels.width, texel);
     throw Error(ErrorKind::input, "",
-                fmt::format("{} column {}, row {} of the lightmap; the nearest place that light "
-                            "can reach is {}",
+                fmt::format("{} column {}, row {} of the lightmap; the nearest texel with light is "
+                            "{}",
                             covered ? "other geometry lies on" : "no surface is at",
                             texel.x % pages.side, texel.y % pages.side, name_of(other, pages)));
 }
@@ -125,7 +124,7 @@ Json numbers(const glm::vec3& v)
 std::string report_of(const WhySummary& summary)
 {
     Json json;
-    json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of all luminance that arrives"}};
+    json["units"] = {{"light", "lx"}, {"place", "m"}, {"share", "of the incoming luminance"}};
     json["lumel"] = {{"instance", summary.instance},
                      {"page", summary.page},
                      {"texel", {summary.texel.x, summary.texel.y}},

@@ -13,13 +13,14 @@
 namespace lumel {
 namespace {
 
-/// Of the lit scene's brightness where nothing is sent from.
+/// Brightness of surfaces that contribute nothing, relative to the lit scene.
 constexpr float kDim = 0.4f;
-/// Of the densest place's colours a hundredth is a quarter: what walls send beside a lamp shows.
+/// Exponent of the colour scale: a hundredth of the maximum is shown at a quarter, so that walls
+/// beside a lamp are visible.
 constexpr float kHeatPower = 0.3f;
-/// From this heat on, none of the scene shows through.
+/// Minimum heat that hides the scene.
 constexpr float kOpaque = 0.3f;
-/// The mark reaches this many times the lumel's size.
+/// Radius of the mark, in sizes of the lumel.
 constexpr float kMarkSize = 2.5f;
 constexpr glm::vec3 kMark{0.0f, 0.9f, 1.0f};
 
@@ -28,7 +29,7 @@ glm::vec3 world_position(const Prepared& prepared, const Lumel& lumel)
     return prepared.scene.instances[lumel.instance].transform * glm::vec4(lumel.position, 1.0f);
 }
 
-/// [N] what is to be seen through white paper: R 0…1 by density, G 1 where the mark is.
+/// [N] Albedos for a render with white light: R 0…1 by density, G 1 at the mark.
 std::vector<glm::vec3> layers_of(const Prepared& prepared, std::span<const float> density,
                                  std::uint32_t marked)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// The picture of lumel why.
+// Image of lumel why.
 
 #include <span>
 
@@ -9,8 +9,8 @@
 
 namespace lumel {
 
-/// The lit scene in dim grey, on it what sends light in colours from red to white by density [N],
-/// and `lumel` in cyan. Display-referred, `width` pixels wide. irradiance [N] [lx].
+/// The lit scene in dim grey, with contributors coloured from red to white by density [N], and
+/// `lumel` in cyan. Display-referred, `width` pixels wide. irradiance [N] [lx].
 Image why_picture(const gpu::Device& device, const Prepared& prepared,
                   std::span<const glm::vec3> irradiance, std::span<const float> density,
                   std::uint32_t lumel, int width);

@@ -1,12 +1,13 @@
 #pragma once
-// The light of a scene that is played, over links that are kept.
+// Light of an animation over links.
 
 #include "jobs/play/played_light.h"
 #include "links/live/live_links.h"
 
 namespace lumel {
 
-/// Instances below the same node that moves, a list for each: all that lies between stands still.
+/// Instances that move as one: a list for each animated node, of those below it without animated
+/// nodes between.
 std::vector<std::vector<std::uint32_t>> moving_together(const Scene& scene,
                                                         const Animation& animation);
 
@@ -26,11 +27,11 @@ public:
     const gpu::StageTimes& times() const override { return times_; }
 
 private:
-    std::vector<glm::mat4> start_;                    ///< [instances] places of the first frame
-    std::vector<AnimatedMaterial> lamps_;             ///< those whose light changes
+    std::vector<glm::mat4> start_;                    ///< [instances] transforms of the first frame
+    std::vector<AnimatedMaterial> lamps_;             ///< those with animated emission
     std::vector<std::vector<std::uint32_t>> groups_;  ///< instances that move together
     LiveLinks live_;
-    gpu::StageTimes times_;  ///< none: it works on the host
+    gpu::StageTimes times_;  ///< none: runs on the CPU
     LiveLinksState state_;
 };
 

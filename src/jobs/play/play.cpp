@@ -28,7 +28,7 @@ namespace {
 constexpr int kMaxFrames = 100'000;
 constexpr const char* kFilms[] = {"play.mp4", "play.webm"};
 constexpr const char* kFramePattern = "frame-%04d.png";
-/// Cancellation is polled at least this often [ms].
+/// Maximum time between checks for cancellation [ms].
 constexpr double kSlice = 200.0;
 
 double time_of(const PlayOptions& options, int frame)
@@ -47,17 +47,17 @@ int frames_of(const PlayOptions& options, const Animation& animation)
         return options.frames;
     const double frames = std::max(1.0, std::round(animation.duration * options.fps));
     if (frames > double(kMaxFrames))
-        throw Error(ErrorKind::input, fmt::format("--fps {}", options.fps),
-                    fmt::format("makes {:.0f} frames of the animation, more than the {} that are "
-                                "made at once; use fewer --frames",
-                                frames, kMaxFrames));
+        throw Error(
+            ErrorKind::input, fmt::format("--fps {}", options.fps),
+            fmt::format("makes {:.0f} frames, more than the limit of {}; use fewer --frames",
+                        frames, kMaxFrames));
     return int(frames);
 }
 
-/// A scene, how it changes, and the light that follows.
+/// A scene, its animation, and its light.
 class Player {
 public:
-    /// `scene`: posed as the first frame.
+    /// `scene`: posed as in the first frame.
     Player(const gpu::Device& device, Scene scene, const Animation& animation,
            const PlayOptions& options)
         : device_(&device),
@@ -71,7 +71,7 @@ public:
             chosen_ = choose_view(shown_, RayScene(shown_));
     }
 
-    /// Moves the scene, and its light, to the time of a frame. Nothing if stopped before.
+    /// Updates the scene and its light to the time of a frame. Empty if stopped before.
     std::optional<FrameRow> follow(int frame, Stages& stages)
     {
         const double time = time_of(options_, frame);
@@ -90,13 +90,13 @@ public:
         return row;
     }
 
-    /// The picture of the scene as it stands, tone-mapped.
+    /// Tone-mapped image of the current scene.
     Image picture()
     {
         const Image map =
             finish_map(shown_, light_->atlas(), light_->lumels(), light_->irradiance());
         Image image = render_preview(*device_, shown_, atlas(), map, view(), options_.width);
-        // One exposure for all, or the pictures would flicker.
+        // One exposure for all frames avoids flicker.
         if (exposure_ <= 0.0f && bright_end(image) > 0.0f)
             exposure_ = choose_exposure(image);
         return tone_map(image, exposure_);
@@ -104,7 +104,7 @@ public:
 
     const Atlas& atlas() const { return light_->atlas(); }
     float exposure() const { return exposure_; }
-    /// What became of it, once all is played.
+    /// Report of the finished animation.
     Report report(const PlayOptions& options, int height, std::vector<FrameRow> frames,
                   const Stages& stages) const
     {
@@ -121,13 +121,13 @@ private:
     const gpu::Device* device_;
     const Animation* animation_;
     PlayOptions options_;
-    Scene shown_;  ///< as the current frame has it
+    Scene shown_;  ///< as in the current frame
     std::unique_ptr<PlayedLight> light_;
-    std::optional<View> chosen_;  ///< where the file has no camera
+    std::optional<View> chosen_;  ///< if the file has no camera
     float exposure_;
 };
 
-/// The scene at the first frame, with all warnings for the user.
+/// The scene at the first frame, with all warnings.
 Scene read_start(const std::string& path, const Animation& animation, const PlayOptions& options)
 {
     Scene scene = read_gltf(path);
@@ -138,7 +138,7 @@ Scene read_start(const std::string& path, const Animation& animation, const Play
     return scene;
 }
 
-/// What an earlier, longer film has left beyond these frames.
+/// Removes the frames of an earlier, longer animation.
 void outdate_beyond(OutputFolder& output, const std::string& folder, int frames)
 {
     namespace fs = std::filesystem;
@@ -147,14 +147,14 @@ void outdate_beyond(OutputFolder& output, const std::string& folder, int frames)
         output.outdate(frame_name(frame));
 }
 
-/// Makes the film if it can; else prints how to make it. Its name, or nothing.
+/// Makes the film, or notes how to make it. Returns its name, or "".
 std::string film(const OutputFolder& output, const PlayOptions& options)
 {
     if (options.film == Film::none)
         return {};
     const std::string ffmpeg = find_ffmpeg(), name = kFilms[options.film == Film::mp4 ? 0 : 1];
     if (ffmpeg.empty()) {
-        log_info(fmt::format("ffmpeg is not installed, so there is no {}; with it: ffmpeg "
+        log_info(fmt::format("ffmpeg is not installed, so there is no {}; to make it: ffmpeg "
                              "-framerate {} -i {} -pix_fmt yuv420p {}",
                              name, options.fps, kFramePattern, name));
         return {};
@@ -178,9 +178,9 @@ PlaySummary play(const std::string& scene_path, const std::string& folder, const
     options.frames = frames_of(options, animation);
     if (!changes_anything(start, animation))
         throw Error(ErrorKind::input, scene_path,
-                    "its animation moves nothing that is shown, and changes no light");
+                    "its animation moves no visible object and changes no light");
     check_poses(start, animation, options.frames, options.fps);
-    // What can fail before the long work should.
+    // Checks for failures before the long work.
     OutputFolder output(folder);
     const gpu::Device device(options.device);
     stages.watch(device);

@@ -1,5 +1,5 @@
 #pragma once
-// Report of a film.
+// Report of an animation.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace lumel {
 
-/// The facts of a film. height: of the pictures [pixels].
+/// Report of an animation. height: of the images [pixels].
 Report play_report(const PlayOptions& options, const PlayedLight& light, const gpu::Device& device,
                    int height, std::vector<FrameRow> frames, const Stages& stages);
 

@@ -18,11 +18,11 @@ bool has_material(const Scene& scene, const Instance& instance, int material)
                        [&](const Primitive& p) { return p.material == material; });
 }
 
-/// A lamp of the scene whose light changes.
+/// An emissive instance whose light is animated.
 struct ChangingLamp {
     std::uint32_t instance = 0;
     const AnimatedMaterial* material = nullptr;
-    glm::vec3 factor{1.0f};  ///< last set in the live scene
+    glm::vec3 factor{1.0f};  ///< current in the live scene
 };
 
 std::vector<ChangingLamp> changing_lamps(const Scene& scene, const Animation& animation)
@@ -35,7 +35,7 @@ std::vector<ChangingLamp> changing_lamps(const Scene& scene, const Animation& an
     return lamps;
 }
 
-/// An instance's light changes as a whole: its other materials must be dark.
+/// Emission is scaled per instance: its other materials must not emit.
 void check_lamps(const Scene& scene, const std::vector<ChangingLamp>& lamps)
 {
     for (const ChangingLamp& lamp : lamps) {
@@ -45,7 +45,7 @@ void check_lamps(const Scene& scene, const std::vector<ChangingLamp>& lamps)
                 scene.materials[std::size_t(other)].emitted != glm::vec3(0.0f))
                 throw Error(ErrorKind::input, fmt::format("{}: \"{}\"", scene.path, instance.name),
                             "has several emissive materials, and the light of one changes; give "
-                            "each a mesh of its own");
+                            "each its own mesh");
     }
 }
 
@@ -56,7 +56,7 @@ LiveOptions live_options(const PlayOptions& options, const std::vector<std::uint
     live.solver = std::get<ProgressiveOptions>(options.solver);
     live.movers = movers;
     live.still = movers.empty();
-    // Where only lamps change there is nothing to cross.
+    // If only lamps change, nothing is crossed.
     live.redistribution = live.still ? Redistribution::incremental : options.redistribution;
     live.residual = options.residual;
     return live;
@@ -74,7 +74,7 @@ LeakyOptions leaky_options(const PlayOptions& options, const std::vector<std::ui
     return leaky;
 }
 
-/// By a scene on the device: LiveScene or LeakyScene.
+/// Light by a scene on the device: LiveScene or LeakyScene.
 template <class Live>
 class DeviceLight final : public PlayedLight {
 public:

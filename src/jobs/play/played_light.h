@@ -1,5 +1,5 @@
 #pragma once
-// The light of a scene that is played, by one of the methods that follow what changes.
+// Light of an animation, by one of the interactive methods.
 
 #include <memory>
 
@@ -13,14 +13,14 @@ class PlayedLight {
 public:
     virtual ~PlayedLight() = default;
 
-    /// Asks for the light of the scene as `shown` has it, at a time of the animation [s].
+    /// Requests the light of the scene `shown`, at a time of the animation [s].
     virtual void change_to(const Scene& shown, double time) = 0;
-    /// Works for about so many milliseconds, or until at rest; adds to the row what that has found.
+    /// Runs for about `budget_ms` or until converged; records cost and residual in `row`.
     virtual void update(double budget_ms, FrameRow& row) = 0;
     /// H [N] [lx]
     virtual std::vector<glm::vec3> irradiance() = 0;
 
-    /// Hemicubes, directions or rays, so far.
+    /// Total of hemicubes, directions or rays.
     virtual std::uint64_t shots() const = 0;
     virtual const Scene& scene() const = 0;
     virtual const Atlas& atlas() const = 0;
@@ -28,17 +28,17 @@ public:
     virtual const gpu::StageTimes& times() const = 0;
 };
 
-/// By the method of the options. start: as the first frame has it. The device and the animation
-/// must outlive it. Throws Error{input} for what the method cannot follow.
+/// Light by the method of the options. start: the first frame. The device and the animation must
+/// outlive this. Throws Error{input} if the method does not support the animation.
 std::unique_ptr<PlayedLight> make_played_light(const gpu::Device& device, const Scene& start,
                                                const Animation& animation,
                                                const PlayOptions& options);
 
-/// What is emitted as a part of the most there will be, which live scenes are made with.
+/// Emission at `time` relative to its maximum over the animation, which live scenes are built with.
 glm::vec3 emission_factor(const AnimatedMaterial& material, double time);
 Scene at_its_brightest(Scene scene, const Animation& animation);
 
-/// Does anything that is shown move, or any lamp change?
+/// True if any visible object moves or any lamp changes.
 bool changes_anything(const Scene& start, const Animation& animation);
 
 }  // namespace lumel

@@ -24,13 +24,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// States whose light is found together.
+/// States that are lit together.
 constexpr std::size_t kStatesAtOnce = 16;
-/// Lumels at the rim of charts may be others in scene.glb, whose texture coordinates were rounded:
-/// this part of them at most.
+/// Maximum fraction of lumels that differ in scene.glb, whose texture coordinates are rounded: they
+/// are at the borders of charts.
 constexpr double kMaxStrangers = 0.01;
 
-/// The matrix of a folder, if it is that of the bake in it.
+/// The matrix of a folder; throws if it is not of the bake there.
 Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
                         const StoredSolution& solution)
 {
@@ -39,7 +39,7 @@ Relightable read_matrix(const std::string& folder, const BakeRecord& baked,
     if (!fs::is_regular_file(path, ignored))
         throw Error(ErrorKind::input, folder,
                     std::string("has neither ") + kLinksFile + " nor " + kMatrixFile +
-                        "; bake the scene with --keep-links or --solver matrix to light it anew");
+                        "; bake the scene with --keep-links or --solver matrix to relight it");
     Relightable light = read_relightable(path);
     if (light.scene_hash != baked.scene_hash || int(light.side) != solution.side)
         throw Error(ErrorKind::input, path,
@@ -59,7 +59,7 @@ Prepared read_world(const std::string& folder, const BakeRecord& baked,
         });
 }
 
-/// [N of the world] Number of each lumel among those of the matrix, kNoLumel where it is not there.
+/// [N of the world] Index of each lumel in the matrix, or kNoLumel.
 std::vector<std::uint32_t> numbers_in(const Relightable& light, const Lumels& lumels,
                                       const std::string& folder)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// lumel relight: the maps of a finished bake under other states of its lights.
+// lumel relight: maps of a finished bake with other light states.
 
 #include <string>
 #include <vector>
@@ -13,27 +13,26 @@ struct RelightOptions {
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
 };
 
-/// What a state has taken [s].
+/// Cost and error of a state.
 struct StateRow {
     std::string name;
-    double light = 0.0;  ///< to find its light; states found together share it alike
-    double files = 0.0;  ///< to finish its map and to write it
-    double error = -1.0, dark_error = -1.0;  ///< of its map, as of SolverState; < 0: not known
+    double light = 0.0;  ///< to light it [s]; states lit together share the time equally
+    double files = 0.0;  ///< to finish and write its map [s]
+    double error = -1.0, dark_error = -1.0;  ///< as in SolverState; < 0: unknown
 };
 
-/// As a report has them.
+/// For the report.
 Json json_of(const std::vector<StateRow>& states);
 
 struct RelightSummary {
-    std::vector<StateRow> states;  ///< that were written
-    double seconds = 0.0;          ///< in all
+    std::vector<StateRow> states;  ///< those written
+    double seconds = 0.0;          ///< total
     bool interrupted = false;
     std::string report;  ///< JSON
 };
 
-/// Lights what `lumel bake` wrote with --keep-links, or --solver matrix, into `folder` anew, by the
-/// file at `states` (see read_states()): states/NAME.exr, irradiance [lx], and states/NAME.png.
-/// Throws Error.
+/// Relights the bake in `folder`, made with --keep-links or --solver matrix, by the file `states`
+/// (see read_states()): writes states/NAME.exr, irradiance [lx], and states/NAME.png. Throws Error.
 RelightSummary relight(const std::string& folder, const std::string& states,
                        const RelightOptions& options, const ProgressFunction& progress = {});
 

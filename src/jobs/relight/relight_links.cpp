@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a bake with --keep-links left in a folder.
+/// Files of a bake with --keep-links.
 struct Baked {
     BakeRecord record;
     StoredLinks links;

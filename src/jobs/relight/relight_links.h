@@ -1,5 +1,5 @@
 #pragma once
-// lumel relight over links that lumel bake --keep-links kept.
+// lumel relight over links stored by lumel bake --keep-links.
 
 #include <string>
 
@@ -8,10 +8,10 @@
 
 namespace lumel {
 
-/// Does a folder have scene.lumellinks?
+/// True if a folder has scene.lumellinks.
 bool keeps_links(const std::string& folder);
 
-/// What relight() does: direct light of each state anew, and sweeps over the links. Throws Error.
+/// relight() by recomputed direct light of each state and sweeps over the links. Throws Error.
 RelightSummary relight_over_links(const std::string& folder, const std::string& states,
                                   Stages& stages);
 

@@ -11,11 +11,11 @@
 namespace lumel {
 namespace {
 
-/// So long that an ending and a temporary name still fit into what file systems allow [bytes].
+/// Leaves room for an extension and a temporary name within file system limits [bytes].
 constexpr std::size_t kLongestName = 200;
 constexpr double kStraightUp = 90.0;  // [degrees]
 
-/// True for names that every file system takes, and that stay in their folder.
+/// True for names that are valid in every file system and stay in their folder.
 bool names_a_file(const std::string& name)
 {
     constexpr std::string_view kForbidden = "/\\:*?\"<>|";
@@ -56,7 +56,7 @@ glm::dvec3 point_of(const JsonView& view)
     return {view.at(0).number(), view.at(1).number(), view.at(2).number()};
 }
 
-/// "azimuth" and "elevation" of what shines from there, or "direction".
+/// Adds "azimuth" and "elevation" of a source, or "direction".
 void add_direction_to(LampPlace& place, const JsonView& view)
 {
     const auto direction = view.find("direction"), azimuth = view.find("azimuth"),
@@ -75,7 +75,7 @@ void add_direction_to(LampPlace& place, const JsonView& view)
         -direction_of({glm::radians(view.get("azimuth").number()), glm::radians(up)}));
 }
 
-/// A factor, or an object with what changes of a light.
+/// Adds a factor, or an object with changes of a light.
 void add_light_to(LightState& state, const std::string& name, const JsonView& view)
 {
     if (!view.json().is_object()) {
@@ -100,7 +100,7 @@ NamedState state_of(const JsonView& view)
     allow_only(view, {"name", "others", "lights"});
     NamedState state{.name = view.get("name").string()};
     if (!names_a_file(state.name))
-        view.get("name").fail(lumel::quoted(state.name) + " cannot be the name of a file");
+        view.get("name").fail(lumel::quoted(state.name) + " is not a valid file name");
     if (const auto others = view.find("others"))
         state.light.others = factor_of(*others);
     if (const auto lights = view.find("lights"))

@@ -1,5 +1,5 @@
 #pragma once
-// states.json: lights as they are to be turned.
+// states.json: states of the lights.
 
 #include <functional>
 #include <string>
@@ -10,18 +10,18 @@
 namespace lumel {
 
 struct NamedState {
-    std::string name;  ///< that files can have, unlike all others
+    std::string name;  ///< valid as a file name, unique
     LightState light;
 };
 
-/// {"states": [{"name": …, "others": factor, "lights": {NAME: light, …}}, …]}, a factor being a
-/// number or [r, g, b], from 0, and a light a factor or {"factor": …, "position": [x, y, z],
-/// "direction": [x, y, z]} [m], with "azimuth" and "elevation" [degrees] of where its light comes
-/// from in place of the direction, as --sun has them, and of the sky "turn" [degrees]. Names of
-/// lights are not looked up. Throws Error{input} with the place of what is wrong.
+/// {"states": [{"name": …, "others": factor, "lights": {NAME: light, …}}, …]}, where a factor is a
+/// number or [r, g, b], ≥ 0, and a light is a factor or {"factor": …, "position": [x, y, z],
+/// "direction": [x, y, z]} [m]; instead of the direction, "azimuth" and "elevation" of the light's
+/// origin [degrees], as for --sun; for the sky also "turn" [degrees]. Does not check the lights'
+/// names. Throws Error{input} with the location of the error.
 std::vector<NamedState> read_states(const std::string& path);
 
-/// Calls check() for each state of the file at `path`. What it throws gets the state's name.
+/// Calls check() for each state of the file at `path`; adds the state's name to its exceptions.
 void check_states(const std::vector<NamedState>& states, const std::string& path,
                   const std::function<void(const LightState&)>& check);
 

@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-/// Adds what a picture is of.
+/// Adds the properties of the image.
 void add_picture(Report& report, const RenderOptions& options)
 {
     report.picture_width = options.width;

@@ -6,12 +6,12 @@
 
 namespace lumel {
 
-/// The facts of a picture of a solved scene. options.height: as the picture is.
+/// Report of an image of a solved scene. options.height: as rendered.
 Report picture_report(const RenderOptions& options, const Prepared& prepared,
                       const gpu::Device& device, const Solver& solver, const Results& results,
                       const Stages& stages);
 
-/// The facts of a path-traced picture. options.height: as the picture is.
+/// Report of a path-traced image. options.height: as rendered.
 Report path_traced_report(const RenderOptions& options, const Scene& scene, const Stages& stages);
 
 }  // namespace lumel

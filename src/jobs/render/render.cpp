@@ -38,7 +38,7 @@ bool is_exr(const std::string& path)
     return path.ends_with(".exr");
 }
 
-/// What can fail before the long work should.
+/// Checks for failures before the long work.
 void check(const std::string& path, const RenderOptions& options)
 {
     if (!is_exr(path) && !path.ends_with(".png"))
@@ -48,12 +48,11 @@ void check(const std::string& path, const RenderOptions& options)
                     "would leave out all gloss; one of them must be above 0");
     if (options.shots > 0 && is_papers(options.bake.solver.method))
         throw Error(ErrorKind::input, "--eye-shots",
-                    "does nothing with --scheme paper, whose --shots light the picture too");
+                    "has no effect with --scheme paper, whose --shots also light the image");
     if (options.film.frames > 0 && (options.paths > 0 || !options.bake.dump.empty()))
-        throw Error(ErrorKind::input, "--frames",
-                    "makes films of solved scenes, without --paths and --dump");
+        throw Error(ErrorKind::input, "--frames", "cannot be used with --paths or --dump");
     if (options.paths > 0 && !options.bake.dump.empty())
-        throw Error(ErrorKind::input, "--dump", "does nothing with --paths, which only traces");
+        throw Error(ErrorKind::input, "--dump", "has no effect with --paths");
     const OutputFile can_be_written(path);
 }
 
@@ -65,11 +64,11 @@ void check_size(const gpu::Device& device, const RenderOptions& options)
                  std::uint64_t(std::numeric_limits<std::uint32_t>::max()) / options.sets);
     if (pixels > most)
         throw Error(ErrorKind::input, "--width " + std::to_string(options.width),
-                    "makes a picture of " + std::to_string(pixels) + " pixels, more than the " +
-                        std::to_string(most) + " that fit this device with that many --places");
+                    "makes an image of " + std::to_string(pixels) + " pixels, more than the " +
+                        std::to_string(most) + " that this device can hold with these --places");
 }
 
-/// The requested view, as wide as the picture.
+/// The requested view, with the aspect of the image.
 View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
 {
     check_camera(scene, options.camera);
@@ -81,8 +80,8 @@ View view_for(const Scene& scene, const RayScene& rays, RenderOptions& options)
     return view;
 }
 
-/// What the lobes add at the points seen [G] [cd/m²], by shooters. Every set of points meets some,
-/// even if the caller wants to stop.
+/// Light of the lobes at the points seen [G] [cd/m²], by shooters. Every set of points receives
+/// from some, even if the caller stops.
 std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,
                                  std::span<const float> brightness, const EyeSampling& sampling,
                                  Stages& stages)
@@ -102,12 +101,12 @@ std::vector<glm::vec3> shoot_for(GlossyIllumination& solver, const Seen& seen,
     return solver.eye_radiance();
 }
 
-/// The same by shooters and by rays.
+/// Light of the lobes by shooters and rays.
 std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, const Setting& setting,
                                const Surfaces& surfaces, const LitScene& lit,
                                const RenderOptions& options, Stages& stages)
 {
-    // Whole iterations for every set of points.
+    // Complete iterations for every set of points.
     const std::uint64_t round = seen.sets * std::uint64_t(solver.batch());
     const std::uint64_t shots =
         seen.glossy.empty() ? 0 : (options.shots + round - 1) / round * round;
@@ -115,7 +114,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     const std::vector<float> brightness = solver.brightness();
     std::vector<glm::vec3> reflected = shoot_for(solver, seen, brightness, sampling, stages);
 
-    stages.begin("following lobes");
+    stages.begin("lobe rays");
     const WorldLumels standing(setting.prepared.scene, setting.prepared.rays,
                                setting.prepared.lumels);
     const PowerDraw senders(standing, setting.prepared.lumels, brightness);
@@ -130,7 +129,7 @@ std::vector<glm::vec3> reflect(GlossyIllumination& solver, const Seen& seen, con
     return reflected;
 }
 
-/// As published: the texture C that the eye's image was accumulated in, of every lumel.
+/// As published: looks up the texture C, the eye's accumulated image per lumel.
 std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const LumelSight& sight,
                                            const Seen& seen, const Prepared& prepared)
 {
@@ -141,7 +140,7 @@ std::vector<glm::vec3> look_up_accumulated(GlossyIllumination& solver, const Lum
                    texture.back);
 }
 
-/// A picture whose colours are not multiplied by alpha, as PNG has them.
+/// Divides colours by alpha, as for PNG.
 Image unmultiplied(Image image)
 {
     for (std::size_t i = 0; i < image.values.size(); i += 4)
@@ -151,7 +150,7 @@ Image unmultiplied(Image image)
     return image;
 }
 
-/// Returns the exposure of a PNG [m²/cd], `given` if there is one.
+/// Returns the exposure of a PNG [m²/cd]: `given` if there is one.
 std::optional<float> write_picture(const std::string& path, const Image& image,
                                    std::optional<float> given = {})
 {
@@ -172,7 +171,7 @@ std::optional<float> write_picture(const std::string& path, const Image& image,
     return exposure;
 }
 
-/// A picture and the facts of it.
+/// An image and its report.
 struct Made {
     Image image;
     Report report;
@@ -189,9 +188,9 @@ Made path_trace(const Scene& scene, RenderOptions options, Stages& stages)
     return {std::move(image), path_traced_report(options, scene, stages)};
 }
 
-/// A scene with its light, which the next frame goes on from.
+/// A scene with its light, from which the next frame continues.
 struct Lit {
-    /// lay_out: of the atlas, or empty. given: where the eye is, if it is known.
+    /// lay_out: makes the atlas, or empty. given: the view, if known.
     Lit(Scene scene, const Prepared::LayOut& lay_out, const std::optional<View>& given,
         const gpu::Device& device, RenderOptions& options, Stages& stages)
         : setting(lay_out
@@ -200,7 +199,7 @@ struct Lit {
                       : std::make_unique<Setting>(std::move(scene), device, options.bake, stages)),
           view(given ? *given : view_for(setting->prepared.scene, setting->prepared.rays, options)),
           lamps(light_of_lamps(device, *setting, options.bake, stages)),
-          // Without rays shooters do it all.
+          // Without rays, shooters do all.
           particles(options.rays > 0 ? setting->carriers() : nullptr),
           lumels(shining(setting->prepared.lumels, lamps.irradiance,
                          particles ? Lobes::carried : Lobes::diffuse)),
@@ -218,7 +217,7 @@ struct Lit {
     GlossyIllumination solver;
 };
 
-/// before: the frame before, solved with the same atlas, or null.
+/// before: the previous frame, solved with the same atlas, or null.
 Made shoot(Lit& frame, Lit* before, const gpu::Device& device, const RenderOptions& options,
            Stages& stages)
 {
@@ -289,8 +288,8 @@ std::string numbered(const std::string& path, int frame)
     return name.string();
 }
 
-/// Frames have other random numbers if they keep the average of those before: the same would add
-/// nothing new. Else their noise stays where it is.
+/// Frames use different random numbers if they keep the previous average, which equal ones would
+/// not improve; otherwise equal ones keep their noise in place.
 RenderOptions of_frame(RenderOptions options, int frame)
 {
     auto& glossy = std::get<GlossyOptions>(options.bake.solver.method);
@@ -299,7 +298,7 @@ RenderOptions of_frame(RenderOptions options, int frame)
     return options;
 }
 
-/// Frame after frame. The report is that of the last, and names all files.
+/// Renders the frames. The report is that of the last, with the names of all files.
 Report film(const Scene& scene, const std::string& path, const RenderOptions& options,
             const ProgressFunction& progress)
 {
@@ -313,7 +312,7 @@ Report film(const Scene& scene, const std::string& path, const RenderOptions& op
     std::unique_ptr<Lit> before;
     std::optional<float> exposure;
     std::optional<Atlas> atlas;
-    std::optional<View> chosen;  // where the file has no camera: the pictures would jump
+    std::optional<View> chosen;  // one for all frames if the file has no camera
     int height = options.height;
     std::vector<std::string> files;
     Report report;

@@ -22,45 +22,45 @@ struct BakeOptions {
     SolverOptions solver;
     std::string device;  ///< index or part of a name as `lumel devices` lists; empty: best
     std::uint32_t sky_directions = DirectLightOptions{}.sky_directions;
-    Parts parts = Parts::all;                               ///< of the light that arrives
+    Parts parts = Parts::all;                               ///< light in the lightmap
     bool half = false;                                      ///< lightmap.exr in half precision
-    bool keep_lights = false;                               ///< that are baked in scene.glb too
-    LightmapFormat lightmap_format = LightmapFormat::ktx2;  ///< of scene.glb
-    int baked_size = kBakedSize;  ///< largest side of the texture of scene-baked.glb [texels]
-    Directional directional = Directional::none;  ///< layers of lightmap.exr
+    bool keep_lights = false;                               ///< keeps baked lights in scene.glb
+    LightmapFormat lightmap_format = LightmapFormat::ktx2;  ///< in scene.glb
+    int baked_size = kBakedSize;  ///< maximum side of the texture of scene-baked.glb [texels]
+    Directional directional = Directional::none;  ///< extra layers of lightmap.exr
     int preview_width = 1280;                     ///< [pixels], 0: no preview
-    double probe_spacing = 0.0;  ///< of a grid of light probes beside the map [m]; 0: none
-    /// Of each lumel that are traced, and kept for later runs: 4, 16, 64 or 256; 0: as many as the
-    /// method wants, and none is kept.
+    double probe_spacing = 0.0;  ///< spacing of a grid of light probes [m]; 0: none
+    /// Rays per lumel that are traced and stored for later runs: 4, 16, 64 or 256; 0: as the method
+    /// chooses, none stored.
     std::uint32_t keep_links = 0;
     std::string dump;                  ///< folder for intermediate images, see dump.h; empty: none
-    bool resume = false;               ///< goes on from a checkpoint, if one is there
-    double checkpoint_seconds = 60.0;  ///< between two checkpoints, see Checkpoint; 0: none
-    /// Of the host and of the device each [bytes]; 0: what they have.
+    bool resume = false;               ///< continues from a checkpoint, if there is one
+    double checkpoint_seconds = 60.0;  ///< between checkpoints, see Checkpoint; 0: none
+    /// Limit for host and device each [bytes]; 0: available memory.
     std::uint64_t max_memory = 0;
 };
 
-/// State of a running bake, for a progress display.
+/// Status of a running bake, for a progress display.
 struct BakeProgress {
     std::string stage;        ///< "reading", "charts", "near field", "uploading", "solving", …
-    double fraction = 0.0;    ///< of the whole stage, 0…1
-    std::uint64_t shots = 0;  ///< shooters so far
-    double error = -1.0;      ///< estimated relative error, < 0: not known yet
-    double seconds = 0.0;     ///< since the stage began
-    std::string note;         ///< a fact in one line that has just become known, or empty
+    double fraction = 0.0;    ///< progress of the stage, 0…1
+    std::uint64_t shots = 0;  ///< shooters
+    double error = -1.0;      ///< estimated relative error, < 0: unknown
+    double seconds = 0.0;     ///< since the start of the stage
+    std::string note;         ///< a new one-line fact, or empty
 };
 
-/// Called from the baking thread at the start and end of each stage, with every note, and
-/// often while solving; false ends the solve early (the best solution so far is still written).
+/// Called from the baking thread at the start and end of each stage, with every note, and often
+/// while solving; false ends the solve early (the best solution so far is still written).
 using ProgressFunction = std::function<bool(const BakeProgress&)>;
 
 struct BakeSummary {
     std::uint64_t shots = 0;
     double error = -1.0;       ///< estimated relative error
-    double dark_error = -1.0;  ///< the same of dark lumels, see SolverState
-    double seconds = 0.0;      ///< whole bake
+    double dark_error = -1.0;  ///< as in SolverState
+    double seconds = 0.0;      ///< total
     bool interrupted = false;
-    std::string report;  ///< the JSON of report.json
+    std::string report;  ///< JSON of report.json
 };
 
 }  // namespace lumel

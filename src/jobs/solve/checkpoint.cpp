@@ -28,7 +28,7 @@ constexpr char kMagic[] = "lumel checkpoint 2\n";
 /// Writing takes at most 1 / kRest of the time.
 constexpr double kRest = 20.0;
 
-/// All that decides what the solver does, beside the scene and its lights.
+/// All settings of the solver, without the scene and its lights.
 std::string settings_of(const BakeOptions& options)
 {
     Json settings;
@@ -38,14 +38,14 @@ std::string settings_of(const BakeOptions& options)
     return json_text(settings);
 }
 
-/// Throws Error{input} if the file does not begin as a checkpoint does.
+/// Throws Error{input} if the file does not start like a checkpoint.
 void pass_magic(std::istream& file, const std::string& path)
 {
     char magic[sizeof kMagic] = {};
     file.read(magic, sizeof magic);
     if (std::memcmp(magic, kMagic, sizeof magic) != 0)
         throw Error(ErrorKind::input, path,
-                    "is no checkpoint of this version of Lumel; bake without --resume");
+                    "is not a checkpoint of this version of Lumel; bake without --resume");
 }
 
 }  // namespace
@@ -87,8 +87,8 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
         return {};
     if (!resume_) {
         older_ = seconds_of_older(size);
-        log_info(path_ + " is of a bake that was not finished; this one begins anew, and would go "
-                         "on with --resume");
+        log_info(path_ +
+                 " is from an unfinished bake; this bake starts over, --resume would continue it");
         return {};
     }
     std::ifstream file(path_, std::ios::binary);
@@ -98,19 +98,20 @@ Checkpoint::Run Checkpoint::take_up(Solver& solver)
     reader(origin);
     if (!(origin == origin_)) {
         const char* other = origin.version != origin_.version ? "version of Lumel"
-                            : origin.scene != origin_.scene   ? "scene, or the same before an edit"
+                            : origin.scene != origin_.scene
+                                ? "scene, or an earlier version of this one"
                             : origin.options != origin_.options ? "set of options"
-                                                                : "caster of rays (--rays)";
-        throw Error(ErrorKind::input, path_,
-                    fmt::format("is of another {}; go on as the bake began, or bake without "
-                                "--resume",
-                                other));
+                                                                : "ray tracing backend (--rays)";
+        throw Error(
+            ErrorKind::input, path_,
+            fmt::format("is from another {}; continue with that one, or bake without --resume",
+                        other));
     }
     Run run;
     reader(run.seconds, run.curve);
     solver.read_state(reader);
     reader.finish();
-    log_info(fmt::format("going on after {:.0f} s of solving, with {} {}", run.seconds,
+    log_info(fmt::format("continuing after {:.0f} s of solving, with {} {}", run.seconds,
                          solver.state().shots, unit_));
     return run;
 }
@@ -126,7 +127,7 @@ double Checkpoint::seconds_of_older(std::uint64_t size) const
         reader(origin, seconds);
         return seconds;
     } catch (const Error&) {
-        return 0.0;  // of no use to anybody
+        return 0.0;  // usable by no one
     }
 }
 
@@ -155,7 +156,7 @@ void Checkpoint::write(Solver& solver, const Run& given)
         output.commit();
     } catch (const Error& error) {
         if (!warned_)
-            log_warning(std::string("no checkpoint to go on from: ") + error.what());
+            log_warning(std::string("no checkpoint written: ") + error.what());
         warned_ = true;
     }
     const double now = wall_seconds();

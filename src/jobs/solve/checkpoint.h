@@ -1,5 +1,5 @@
 #pragma once
-// The state of an unfinished bake on the disk, from which it can go on.
+// Checkpoint file of an unfinished bake.
 
 #include <cstdint>
 #include <optional>
@@ -13,36 +13,36 @@
 
 namespace lumel {
 
-/// In the folder of the results, while these are not there.
+/// In the folder of the results, until these are there.
 inline constexpr const char* kCheckpointFile = ".lumel-checkpoint";
 
-/// Throws Error{input} if --resume is asked for with a method that cannot go on.
+/// Throws Error{input} for --resume with a method that cannot continue.
 void check_resume(const BakeOptions& options);
 
-/// Writes the state of a solve now and then, and reads it back. It is written in one step, and does
-/// not fit another scene, other options or another version of Lumel.
+/// Writes the state of a solve periodically, and reads it back. Writes are atomic. A checkpoint is
+/// valid for the same scene, options and version of Lumel only.
 class Checkpoint {
 public:
-    /// Beside the solver's own state.
+    /// State in addition to the solver's.
     struct Run {
-        double seconds = 0.0;  ///< of solving so far
+        double seconds = 0.0;  ///< total solving time
         std::vector<ConvergencePoint> curve;
     };
 
     Checkpoint(const std::string& folder, const BakeOptions& options, const Prepared& prepared);
 
-    /// With --resume: takes up what is there, and returns how far that had come. Throws
+    /// With --resume: loads the checkpoint if there is one, and returns its status. Throws
     /// Error{input} if it is of other work or damaged.
     Run take_up(Solver& solver);
-    /// Writes it if it is time. What cannot be written is a warning, and the former one stays.
-    /// Without --resume it takes the place of another bake's once this one has solved for longer.
+    /// Writes a checkpoint if one is due. On failure, warns and keeps the previous one. Without
+    /// --resume it replaces another bake's checkpoint only after solving for longer than that.
     void keep(Solver& solver, const Run& run);
-    /// For a solve that the user has stopped: kept with --resume. Without, it is removed, unless
-    /// there was one before this bake.
+    /// For a solve stopped by the user: keeps the checkpoint with --resume; otherwise removes it,
+    /// unless it existed before this bake.
     void stop(Solver& solver, const Run& run);
 
 private:
-    /// What a state belongs to.
+    /// Identity of the work.
     struct Origin {
         std::string version, scene, options, rays;
         bool operator==(const Origin&) const = default;
@@ -58,11 +58,11 @@ private:
 
     std::string path_;
     bool can_, resume_;
-    const char* unit_;  ///< of shots
+    const char* unit_;  ///< name of shots
     double every_;      ///< [s], 0: never
     Origin origin_;
-    double next_ = 0.0;            ///< [s] of wall_seconds()
-    std::optional<double> older_;  ///< [s] of solving in one that this bake does not go on from
+    double next_ = 0.0;            ///< [s] in wall_seconds()
+    std::optional<double> older_;  ///< [s] solving time of one that this bake does not continue
     bool warned_ = false;
 };
 

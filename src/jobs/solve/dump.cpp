@@ -18,15 +18,15 @@
 namespace lumel {
 namespace {
 
-constexpr std::uint32_t kMaxLayers = 4;        ///< of the illumination map that are written
-constexpr float kPixelsPerLumel = 2.0f;        ///< across a typical one in the illumination map
-constexpr std::uint32_t kLargestSide = 2048u;  ///< of the illumination map [pixels]
+constexpr std::uint32_t kMaxLayers = 4;        ///< maximum layers of the illumination map written
+constexpr float kPixelsPerLumel = 2.0f;        ///< across a typical lumel in the illumination map
+constexpr std::uint32_t kLargestSide = 2048u;  ///< side of the illumination map [pixels]
 
-/// An image with what its numbers are.
+/// An image and the meaning of its numbers.
 struct Picture {
     std::string name, quantity, unit;
     Image numbers;
-    Image look;  ///< to be shown in its place, linear; empty: the numbers themselves
+    Image look;  ///< shown instead, linear; empty: the numbers themselves
 };
 
 void write(const OutputFolder& folder, const Picture& picture)
@@ -49,7 +49,7 @@ std::vector<glm::vec3> radiosity_of(const Lumels& lumels, std::span<const glm::v
     return radiosity;
 }
 
-/// B A [N] [lm]; what is buried sends nothing.
+/// B A [N] [lm]; 0 for buried lumels.
 std::vector<glm::vec3> power_of(const Lumels& lumels, std::span<const glm::vec3> radiosity)
 {
     std::vector<glm::vec3> power(radiosity.begin(), radiosity.end());
@@ -76,7 +76,7 @@ void set_grey(Image& image, std::size_t pixel, float value)
     std::fill_n(image.values.begin() + std::ptrdiff_t(3 * pixel), 3, value);
 }
 
-/// What the lumel sees from its own point.
+/// View from the lumel's own point.
 Picture view_from(const gpu::Device& device, const World& world, std::size_t lumel,
                   const ViewOptions& options)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// Intermediate images, for people who look inside.
+// Intermediate images, for debugging.
 
 #include <span>
 
@@ -11,7 +11,7 @@
 
 namespace lumel {
 
-/// A scene that was solved, on the host and on the device.
+/// A solved scene, on host and device.
 struct Solved {
     const Prepared& prepared;
     const World& world;
@@ -19,14 +19,14 @@ struct Solved {
     std::span<const glm::vec3> irradiance;  ///< [N] [lx]
 };
 
-/// Writes each as NAME.exr with numbers and NAME.png to look at, and commits the folder:
-/// - hemicube (or hemisphere, as options.projection says): the distance from the lumel of the
-///   largest power to what may hide others from it [m], along each face's axis; 0: nothing does.
-///   Outer walls of the scene hide nothing, and are left out. In the PNG nearer is brighter.
-/// - illumination-1, -2, …: exitance [lm/m²] of what lies first, second, … under the zenith, as an
-///   illumination map of that direction shows it. Alpha 0: nothing.
-/// - near: row sums of the near field, the part of all light at a lumel that close pairs send if
-///   all is equally bright, as a map. Not written if there is no near field.
+/// Writes each as NAME.exr with numbers and NAME.png for display, and commits the folder:
+/// - hemicube (or hemisphere, by options.projection): distance from the lumel with the most power
+///   to possible occluders [m], along each face's axis; 0: none. Outer walls of the scene occlude
+///   nothing, and are left out. In the PNG nearer is brighter.
+/// - illumination-1, -2, …: exitance [lm/m²] of the first, second, … surface under the zenith, as
+///   in an illumination map of that direction. Alpha 0: none.
+/// - near: row sums of the near field, the fraction of all light at a lumel that comes from close
+///   pairs if everything is equally bright, as a map. Omitted without a near field.
 /// - power: B A of each lumel [lm], as a map.
 /// Waits for the device. Throws Error{output}.
 void write_dump(OutputFolder& folder, const gpu::Device& device, const Solved& solved,

@@ -16,35 +16,35 @@
 namespace lumel {
 namespace {
 
-/// The program, its libraries and a device that is open, before a scene is read: resident size with
-/// Mesa's software device, 20 MiB for validation layers among them [bytes].
+/// The program, its libraries and an open device, before a scene is read: resident size with Mesa's
+/// software device, including 20 MiB for validation layers [bytes].
 constexpr std::uint64_t kProgramBytes = 98u << 20;
-/// What Mesa's compiler takes for the preview's shaders, on a device that is a processor [bytes].
+/// Memory of Mesa's compiler for the preview's shaders, on a CPU device [bytes].
 constexpr std::uint64_t kCompilerBytes = 24u << 20;
-/// A lumel in what links that are kept, and the matrix method, know of it [bytes]: as measured.
+/// Memory per lumel of stored links and of the matrix method, as measured [bytes].
 constexpr std::uint64_t kKeptLumelBytes = 380;
-/// A link that is kept, and again while it is written.
+/// A stored link, with its copy while it is written.
 constexpr std::uint64_t kKeptLinkBytes = 2 * sizeof(std::uint32_t);
-/// Of triangles before there are trees and charts, as measured [bytes].
+/// Memory per triangle for BVHs and charts, as measured [bytes].
 constexpr std::uint64_t kTreeBytes = 130, kChartedBytes = 90;
-/// A value in JSON in memory, and values of a primitive that is written, with its accessors.
+/// A JSON value in memory, and the number of values per written primitive with its accessors.
 constexpr std::uint64_t kJsonValueBytes = 100, kJsonValues = 30;
-/// A vertex that is written: position, normal, two places; an index.
+/// A written vertex: position, normal, two texture coordinates; an index.
 constexpr std::uint64_t kWrittenVertexBytes = 40, kWrittenIndexBytes = sizeof(std::uint32_t);
-/// Float images that are compressed are about as large again; 8-bit ones have three channels.
+/// Compressing a float image needs about its size again; 8-bit images have three channels.
 constexpr std::uint64_t kOfTexel = sizeof(glm::vec4), kOfRgb = sizeof(glm::vec3), kOfPng = 3;
 /// Layers of solution.exr.
 constexpr std::uint64_t kSolutionLayers = 4;
-/// Largest picture that is counted before the view is known.
+/// Maximum image size assumed before the view is known.
 constexpr int kMaxPictureSide = 1 << 14;
 
-/// How much there is of everything.
+/// Sizes of all parts.
 struct Sizes {
     std::uint64_t lumels = 0, pieces = 0, texels = 0, page_texels = 0;
-    std::uint64_t written = 0;        ///< bytes of a glTF that is written, without its maps
-    std::uint64_t document = 0;       ///< bytes of it in memory, beside that
+    std::uint64_t written = 0;        ///< bytes of a written glTF, without its maps
+    std::uint64_t document = 0;       ///< its additional bytes in memory
     std::uint64_t finish = 0;         ///< see finish_bytes
-    std::uint64_t texture_scale = 1;  ///< of the side of scene-baked.glb's texture
+    std::uint64_t texture_scale = 1;  ///< side of scene-baked.glb's texture relative to the map
     PreviewMemory preview;
     std::uint64_t picture = 0;  ///< bytes
 };
@@ -79,7 +79,7 @@ std::uint64_t bytes_of_lumels(const Sizes& sizes)
     return sizes.lumels * kOfLumel + sizes.pieces * sizeof(Piece) + sizes.texels * sizeof(float);
 }
 
-/// The file that the scene came from, as it is read again to be written.
+/// Size of the scene's file, which is read again for writing.
 std::uint64_t bytes_of_file(const Scene& scene)
 {
     std::error_code none;
@@ -99,7 +99,7 @@ std::uint64_t layers_of(const BakeOptions& options)
                                                      : std::uint64_t(coefficient_count(2));
 }
 
-/// What writing takes beside the maps: one file after another.
+/// Memory to write files one after another, without the maps.
 std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
 {
     const std::uint64_t map = sizes.page_texels * kOfTexel * (2 + layers);
@@ -115,7 +115,7 @@ std::uint64_t writing_bytes(const Sizes& sizes, std::uint64_t layers)
     return std::max({map, solution, scene, toning, baked});
 }
 
-/// What stages take beside what stays.
+/// Memory of the largest stage, in addition to permanent data.
 std::uint64_t working_bytes(const Sizes& sizes, const BakeOptions& options, bool shared)
 {
     const std::uint64_t layers = layers_of(options);
@@ -149,7 +149,7 @@ void add_solver(HostMemory& memory, const Sizes& sizes, const BakeOptions& optio
     }
 }
 
-/// The same where nothing depends on the side of the map.
+/// The sizes that do not depend on the map's side.
 Sizes without_map(Sizes sizes)
 {
     const std::uint64_t map = sizes.texels * kOfTexel;

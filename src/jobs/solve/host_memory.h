@@ -1,5 +1,5 @@
 #pragma once
-// The memory of the host that a bake takes, counted by what it allocates.
+// Host memory of a bake, counted by its allocations.
 
 #include <algorithm>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace lumel {
 
-/// Side of a map if it is fixed [texels], else 0.
+/// Side of the map if fixed [texels], else 0.
 inline int fixed_side(const AtlasOptions& options)
 {
     return std::min(options.size, options.max_size);
@@ -18,17 +18,17 @@ inline int fixed_side(const AtlasOptions& options)
 /// Triangles of all instances.
 std::uint64_t triangle_count(const Scene& scene);
 
-/// Bytes of the host, by what takes them.
+/// Host memory by use [bytes].
 struct HostMemory {
     std::uint64_t program = 0;  ///< with its libraries
     std::uint64_t scene = 0, trees = 0, atlas = 0, lumels = 0;
-    std::uint64_t solver = 0;       ///< beside links
-    std::uint64_t links = 0;        ///< of as many rays as most scenes take
-    std::uint64_t first_links = 0;  ///< of the rays without which there is no light
-    /// Of the stage that takes most beside all these: sweeps, the finish of maps, the preview or
-    /// files. On a device that is a processor, what the preview takes of it is part of that.
+    std::uint64_t solver = 0;       ///< without links
+    std::uint64_t links = 0;        ///< for the ray count of most scenes
+    std::uint64_t first_links = 0;  ///< for the minimum ray count
+    /// Largest temporary memory of a stage: sweeps, the finish of maps, the preview or files. On a
+    /// CPU device it includes the preview's device memory.
     std::uint64_t working = 0;
-    std::uint64_t fixed = 0;  ///< of all these, what a smaller map takes as well
+    std::uint64_t fixed = 0;  ///< part that does not depend on the map's size
 
     std::uint64_t most() const
     {
@@ -38,10 +38,10 @@ struct HostMemory {
     std::uint64_t least() const { return without_links() + first_links; }
 };
 
-/// shared: the device is a processor, so that what it takes, it takes of the host.
+/// shared: the device is the CPU, so its memory is host memory.
 HostMemory host_memory(const Prepared& prepared, const BakeOptions& options, bool shared);
 
-/// The same before charts are laid out, for as many lumels.
+/// Estimate before charts are built, for this number of lumels.
 HostMemory host_memory(const Scene& scene, std::size_t lumels, const BakeOptions& options,
                        bool shared);
 

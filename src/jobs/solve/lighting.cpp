@@ -7,7 +7,7 @@
 namespace lumel {
 namespace {
 
-/// Surfaces that do not shine.
+/// Lumels without emission.
 Lumels dark(Lumels lumels)
 {
     for (Lumel& lumel : lumels.lumels)
@@ -42,7 +42,7 @@ std::unique_ptr<Solution> run(const gpu::Device& device, const Setting& setting,
     return solution;
 }
 
-/// direct: [N] [lx] of sky and lamps, or empty.
+/// direct: [N] [lx] light of sky and lamps, or empty.
 std::unique_ptr<Solution> solve_parts(const gpu::Device& device, const Setting& setting,
                                       const BakeOptions& options,
                                       const std::vector<glm::vec3>& direct, Stages& stages,

@@ -19,20 +19,20 @@
 namespace lumel {
 namespace {
 
-/// Texels of an atlas of a given size that are lumels: most that was seen.
+/// Maximum fraction of lumels among the texels of an atlas of given size, as seen.
 constexpr double kCovered = 0.85;
 
-/// A size is proposed with so much of the memory left free: charts pack differently.
+/// Proposed sizes use this fraction of the memory: charts pack differently.
 constexpr double kSpare = 0.9;
-constexpr int kSizeStep = 16;  ///< of proposed sizes [texels]
+constexpr int kSizeStep = 16;  ///< step of proposed sizes [texels]
 
 bool is_links(const BakeOptions& options)
 {
     return std::holds_alternative<LinksOptions>(options.solver.method);
 }
 
-/// The larger of the sides that fit of a bake that takes `needed` at a side, `fixed` of it whatever
-/// the size; 0: none does.
+/// Largest side that fits, given that a bake takes `needed` bytes at `side`, of which `fixed` do
+/// not depend on it; 0: none.
 int side_that_fits(int side, std::uint64_t needed, std::uint64_t fixed, std::uint64_t limit)
 {
     if (limit <= fixed || needed <= fixed)
@@ -48,9 +48,8 @@ std::string sentence(const char* kind, std::uint64_t needed, std::uint64_t fixed
     const int fitting = side_that_fits(side, needed, fixed, limit);
     return fmt::format("a bake of {0} × {0} texels needs about {1} of {2} memory, but {3} {4}; {5}",
                        side, memory_text(needed), kind, owner, memory_text(limit),
-                       fitting > 0
-                           ? fmt::format("use --size {} or less", fitting)
-                           : fmt::format("whatever its size it needs {}", memory_text(fixed)));
+                       fitting > 0 ? fmt::format("use --size {} or less", fitting)
+                                   : fmt::format("any size needs at least {}", memory_text(fixed)));
 }
 
 void refuse(const std::string& shortage)

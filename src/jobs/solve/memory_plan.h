@@ -1,5 +1,5 @@
 #pragma once
-// The memory that a bake takes, known before its long work, and compared with what there is.
+// Estimates the memory of a bake before its long work, and compares it with the limits.
 
 #include <cstdint>
 #include <string>
@@ -12,7 +12,7 @@
 
 namespace lumel {
 
-/// Bytes on the device, by what takes them. Direct light is gone before the solver is made.
+/// GPU memory by use [bytes]. Direct light is freed before the solver is made.
 struct GraphicsMemory {
     std::uint64_t staging = 0, world = 0, direct_light = 0, solver = 0, directional = 0;
 
@@ -21,29 +21,29 @@ struct GraphicsMemory {
 GraphicsMemory graphics_memory(const Prepared& prepared, const Occluders& occluders,
                                const BakeOptions& options);
 
-/// What a bake may take at most [bytes], 0: nobody knows.
+/// Memory limits of a bake [bytes], 0: unknown.
 struct MemoryLimits {
     std::uint64_t device = 0, host = 0;
-    bool shared = false;  ///< the device is a processor: what it takes, it takes of the host
-    bool given = false;   ///< by BakeOptions::max_memory, else what there is
-    std::string name;     ///< of the device
+    bool shared = false;  ///< the device is the CPU: its memory is host memory
+    bool given = false;   ///< by BakeOptions::max_memory; false: available memory
+    std::string name;     ///< name of the device
 };
-/// available: what the machine has left [bytes], 0: not known.
+/// available: free memory of the machine [bytes], 0: unknown.
 MemoryLimits memory_limits(std::uint64_t max_memory, const gpu::DeviceInfo& device,
                            std::uint64_t available);
 MemoryLimits memory_limits(const BakeOptions& options, const gpu::DeviceInfo& device);
 
-/// A sentence if a bake on an atlas of `side` [texels] takes more than it may, with a size that
-/// would do; empty if it fits.
+/// A sentence if a bake with an atlas of `side` [texels] exceeds the limits, with a size that would
+/// fit; empty if it fits.
 std::string shortage(const GraphicsMemory& device, const HostMemory& host, int side,
                      const MemoryLimits& limits);
 
-/// Throws Error{device} with that sentence: before charts are laid out, as far as the options say
-/// how large the atlas becomes, and with all that is known behind that.
+/// Throws Error{device} with that sentence: before charts are built, as far as the options
+/// determine the atlas size; and afterwards, with all data.
 void check_memory(const Scene& scene, const BakeOptions& options, const MemoryLimits& limits);
 void check_memory(const Prepared& prepared, const BakeOptions& options, const MemoryLimits& limits);
 
-/// What links may take beside all else [bytes], as SolverOptions::max_bytes.
+/// Memory left for links [bytes], for SolverOptions::max_bytes.
 std::uint64_t bytes_for_links(const Prepared& prepared, const BakeOptions& options,
                               const MemoryLimits& limits);
 

@@ -8,7 +8,7 @@
 namespace lumel {
 namespace {
 
-/// Places beyond this [m] overflow what is computed with them.
+/// Larger coordinates overflow in later computations [m].
 constexpr double kFarthest = 1e9;
 
 }  // namespace
@@ -24,11 +24,12 @@ void check_poses(const Scene& start, const Animation& animation, int frames, dou
             const std::string at =
                 fmt::format("{}: \"{}\" at {:.3g} s", start.path, instance.name, time);
             if (!is_rigid(instance.transform, place))
-                throw Error(ErrorKind::input, at,
-                            "is stretched by the animation; what is played may be turned and "
-                            "moved, but not stretched");
+                throw Error(
+                    ErrorKind::input, at,
+                    "is stretched by the animation; objects can be rotated and moved, but not "
+                    "stretched");
             if (!(glm::length(glm::dvec3(place[3])) <= kFarthest))
-                throw Error(ErrorKind::input, at, "is too far out to be computed");
+                throw Error(ErrorKind::input, at, "is too far away to be computed");
         }
 }
 

@@ -15,10 +15,10 @@
 namespace lumel {
 namespace {
 
-/// A limit of time that has passed already [s].
+/// Time limit that is exceeded already [s].
 constexpr double kMinSeconds = 1e-9;
 
-/// The progress of a solve toward the limit that is nearest, 0…1.
+/// Progress of a solve towards the nearest limit, 0…1.
 double solved_fraction(const SolverOptions& limits, const SolverState& state, double seconds)
 {
     double fraction = 0.0;
@@ -26,9 +26,10 @@ double solved_fraction(const SolverOptions& limits, const SolverState& state, do
         fraction = std::max(fraction, double(state.shots) / double(limits.max_shots));
     if (limits.max_seconds > 0.0)
         fraction = std::max(fraction, seconds / limits.max_seconds);
-    // For the bar only: how fast the error falls with shots, between random and ideal.
+    // For the progress bar only: assumed decrease of the error with shots, between random and
+    // ideal.
     constexpr double kSlope = 0.65;
-    // And how far it is when there is a first estimate.
+    // Progress at the first error estimate.
     constexpr double kFirstEstimate = 0.25;
     double error = 1.0;
     if (limits.target_error > 0.0 && state.error > 0.0)
@@ -74,7 +75,7 @@ std::optional<World> world_on(const gpu::Device& device, const Prepared& prepare
                                 &prepared.atlas);
 }
 
-/// Estimates of the error as they come, each after twice the shooters of the one before.
+/// Notes error estimates, each after twice the shooters of the previous one.
 class ErrorNotes {
 public:
     explicit ErrorNotes(const SolverOptions& options) : shots_(method_of(options.method).shots) {}
@@ -146,14 +147,13 @@ void tell_missed(const SolverOptions& options, const SolverState& state, Stages&
     const auto tell = [&](double reached, double wanted, const char* of) {
         if (wanted <= 0.0 || (reached >= 0.0 && reached <= wanted))
             return;
-        stages.warn(
-            reached >= 0.0
-                ? fmt::format("the estimated error{} is {:.2g} %, not the {:g} % asked for: "
-                              "the limit of shots or time was reached first",
-                              of, 100.0 * reached, 100.0 * wanted)
-                : fmt::format("the limit of shots or time was reached before the error{} "
-                              "could be estimated; {:g} % was asked for",
-                              of, 100.0 * wanted));
+        stages.warn(reached >= 0.0
+                        ? fmt::format("the estimated error{} is {}, not the {:g} % asked for: "
+                                      "the limit of shots or time was reached first",
+                                      of, percent_text(reached), 100.0 * wanted)
+                        : fmt::format("the limit of shots or time was reached before the error{} "
+                                      "could be estimated; {:g} % was asked for",
+                                      of, 100.0 * wanted));
     };
     tell(state.error, options.target_error, "");
     tell(state.dark_error, options.target_dark_error, " of dark lumels");
@@ -192,9 +192,9 @@ SolveRun solve_in_stage(Solver& solver, const SolverOptions& given, Stages& stag
         throw_stopped();
     if (solver.state().full)
         stages.warn(
-            fmt::format("there is no memory for more rays: it ends at an estimated error "
-                        "of {:.2g} %; allow more with --max-memory, or use a smaller --size",
-                        100.0 * solver.state().error));
+            fmt::format("no memory for more rays: the solve ends at an estimated error of {}; "
+                        "raise --max-memory, or use a smaller --size",
+                        percent_text(solver.state().error)));
     else if (run.finished)
         tell_missed(options, solver.state(), stages);
     stages.note(fmt::format("{} {} in {} steps", solver.state().shots,
@@ -215,8 +215,7 @@ void note_sizes(const Prepared& prepared, Stages& stages)
     const auto buried = std::count_if(lumels.begin(), lumels.end(), [](const Lumel& lumel) {
         return (lumel.flags & kLumelBuried) != 0;
     });
-    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} of them "
-                            "buried",
+    stages.note(fmt::format("{} charts on {} x {} texels; {} lumels of {} pieces, {} buried",
                             prepared.atlas.chart_count, prepared.atlas.width, prepared.atlas.height,
                             lumels.size(), prepared.lumels.pieces.size(), buried));
 }

@@ -6,7 +6,7 @@
 namespace lumel {
 namespace {
 
-/// The sources, each with the direct light of its sky and lamps at the lumels.
+/// The sources, each with its sky's and lamps' direct light at the lumels.
 std::vector<KnownSource> known_sources(const gpu::Device& device, const Setting& setting,
                                        const BakeOptions& options, DirectLight& told,
                                        Stages& stages)
@@ -56,8 +56,8 @@ AtlasOptions atlas_that_fits(const BakeOptions& options)
         return atlas;
     if (atlas.sides == Sides::both)
         throw Error(ErrorKind::input, "--sides both",
-                    "is not possible where the light of each source is kept: scene.lumelmat has "
-                    "one place for both sides of a surface");
+                    "is not possible with separate sources: scene.lumelmat has one texel for both "
+                    "sides of a surface");
     if (atlas.sides == Sides::automatic)
         atlas.sides = Sides::brighter;
     return atlas;

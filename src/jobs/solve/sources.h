@@ -1,19 +1,19 @@
 #pragma once
-// A scene's light with its sources apart, for lumel relight.
+// Light of a scene with separate sources, for lumel relight.
 
 #include "jobs/solve/lighting.h"
 
 namespace lumel {
 
-/// True if these options keep the light of every source apart.
+/// True if these options keep the light of every source separate.
 bool keeps_sources_apart(const BakeOptions& options);
 
-/// The options of an atlas, with sides that share their texels where sources are kept apart:
-/// scene.lumelmat has one place for both. Throws Error{input} for Sides::both there.
+/// Atlas options, with sides that share texels if sources are separate: scene.lumelmat has one
+/// texel for both. Throws Error{input} for Sides::both then.
 AtlasOptions atlas_that_fits(const BakeOptions& options);
 
-/// Solves for the parts of the light that options.parts names, source by source.
-/// Solution::relightable is there if that is all, and nothing stopped it.
+/// Solves for options.parts of the light, source by source. Sets Solution::relightable if these are
+/// all and nothing stopped it.
 std::unique_ptr<Solution> solve_sources(const gpu::Device& device, const Setting& setting,
                                         const BakeOptions& options, Stages& stages);
 

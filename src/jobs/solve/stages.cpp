@@ -21,6 +21,14 @@ std::string memory_text(std::uint64_t bytes)
                                 : fmt::format("{:.1f} MiB", kibibytes / kibibyte);
 }
 
+std::string percent_text(double fraction)
+{
+    constexpr double kTwoDigits = 99.5;  // two digits of more would need an exponent
+    const double percent = 100.0 * fraction;
+    return percent < kTwoDigits ? fmt::format("{:.2g} %", percent)
+                                : fmt::format("{:.0f} %", percent);
+}
+
 bool unless_stopped(const std::function<void()>& work)
 {
     try {
@@ -71,7 +79,7 @@ ProgressCallback Stages::callback()
 
 void throw_stopped()
 {
-    throw Error(ErrorKind::stopped, "", "stopped before there was any light; nothing is written");
+    throw Error(ErrorKind::stopped, "", "stopped before the first result; nothing is written");
 }
 
 void Stages::note(const std::string& text)
@@ -135,11 +143,11 @@ std::string Stages::cost_of_stage() const
 {
     const StageTime& time = times_.back();
     std::string cost =
-        fmt::format("took {:.3f} s, of all processors {:.3f} s; memory {} at most",
-                    time.wall_seconds, time.cpu_seconds, memory_text(peak_memory_bytes()));
+        fmt::format("took {:.3f} s wall, {:.3f} s CPU; peak memory {}", time.wall_seconds,
+                    time.cpu_seconds, memory_text(peak_memory_bytes()));
     if (device_)
-        cost += fmt::format(", on the device {} now and {} at most",
-                            memory_text(device_->held_bytes()), memory_text(device_->peak_bytes()));
+        cost += fmt::format(", device memory {}, peak {}", memory_text(device_->held_bytes()),
+                            memory_text(device_->peak_bytes()));
     return cost;
 }
 

@@ -15,38 +15,42 @@ namespace lumel {
 /// "12.3 MiB", or "1.2 KiB" if it is less than 1 MiB.
 std::string memory_text(std::uint64_t bytes);
 
-/// Throws the Error{stopped} of work that ended before there was a result.
+/// "1.5 %" or "110 %": two digits, or all before the point.
+std::string percent_text(double fraction);
+
+/// Throws Error{stopped} for work that ended without a result.
 [[noreturn]] void throw_stopped();
 
-/// Runs work that a progress callback may stop. False if the caller has stopped it.
+/// Runs work with a progress callback. Returns false if the caller stopped it.
 bool unless_stopped(const std::function<void()>& work);
 
-/// Follows a bake from stage to stage, and tells the progress function about it.
+/// Tracks the stages of a bake, and reports to the progress function.
 class Stages {
 public:
     explicit Stages(const ProgressFunction& progress);
 
-    /// Ends the stage before and begins this one.
+    /// Ends the previous stage and begins this one.
     void begin(const std::string& name);
-    /// Tells how far the current stage is. False: the caller wants to stop, or has wanted to.
+    /// Reports progress of the current stage. Returns false if the caller wants, or wanted, to
+    /// stop.
     bool progress(double fraction, std::uint64_t shots = 0, double error = -1.0);
-    /// Tells how far the current stage is. Throws Error{stopped} if the caller wants to stop: for
-    /// stages before there is anything to keep.
+    /// Progress callback of the current stage. Throws Error{stopped} if the caller wants to stop:
+    /// for stages without results to keep.
     ProgressCallback callback();
-    /// Passes on a fact about the current stage, in one line.
+    /// Reports a one-line fact about the current stage.
     void note(const std::string& text);
-    /// Warns the user; the report has it too.
+    /// Warns the user; also in the report.
     void warn(const std::string& text);
-    /// Tells the user a fact worth knowing; the report has it too.
+    /// Reports a fact to the user; also in the report.
     void tell(const std::string& text);
-    /// Notes what kernels took on the device [ms], longest first.
+    /// Notes GPU times of kernels [ms], longest first.
     void note_times(const gpu::StageTimes& times);
-    /// Notes the largest arrays and images on the device that is watched.
+    /// Notes the largest arrays and images on the watched device.
     void note_arrays();
-    /// From now on the end of each stage says how much memory of this device is held. It must
-    /// outlive the last stage.
+    /// Adds the memory in use on this device to the end of each stage. It must outlive the last
+    /// stage.
     void watch(const gpu::Device& device) { device_ = &device; }
-    /// True once the caller has wanted to stop.
+    /// True once the caller has requested to stop.
     bool stopped() const { return stopped_; }
     void end();
 

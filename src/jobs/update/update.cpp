@@ -1,4 +1,4 @@
-// The score of lumel update, in order.
+// The pipeline of lumel update.
 
 #include "jobs/update/update.h"
 
@@ -25,10 +25,10 @@
 namespace lumel {
 namespace {
 
-/// Where the light of emitters, as a part of all that is sent, changes by more than this, a new
-/// solution takes less than a correction.
+/// With a larger change of emission, relative to all emitted light, a new solution is faster than a
+/// correction.
 constexpr double kMaxChange = 0.25;
-/// Error to stop a new solution at, where the former one's is not known.
+/// Target error of a new solution if the previous error is unknown.
 constexpr double kUsualError = 0.02;
 
 /// D' - D [N] [lx] in the edited scene.
@@ -68,7 +68,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     BakeOptions options;
     options.sky_directions = baked.sky_directions;
     options.solver.method = baked.solver.method;
-    // What casts rays is not a part of the result, and this may be another device.
+    // The ray tracing backend does not affect the result, and this can be another device.
     if (auto* links = std::get_if<LinksOptions>(&options.solver.method))
         links->rays = Rays::automatic;
     options.solver.target_error = baked.error > 0.0 ? baked.error : kUsualError;
@@ -85,7 +85,7 @@ std::vector<glm::vec3> solve_anew(const gpu::Device& device, const EditedScene& 
     return std::move(solution->irradiance);
 }
 
-/// H' [N] [lx], corrected if that is less work. device: made if it is needed.
+/// H' [N] [lx], corrected if that is faster. device: created if needed.
 std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution& solution,
                                    BakeRecord& baked, const UpdateOptions& options, UpdateRow& row,
                                    std::optional<gpu::Device>& device, Stages& stages)
@@ -106,7 +106,7 @@ std::vector<glm::vec3> light_after(const EditedScene& edit, const StoredSolution
     return solve_anew(*device, edit, baked, row, stages);
 }
 
-/// The links of a bake that keeps them.
+/// The links of a bake, if it stores any.
 std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecord& baked)
 {
     if (baked.keep_links == 0)
@@ -121,7 +121,7 @@ std::optional<StoredLinks> kept_links(const std::string& folder, const BakeRecor
     return kept;
 }
 
-/// H' [N] [lx] as a bake that keeps links would find it in the edit's atlas. Takes the links over.
+/// H' [N] [lx] as a bake with stored links computes it in the edited atlas. Updates the links.
 std::vector<glm::vec3> light_over_links(const EditedScene& edit, StoredLinks& kept,
                                         BakeRecord& baked, UpdateRow& row, Stages& stages)
 {

@@ -1,5 +1,5 @@
 #pragma once
-// The record and report of a bake that `lumel update` has corrected.
+// Record and report of a bake corrected by `lumel update`.
 
 #include <optional>
 
@@ -9,12 +9,12 @@
 
 namespace lumel {
 
-/// What a bake is once it was corrected. written: if light was written anew.
+/// Record after a correction. written: if light was rewritten.
 BakeRecord corrected(BakeRecord baked, const UpdateOptions& options, const UpdateRow& row,
                      const Prepared& prepared, const std::optional<WrittenLight>& written,
                      bool interrupted);
 
-/// The facts of a bake that was corrected. device: of the preview and of lights, or none.
+/// Report of a corrected bake. device: of the preview and of lights, or null.
 Report update_report(const BakeRecord& record, const UpdateRow& row, const Prepared& prepared,
                      const gpu::Device* device, const Stages& stages);
 

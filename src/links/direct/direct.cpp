@@ -19,7 +19,6 @@
 namespace lumel {
 namespace {
 
-/// Lumels per block of work, and blocks per step.
 constexpr std::size_t kBlock = 256, kBlocksPerStep = 64;
 /// Rays of one half per source: of all lumels, and of those that see part of a source;
 /// kTimesToSmall × as many to small sources, whose shadows are sharp.

@@ -136,7 +136,7 @@ Head read_head(std::istream& file, const std::string& path)
 {
     Head head;
     if (!file.read(reinterpret_cast<char*>(&head), sizeof head) || head.magic != kMagic)
-        throw Error(ErrorKind::input, path, "are no links that lumel bake --keep-links wrote");
+        throw Error(ErrorKind::input, path, "is not a links file of lumel bake --keep-links");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

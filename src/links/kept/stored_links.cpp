@@ -10,7 +10,7 @@ namespace {
 [[noreturn]] void fail_other_scene(const Scene& scene)
 {
     throw Error(ErrorKind::input, scene.path,
-                "has other surfaces than those whose links were kept; bake the scene again");
+                "has other surfaces than its stored links; bake the scene again");
 }
 
 /// [ends of kept] New number of each end of a link.
@@ -37,7 +37,7 @@ std::uint32_t side_of_rays(std::uint32_t rays)
 {
     if (!is_grid(rays))
         throw Error(ErrorKind::input, std::to_string(rays) + " rays",
-                    "are no grid: a lumel has 4, 16, 64 or 256");
+                    "are not a grid: use 4, 16, 64 or 256");
     return 1u << (std::countr_zero(rays) / 2);
 }
 

@@ -30,7 +30,6 @@ struct LinkChanges {
     std::vector<char> ends;    ///< [ends] links with this end can change
     std::vector<Moved> moved;  ///< links can now hit these
 };
-/// rays, seed: as requested.
 LinkChanges changes_since(const StoredLinks& kept, const LinkContext& place, std::uint32_t rays,
                           std::uint32_t seed);
 

@@ -10,8 +10,8 @@ namespace {
 
 /// Lumels per task, and per part of a sweep between progress reports.
 constexpr std::size_t kGrain = 4096, kStep = 1u << 18;
-/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of what
-/// remains.
+/// Progress fractions: direct light of the total, sweeps of the rest, filter weights of the
+/// remainder.
 constexpr double kDirect = 0.7, kSweeps = 0.3, kWeights = 0.3;
 
 }  // namespace
@@ -22,8 +22,7 @@ const Scene& without_coloured_glass(const Scene& scene)
         if (is_coloured_glass(material))
             throw Error(ErrorKind::input, scene.path,
                         "has coloured glass (material \"" + material.name +
-                            "\"), which links that are kept do not know; make it white, or "
-                            "opaque");
+                            "\"), which links do not support; make it white, or opaque");
     return scene;
 }
 

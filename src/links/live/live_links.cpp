@@ -68,7 +68,7 @@ std::vector<glm::mat4> transforms_of(const Scene& scene)
 void check_factor(const glm::vec3& factor)
 {
     if (!(factor.x >= 0.0f && factor.y >= 0.0f && factor.z >= 0.0f))
-        throw Error(ErrorKind::input, "factor", "is negative, but light is not");
+        throw Error(ErrorKind::input, "factor", "must not be negative");
 }
 
 template <class All>
@@ -95,7 +95,7 @@ LumelScene lay_out_movers(Scene scene, const AtlasOptions& options,
     for (const std::uint32_t instance : movers) {
         if (instance >= moves.size())
             throw Error(ErrorKind::input, scene.path,
-                        "has no instance " + std::to_string(instance) + " that could move");
+                        "has no instance " + std::to_string(instance));
         moves[instance] = 1;
     }
     Atlas atlas = make_atlas(scene, options);
@@ -132,7 +132,7 @@ float LiveLinks::extent() const
 LinkContext LiveLinks::place() const
 {
     if (rays_.still().parts() == 0)
-        throw Error(ErrorKind::input, scene().path, "has nothing that stays where it is");
+        throw Error(ErrorKind::input, scene().path, "has no static geometry");
     return {scene(), lumels(), rays_, surfaces_, world_, starts_, *sources_, rays_.ray_offset()};
 }
 
@@ -219,7 +219,7 @@ void LiveLinks::set_albedo(std::uint32_t material, const glm::vec3& colour)
     check_index(material, scene().materials, "material");
     if (glm::clamp(colour, 0.0f, 1.0f) != colour)
         throw Error(ErrorKind::input, "colour of \"" + scene().materials[material].name + "\"",
-                    "is not from 0 to 1");
+                    "must be from 0 to 1");
     paint_.set(scene(), atlas(), int(material), colour);
     edited_ = true;
 }
@@ -249,7 +249,7 @@ std::uint32_t LiveLinks::thing(const std::string& name) const
 {
     const auto found = std::find(options_.things.begin(), options_.things.end(), name);
     if (found == options_.things.end())
-        throw Error(ErrorKind::input, "\"" + name + "\"", "is not one of the things that may move");
+        throw Error(ErrorKind::input, "\"" + name + "\"", "is not a movable object");
     return std::uint32_t(found - options_.things.begin());
 }
 

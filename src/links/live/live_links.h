@@ -33,7 +33,6 @@ struct LiveLinksOptions {
     bool filter = true;  ///< makes filter weights for shown()
 };
 
-/// A scene with its lumels.
 struct LumelScene {
     Scene scene;
     Atlas atlas;
@@ -93,7 +92,6 @@ public:
     /// Rotates the given sky by an angle [rad] about +y, counter-clockwise seen from above.
     /// Retraces shadow rays to its bright parts only.
     void turn_sky(double angle);
-    /// Replaces the sky, rotated by an angle.
     void replace_sky(Sky sky, double angle);
     /// Sets a material's base colour, 0 to 1, which is multiplied by its texture. The first call
     /// for a material is slower. Throws Error{input} if there is no such material.

@@ -85,7 +85,7 @@ auto unless_refused(const Make& make) -> decltype(make())
     try {
         return make();
     } catch (const Error& error) {
-        log_info(std::string("the host casts the rays: ") + error.what());
+        log_info(std::string("tracing rays on the CPU: ") + error.what());
         return nullptr;
     }
 }
@@ -194,7 +194,7 @@ void LinkRadiosity::step()
 {
     switch (stage_) {
     case Stage::begin: {
-        const Clock clock(times_["parts of lumels"]);
+        const Clock clock(times_["sub-lumels"]);
         cut();
         stage_ = Stage::direct;
         break;

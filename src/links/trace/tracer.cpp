@@ -137,7 +137,6 @@ LinkTracer::LinkTracer(const LinkScene& place, const LightSources& sources,
 {
 }
 
-/// Adds the rays of lumel i.
 void LinkTracer::add(std::uint32_t i, const Sending& sending, RayBatch& wave) const
 {
     const Lumel& lumel = place_.lumels.lumels[i];

@@ -42,7 +42,6 @@
 namespace lumel {
 namespace {
 
-/// Directions per chunk.
 constexpr std::uint32_t kChunk = 1024;
 /// Dimension pairs of a direction's random numbers.
 constexpr std::uint32_t kDirectionPair = 0, kOffsetPair = 1, kTurnPair = 2;
@@ -248,8 +247,7 @@ std::vector<glm::vec3> GlobalDirections::irradiance()
     std::vector<glm::vec3> irradiance = iteration_.irradiance(pacer_);
     if (options_.layers == Layers::list && maps_.kept() < 1.0)
         throw Error(ErrorKind::device, "--layers list",
-                    "more surfaces lie behind one another than there is memory for; use --layers "
-                    "peel or stochastic");
+                    "out of memory for overlapping surfaces; use --layers peel or stochastic");
     return irradiance;
 }
 

@@ -53,7 +53,6 @@ const float kWide = 2.0;
 // Σ cosθ of 32 directions over the sphere; P is assumed exact before.
 const float kUsual = 8.0;
 
-// Surface seen, and its weight.
 struct Seen {
     uint surface;  // as in a Fragment; 0: the sky
     float weight;  // 0: unknown

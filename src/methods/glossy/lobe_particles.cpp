@@ -31,7 +31,6 @@
 namespace lumel {
 namespace {
 
-/// Particles per task.
 constexpr std::size_t kParticlesPerTask = 512;
 /// Maximum lobes per particle: facing mirrors would reflect it forever.
 constexpr std::uint32_t kMaxLobes = 256;
@@ -74,7 +73,6 @@ struct LobeParticles::Start {
     PathSamples samples;
 };
 
-/// A particle's hit on a lumel.
 struct LobeParticles::PathHit {
     std::uint32_t lumel;
     glm::vec3 position, direction;  ///< direction: unit, along its path

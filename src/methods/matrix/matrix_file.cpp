@@ -304,8 +304,7 @@ void check_head(const std::string& path, const Bytes& bytes)
     if (bytes.size() >= sizeof head)
         std::memcpy(&head, bytes.data(), sizeof head);
     if (bytes.size() < sizeof head || head.magic != kMagic)
-        throw Error(ErrorKind::input, path,
-                    "is not a matrix that lumel bake --solver matrix wrote");
+        throw Error(ErrorKind::input, path, "is not a matrix file of lumel bake --solver matrix");
     if (head.version != kVersion)
         throw Error(ErrorKind::input, path,
                     "was written by another version of lumel (its format is " +

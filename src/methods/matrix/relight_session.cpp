@@ -22,7 +22,6 @@ namespace {
 
 /// States per product, which share a read of the matrix.
 constexpr std::uint32_t kStatesAtOnce = kLastBounceStates;
-/// Lumels per task.
 constexpr std::size_t kLumelsPerTask = 4096;
 
 SourceNames names_of(const Relightable& light)
@@ -94,13 +93,13 @@ PunctualLight RelightSession::lamp_at(std::size_t source, const LampPlace& place
     if (!world_)
         refuse("cannot be moved without the scene that was baked");
     if (place.turn)
-        refuse("can be turned over kept links alone; bake the scene with --keep-links");
+        refuse("can only be turned with stored links; bake the scene with --keep-links");
     if (of.lights.size() != 1)
         refuse(of.lights.empty()
-                   ? "is no lamp: only point, spot and directional lights can be moved"
-                   : "is the name of several lamps: give each a name of its own to move it");
+                   ? "is not a lamp: only point, spot and directional lights can be moved"
+                   : "is the name of several lamps: give each its own name to move it");
     if (!of.reflected.empty())
-        refuse("is the name of a lamp and of surfaces: give the lamp a name of its own to move it");
+        refuse("is the name of a lamp and of surfaces: give the lamp its own name to move it");
     PunctualLight lamp = of.lights.front();
     lamp.name = of.name;
     return placed(std::move(lamp), place, light_.origin);

@@ -6,7 +6,6 @@ LUMEL_SHARED_BEGIN
 LUMEL_CONST uint kMaxBlock = 16u;   ///< maximum lumels per patch: the cells of its grid
 LUMEL_CONST uint kBackLevels = 4u;  ///< mipmap levels of back hemicubes
 
-/// Pixel of a back hemicube.
 struct BackPixel {
     vec3 shot;      ///< B^s of the surface seen [lm/m²]
     float inverse;  ///< 1 / distance [1/m], 0: no surface

@@ -12,7 +12,6 @@
 
 namespace lumel {
 
-/// A move of some instances.
 struct Move {
     std::vector<std::uint32_t> moved;   ///< [instances] 1: it moves
     std::vector<glm::mat4> transforms;  ///< [instances] transforms after the move

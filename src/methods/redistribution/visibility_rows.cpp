@@ -110,7 +110,7 @@ RowsBatch VisibilityRows::batch(std::uint32_t first, float sign) const
 void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().dispatch_parts("keep what is seen", count_, kProbeLumels, record_,
+    solver_->pacer().dispatch_parts("record visibility", count_, kProbeLumels, record_,
                                     {.lumels = world_->lumels(),
                                      .pieces = world_->pieces(),
                                      .views = {shots.views().image(), shots.views().sampler()},
@@ -128,7 +128,7 @@ void VisibilityRows::record(const ShotList& list, std::uint32_t first)
 void VisibilityRows::shoot(const ShotList& list, std::uint32_t first, float sign)
 {
     const PatchShots& shots = solver_->shots();
-    solver_->pacer().dispatch_parts("shoot what is seen", count_, kProbeLumels, shoot_,
+    solver_->pacer().dispatch_parts("shoot by visibility", count_, kProbeLumels, shoot_,
                                     {.lumels = world_->lumels(),
                                      .pieces = world_->pieces(),
                                      .eyes = shots.eyes(),

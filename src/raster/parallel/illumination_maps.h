@@ -41,12 +41,6 @@ constexpr std::uint32_t maps_of_slabs(std::uint32_t slabs)
 /// it, ordinary depth selects the first surface, in a separate map: in the slab's map, the slab's
 /// surfaces would hide surfaces beyond it from one another. A direction has maps_of_slabs(S) tiles:
 /// slabs 0, 1, … S - 1, then beyond slabs 0, 1, … S - 2.
-///
-/// Regions after [TN11] section 6 are slabs of equal thickness along the direction. Slab s of S
-/// holds nearness s/S to (s + 1)/S, and has a map in which only its own surfaces compete by chance.
-/// Beyond it ordinary depth tells what comes first, in a map of its own: in one with the slab's,
-/// the surfaces of the slab would hide what lies beyond it from one another. A direction has
-/// maps_of_slabs(S) tiles: those of slabs 0, 1, … S - 1, and those beyond slabs 0, 1, … S - 2.
 class IlluminationMaps {
 public:
     /// side: of each map [pixels]. width, height: of the atlas [texels], which `world` must have.

@@ -3,8 +3,9 @@
 
 // All pixel rays of a parallel view that hit a piece of a lumel.
 //
-// For a lumel crossed by a shadow edge, the accuracy of the lit fraction depends on the uniformity
-// of the test points. The rays' hits are uniform, and each represents the area of a pixel.
+// For a lumel crossed by a shadow edge, the accuracy of the lit fraction depends on the
+// uniformity of the test points. The rays' hits are uniform, and each represents the
+// area of a pixel.
 
 #include "raster/parallel/piece_along.glsl"
 

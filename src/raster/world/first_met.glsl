@@ -7,11 +7,6 @@
 // rays. So a lumel is tested where a pixel's ray hits it: there it is compared only with itself,
 // and no light leaks. Small or edge-on lumels may have no such point; this view then does not
 // decide about them.
-//
-// A pixel stores exactly what the ray through its centre meets first, and nothing about the rays
-// beside it. So a lumel is tested at a point where a pixel's ray meets it: there it is compared
-// only with itself, and no light can leak. Lumels that are small or
-// seen from the side may have no such point; then this view does not decide about them.
 
 // A flat piece of a lumel in a view. The ray through p = (x, y, 1) [pixels] intersects the piece's
 // plane at piece coordinates, and at a stored depth, that are ratios of linear forms of p in

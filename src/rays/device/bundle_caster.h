@@ -23,8 +23,8 @@ struct RayBundles {
 };
 
 /// Rasterises the scene along each direction to list the triangles that touch each pixel, then
-/// tests each ray against those of its pixel. Hits equal those on the CPU up to rounding. The cost
-/// of a pass does not depend on the number of rays.
+/// tests each ray against those of its pixel. Hits equal those on the CPU up to rounding. The
+/// cost of a pass does not depend on the number of rays.
 class BundleCaster {
 public:
     /// Both must outlive this; no other thread may use the device during closest(). Throws

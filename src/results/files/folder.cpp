@@ -18,7 +18,6 @@ fs::path normal(const std::string& target)
     return path.has_filename() ? path : path.parent_path();
 }
 
-// Folder of a target file.
 std::string folder_of(const std::string& target)
 {
     std::error_code ignored;

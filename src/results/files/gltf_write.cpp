@@ -88,8 +88,7 @@ void write(const std::string& path, GlbBuilder& builder)
 /// For errors in JSON that the reader skips, but the output depends on.
 [[noreturn]] void fail_to_rewrite(const Scene& scene, const Json::exception& error)
 {
-    throw Error(ErrorKind::input, scene.path,
-                std::string("cannot be written again as it is: ") + error.what());
+    throw Error(ErrorKind::input, scene.path, std::string("cannot be rewritten: ") + error.what());
 }
 
 }  // namespace

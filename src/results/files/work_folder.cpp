@@ -372,8 +372,8 @@ WorkFolder::WorkFolder(const fs::path& target, const std::string& what)
     if (!lock_)
         throw Error(
             ErrorKind::output, (what.empty() ? target_ : target_ / what).string(),
-            "another lumel is writing there; wait until it is done, or choose another place. If "
-            "none is, remove " +
+            "another lumel is writing there; wait for it, or choose another folder. If there is "
+            "none, remove " +
                 path_.string());
 }
 

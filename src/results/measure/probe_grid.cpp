@@ -20,7 +20,7 @@ ProbeGrid probe_grid(const glm::dvec3& low, const glm::dvec3& high, double spaci
     const glm::dvec3 counts = glm::max(glm::floor((high - low) / spacing), 1.0);
     if (counts.x * counts.y * counts.z > kMaxProbes)
         throw Error(ErrorKind::input, "--spacing",
-                    "would make more than a million probes; a wider spacing or --bounds is needed");
+                    "would make more than a million probes; use a wider spacing or --bounds");
     return {.spacing = spacing,
             .first = 0.5 * (low + high) - 0.5 * spacing * (counts - 1.0),
             .counts = glm::ivec3(counts)};

@@ -13,7 +13,7 @@ PlaneGrid points_on(const WorkPlane& plane)
     const glm::dvec2 counts = glm::max(glm::floor(size / plane.spacing), 1.0);
     if (counts.x * counts.y > kMaxPlanePoints)
         throw Error(ErrorKind::input, "--spacing",
-                    "would make more than a million points; a wider spacing or --bounds is needed");
+                    "would make more than a million points; use a wider spacing or --bounds");
     PlaneGrid grid{.columns = int(counts.x), .rows = int(counts.y)};
     const glm::dvec2 first = 0.5 * (plane.low + plane.high) - 0.5 * plane.spacing * (counts - 1.0);
     for (int row = 0; row < grid.rows; ++row)

@@ -136,8 +136,7 @@ void check_viewer()
     if (page_viewer().empty())
         throw Error(ErrorKind::input, "",
                     "this lumel was built without three.js, which its pages need; run tools/web "
-                    "where npm's packages "
-                    "can be had, and build again");
+                    "with access to npm packages, and build again");
 }
 
 std::size_t write_page(const std::string& path, std::span<const std::string> folders)

@@ -35,7 +35,6 @@ constexpr float kRouletteBelow = 0.04f;
 /// Dimension pairs of a ray's random numbers: direction, roulette, target point, lamp, and point on
 /// the lamp.
 constexpr std::uint32_t kPairsPerLobe = 6;
-/// Minimum points per task.
 constexpr std::size_t kPointsPerTask = 64;
 /// Points between progress reports.
 constexpr std::size_t kPointsPerStep = 65536;

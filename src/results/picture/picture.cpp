@@ -7,7 +7,6 @@
 namespace lumel {
 namespace {
 
-/// Minimum points per task.
 constexpr std::size_t kPointsPerTask = 1024;
 
 }  // namespace

@@ -10,7 +10,6 @@
 namespace lumel {
 namespace {
 
-/// Rows of pixels per task.
 constexpr std::size_t kRowsPerTask = 4;
 /// Rows between progress reports.
 constexpr std::size_t kRowsPerStep = 64;

@@ -51,7 +51,6 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Renders a single image.
 Image render_preview(const gpu::Device& device, const Scene& scene, const Atlas& atlas,
                      const Image& irradiance, const View& view, int width,
                      PreviewShows shows = PreviewShows::light);

@@ -178,7 +178,7 @@ BakeRecord read_bake_record(const std::string& folder)
     for (const char* file : {kReportFile, kSceneFile, kSolutionFile})
         if (!fs::is_regular_file(fs::path(folder) / file, ignored))
             refuse(folder, std::string("has no ") + file +
-                               ": it is not the folder of a finished lumel bake; bake it first");
+                               ": it is not the folder of a finished lumel bake");
     const std::string path = (fs::path(folder) / kReportFile).string();
     const Json report = read_json(path);
     return record_of(JsonView(path, report), folder);
@@ -187,8 +187,7 @@ BakeRecord read_bake_record(const std::string& folder)
 void check_whole(const std::string& folder, const BakeRecord& baked)
 {
     if (baked.parts != Parts::all)
-        refuse(folder, "holds a part of the light, of which no more can be told; bake it again "
-                       "without --only");
+        refuse(folder, "has only part of the light; bake it again without --only");
 }
 
 void check_correctable(const std::string& folder, const BakeRecord& baked)

@@ -19,7 +19,6 @@ struct EnumName {
     Value value;
 };
 
-/// Names of all values of an enum.
 template <class Value>
 inline constexpr std::array<EnumName<Value>, 0> kWords{};
 

@@ -71,9 +71,9 @@ void check_file(const std::string& path)
 {
     std::error_code ignored;
     if (!fs::exists(path, ignored))
-        throw Error(ErrorKind::input, path,
-                    "is a light of the bake and is not there any more; put it back, or bake the "
-                    "scene again");
+        throw Error(
+            ErrorKind::input, path,
+            "is a light of the bake, but no longer exists; restore it, or bake the scene again");
 }
 
 }  // namespace

@@ -18,10 +18,11 @@ Json map_units(bool directional, int pages)
         {"color_space", "linear Rec. 709"},
         {"lightmap.exr", "irradiance H [lx] in RGB, not divided by pi; alpha is the covered "
                          "fraction of each texel, 0: not covered"},
-        {"lightmap.png", "tone-mapped for looking, sRGB"},
-        {"solution.exr", "irradiance of lumels as solved [lx]: fronts in RGB, backs in layer back; "
-                         "open shares of their areas in layer open, R and G; alpha is the number "
-                         "of the chart, from 1"},
+        {"lightmap.png", "tone-mapped for display, sRGB"},
+        {"solution.exr",
+         "irradiance of lumels as solved [lx]: fronts in RGB, backs in layer back; "
+         "open fractions of their areas in layer open, R and G; alpha is the number "
+         "of the chart, from 1"},
         {"scene.glb", "MOZ_lightmap: reflected radiance = albedo / pi x texel x intensity, "
                       "texel linear, intensity in lx"},
         {"scene-baked.glb", "tone-mapped radiance as emissive colour, sRGB"},
@@ -41,9 +42,9 @@ Json picture_units()
 {
     return {{"radiance", "cd/m2"},
             {"color_space", "linear Rec. 709"},
-            {"exr", "radiance toward the eye [cd/m2] in RGB, multiplied by alpha, the share of the "
-                    "pixel where something is seen"},
-            {"png", "tone-mapped for looking, sRGB"}};
+            {"exr", "radiance toward the eye [cd/m2] in RGB, multiplied by alpha, the covered "
+                    "fraction of the pixel"},
+            {"png", "tone-mapped for display, sRGB"}};
 }
 
 Json gpu_times(const Report& report)

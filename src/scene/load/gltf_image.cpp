@@ -150,7 +150,7 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     int channels = 0;
     if (!stbi_is_hdr_from_memory(bytes.data(), int(bytes.size())) ||
         !stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels))
-        fail(place, "is not a Radiance picture that can be read");
+        fail(place, "is not a readable Radiance image");
     Claim claim{std::uint64_t(width), std::uint64_t(height)};
     std::optional<std::size_t> at = hdr_data_begin(bytes);
     const bool packed = width >= 8 && width < 32768 && *at + 2 < bytes.size() && bytes[*at] == 2 &&
@@ -161,7 +161,7 @@ Claim hdr_claim(const Bytes& bytes, const std::string& place)
     else
         claim.possible = 4 * claim.width * claim.height <= bytes.size() - *at;
     if (!at)
-        fail(place, "is a Radiance picture that is broken or cut short");
+        fail(place, "is a Radiance image that is broken or cut short");
     return claim;
 }
 
@@ -245,7 +245,7 @@ Image decode_hdr(const Bytes& bytes, const std::string& place)
                                &channels_in_file, image.channels),
         stbi_image_free);
     if (!pixels)
-        fail(place, std::string("cannot be decoded as Radiance picture (") + why_not() + ")");
+        fail(place, std::string("cannot be decoded as Radiance image (") + why_not() + ")");
     const std::size_t count =
         std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels);
     image.values.assign(pixels.get(), pixels.get() + count);

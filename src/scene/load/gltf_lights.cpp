@@ -134,8 +134,8 @@ void read_size(const JsonView& view, PunctualLight& light)
         light.radius = extra(view, "radius").value_or(light.radius);
 }
 
-/// EXT_lights_ies: the profile's candela times "multiplier", tinted. Modifies the punctual light on
-/// the same node, if any, which keeps its kind, cone, range and colour.
+/// EXT_lights_ies: the profile's candela times "multiplier", tinted. Modifies the punctual light
+/// on the same node, if any, which keeps its kind, cone, range and colour.
 void read_profile(const JsonView& extension, ProfileList& profiles, PunctualLight& light)
 {
     glm::vec3 color(1.0f);

@@ -11,8 +11,8 @@ namespace lumel {
 /// in cd/m². Negative values and NaN become 0, infinity the largest half. Throws Error{input}.
 Sky read_sky(const std::string& path);
 
-/// The sky rotated about +y, counter-clockwise from above, by an angle [rad]. Preserves the light
-/// of each row.
+/// The sky rotated about +y, counter-clockwise from above, by an angle [rad]. Preserves the
+/// light of each row.
 Sky turned(const Sky& sky, double angle);
 
 }  // namespace lumel

@@ -105,7 +105,7 @@ struct PunctualLight {
     /// Angular radius of a directional light's disc in the sky [rad]; 0: parallel light.
     float angle = 0.0f;
     int profile = -1;           ///< index into Scene::profiles, -1: none. Point and spot only.
-    glm::mat4 transform{1.0f};  ///< shines along -z
+    glm::mat4 transform{1.0f};  ///< light to world; its light is centred on -z
 };
 
 /// Photometric profile of a luminaire: luminous intensity [cd] over directions, interpolated
@@ -120,7 +120,7 @@ struct Photometry {
 struct Camera {
     std::string name;
     int node = 0;                      ///< index in the file's nodes
-    glm::mat4 transform{1.0f};         ///< looks along -z, +y up
+    glm::mat4 transform{1.0f};         ///< camera to world; views along -z, +y up
     float vertical_fov = 0.8f;         ///< [rad]; ignored when orthographic
     float aspect = 0.0f;               ///< width / height, 0: unspecified
     float orthographic_height = 0.0f;  ///< [m], > 0 if orthographic

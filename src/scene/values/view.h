@@ -9,7 +9,7 @@ inline constexpr float kFreeAspect = 1.5f;  ///< width / height of unspecified v
 
 /// A camera position with its projection.
 struct View {
-    glm::mat4 transform{1.0f};         ///< looks along -z, +y up
+    glm::mat4 transform{1.0f};         ///< camera to world; views along -z, +y up
     float vertical_fov = 0.9f;         ///< [rad]
     float aspect = kFreeAspect;        ///< width / height
     float orthographic_height = 0.0f;  ///< image height [m], > 0 if orthographic

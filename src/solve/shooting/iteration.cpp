@@ -231,8 +231,8 @@ void Iteration::begin_batch(gpu::Pacer& pacer)
 void Iteration::relight(gpu::Pacer& pacer, const Lumels& lumels)
 {
     if (!leaks())
-        throw Error(ErrorKind::input, "light that changes",
-                    "needs a leak: a mean of all shots keeps the light of before");
+        throw Error(ErrorKind::input, "changing light",
+                    "needs a leak: the mean of all shots keeps earlier light");
     pacer.finish();
     const std::vector<glm::vec3> emission = emission_of(lumels);
     emission_.upload(emission);

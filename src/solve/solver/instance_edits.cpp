@@ -23,7 +23,7 @@ std::vector<char> flags_of(const Scene& scene, const std::vector<std::uint32_t>&
     for (const std::uint32_t instance : movers) {
         if (instance >= flags.size())
             throw Error(ErrorKind::input, name_of(instance),
-                        "is to move, but the scene has only " + std::to_string(flags.size()));
+                        "cannot move: the scene has only " + std::to_string(flags.size()));
         flags[instance] = 1;
     }
     return flags;
@@ -53,10 +53,10 @@ InstanceEdits::InstanceEdits(const Scene& scene, const std::vector<std::uint32_t
 void InstanceEdits::move(const Scene& scene, std::uint32_t instance, const glm::mat4& transform)
 {
     if (instance >= movers_.size() || !movers_[instance])
-        throw Error(ErrorKind::input, name_of(instance), "is not one of those that may move");
+        throw Error(ErrorKind::input, name_of(instance), "is not movable");
     if (!is_rigid(scene.instances[instance].transform, transform))
         throw Error(ErrorKind::input, name_of(instance),
-                    "may be turned and moved, but not stretched");
+                    "can be rotated and moved, but not stretched");
     requested_[instance] = transform;
 }
 

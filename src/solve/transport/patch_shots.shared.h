@@ -15,7 +15,6 @@ LUMEL_CONST uint kSendShot = 2u;      ///< the shot light again
 LUMEL_CONST uint kSendCrossing = 3u;  ///< the shot light again, even if it is 0
 LUMEL_CONST uint kSendBackSide = 4u;  ///< none, from the side without lumels
 
-/// A patch chosen to shoot.
 struct ChosenPatch {
     uint chart;  ///< kNoPatch: empty entry of the batch
     uint level;

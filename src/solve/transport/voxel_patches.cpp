@@ -94,7 +94,6 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// Inputs of the search for a grid.
 struct GridInputs {
     std::vector<Place> places;  ///< [N]
     Grid grid;

@@ -10,9 +10,9 @@
 namespace lumel {
 namespace {
 
-constexpr float kSteepest = 0.999f * glm::half_pi<float>();  ///< [rad] that still has an upright
+constexpr float kSteepest = 0.999f * glm::half_pi<float>();  ///< [rad] maximum with an upright
 
-constexpr float kNearest = 1e-6f;  ///< depth that has a place in the picture [m]
+constexpr float kNearest = 1e-6f;  ///< minimum depth in the image [m]
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& poi
 glm::vec2 ViewCamera::angles() const
 {
     const glm::vec3 to = glm::normalize(forward());
-    // Straight up or down, what is up in the picture tells where it turns to.
+    // Looking straight up or down, the image's up vector gives the azimuth.
     const glm::vec3 level = std::abs(to.y) < std::sin(kSteepest) ? to : -to.y * up();
     return {std::atan2(-level.x, -level.z), std::asin(std::clamp(to.y, -1.0f, 1.0f))};
 }
@@ -49,7 +49,7 @@ void ViewCamera::look_at(const glm::vec3& target)
 {
     const glm::vec3 way = target - eye();
     if (!(glm::length(way) > 0.0f))
-        throw Error(ErrorKind::input, "", "the eye stands where it is to look");
+        throw Error(ErrorKind::input, "", "the eye is at the point to look at");
     const glm::vec3 to = glm::normalize(way);
     const float azimuth = to.x != 0.0f || to.z != 0.0f ? std::atan2(-to.x, -to.z) : angles().x;
     stand_upright({azimuth, std::asin(std::clamp(to.y, -1.0f, 1.0f))});

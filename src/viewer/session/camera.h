@@ -1,5 +1,5 @@
 #pragma once
-// A camera that walks and orbits.
+// Camera that walks and orbits.
 
 #include <optional>
 
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// Where a picture shows a point, (0, 0) at its top left and (1, 1) at its bottom right; nothing if
-/// it is not before the eye.
+/// Projects a point to the image, (0, 0) at its top left and (1, 1) at its bottom right; empty if
+/// the point is behind the eye.
 std::optional<glm::vec2> place_in_picture(const View& view, const glm::vec3& point);
 
 class ViewCamera {
@@ -22,16 +22,16 @@ public:
 
     void set_view(const View& view) { view_ = view; }
     void set_aspect(float aspect) { view_.aspect = aspect; }
-    /// Stands elsewhere and looks into the same direction.
+    /// Moves the eye and keeps the direction.
     void set_eye(const glm::vec3& eye) { view_.transform[3] = glm::vec4(eye, 1.0f); }
-    /// Looks at a point, upright. Throws Error{input} for the eye's own place.
+    /// Looks at a point, upright. Throws Error{input} for the eye's own position.
     void look_at(const glm::vec3& target);
-    /// Walks level: forward, to the right and up [m].
+    /// Walks horizontally forward and right, and vertically up [m].
     void walk(const glm::vec3& steps);
-    /// Turns to the left and up [rad], no farther than straight up or down.
+    /// Turns left and up [rad], at most straight up or down.
     void gaze(float left, float up);
-    /// Goes around a point, counter-clockwise as seen from above, and up over it [rad]; what is
-    /// seen of the point stays where it is in the picture.
+    /// Orbits a point, counter-clockwise seen from above, and up over it [rad]; the point keeps its
+    /// position in the image.
     void orbit(const glm::vec3& pivot, float around, float over);
 
 private:

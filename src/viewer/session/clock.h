@@ -1,5 +1,5 @@
 #pragma once
-// What things took, by the clock on the wall.
+// Wall-clock times.
 
 #include <chrono>
 

@@ -1,5 +1,4 @@
-// A session at another time of its animation, and what was done to it done to another of the same
-// scene.
+// Applies animation time, and replays edits on a new session of the same scene.
 
 #include <fmt/format.h>
 
@@ -51,7 +50,7 @@ void ViewSession::set_time(double seconds)
 
 void ViewSession::take_edits(const ViewSession& before)
 {
-    while (live_.state().all_sweeps == 0)  // or all is dark until moves are followed
+    while (live_.state().all_sweeps == 0)  // or all is dark until moves are updated
         live_.advance(0.0);
     for (std::uint32_t t = 0; t < things_.size(); ++t) {
         things_[t].by_hand = before.things_[t].by_hand;
@@ -79,7 +78,7 @@ void ViewSession::take_edits(const ViewSession& before)
     set_probes(before.probe_spacing_);
 }
 
-/// Lamps, sun, sky and time.
+/// Takes lamps, sun, sky and time.
 void ViewSession::take_light(const ViewSession& before)
 {
     set_time(before.time_);

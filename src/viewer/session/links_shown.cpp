@@ -1,4 +1,4 @@
-// The links of a lumel as lines in space.
+// Draws the links of a lumel as lines.
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@
 namespace lumel {
 namespace {
 
-/// Of the lit scene's brightness, behind the lines.
+/// Brightness of the lit scene behind the lines.
 constexpr float kDim = 0.4f;
-/// Lines of so many powers of ten of light have colours of their own.
+/// Range of light with distinct line colours, in powers of ten.
 constexpr float kDecades = 3.0f;
-/// What surfaces hide of a line shows through by this part.
+/// Opacity of occluded parts of a line.
 constexpr float kHidden = 0.25f;
-constexpr int kDot = 2;  ///< a line's end reaches so many pixels around
+constexpr int kDot = 2;  ///< radius of the dot at a line's end [pixels]
 
 glm::vec3 place_of(const Scene& scene, const Lumel& lumel)
 {
@@ -44,7 +44,7 @@ void darken(Image& picture)
         }
 }
 
-/// 1 for the most light, 0 for what is kDecades less.
+/// 1 for the most light, 0 for kDecades powers of ten less.
 float heat_of(const ViewLink& link, double most)
 {
     const double light = luminance(link.light);
@@ -60,7 +60,7 @@ void ViewSession::probe(const glm::ivec2& pixel)
     probe_ = seen_at(pixel);
 }
 
-/// E [lm/m²] of a lumel, with what lamps are dimmed by.
+/// E [lm/m²] of a lumel, with the lamps' factors.
 glm::vec3 ViewSession::emission_of(const Lumel& lumel) const
 {
     if (lumel.emission == glm::vec3(0.0f))
@@ -108,7 +108,7 @@ std::vector<ViewLink> ViewSession::links()
     return found;
 }
 
-/// Where surfaces of the picture lie before the line, only a part of it shows.
+/// Draws occluded parts of the line with less opacity.
 void ViewSession::draw_link(Image& picture, const glm::vec3& from, const ViewLink& link, float heat)
 {
     const glm::vec2 all(size());

@@ -14,7 +14,7 @@
 namespace lumel {
 namespace {
 
-constexpr std::chrono::milliseconds kLook(20);  ///< between looks at a solve
+constexpr std::chrono::milliseconds kLook(20);  ///< between checks of a solve
 
 glm::vec3 vector_of(const std::vector<double>& numbers)
 {
@@ -24,7 +24,7 @@ glm::vec3 vector_of(const std::vector<double>& numbers)
     return vector;
 }
 
-/// A factor for all channels, or one for each.
+/// One factor for all channels, or one each.
 glm::vec3 colour_of(const std::vector<double>& numbers)
 {
     return numbers.size() == 1 ? glm::vec3(float(numbers[0])) : vector_of(numbers);
@@ -75,7 +75,7 @@ void ScriptPlayer::step()
     }
 }
 
-/// True if no frame of light belongs to it.
+/// Executes a command. Returns false after a frame of light, or while a method solves.
 bool ScriptPlayer::play(const ScriptCommand& command)
 {
     switch (command.form->verb) {
@@ -110,7 +110,7 @@ bool ScriptPlayer::play(const ScriptCommand& command)
     }
 }
 
-/// True once its light is there.
+/// Returns true once the light is there.
 bool ScriptPlayer::solve(const ScriptCommand& command)
 {
     if (!solving_)
@@ -123,7 +123,7 @@ bool ScriptPlayer::solve(const ScriptCommand& command)
         for (const std::string& warning : light.warnings)
             log_warning(warning);
         if (!session_->take_solved(std::move(light), ended->edits()))
-            log_warning("the scene was changed while it was solved: the light of links is shown");
+            log_warning("the scene was changed during the solve: showing the light of links");
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::stopped)
             throw;
@@ -138,7 +138,7 @@ void ScriptPlayer::stop_solving()
         solving_->stop();
 }
 
-/// True if it is a command that writes a file.
+/// Returns true if the command writes a file.
 bool ScriptPlayer::write(const ScriptCommand& command)
 {
     switch (command.form->verb) {
@@ -147,7 +147,7 @@ bool ScriptPlayer::write(const ScriptCommand& command)
         break;
     case Verb::window:
         if (!window_)
-            throw Error(ErrorKind::input, "", "there is no window to be seen with --headless");
+            throw Error(ErrorKind::input, "", "there is no window with --headless");
         write_png(output_->path(command.text), window_());
         break;
     case Verb::save:

@@ -1,5 +1,5 @@
 #pragma once
-// A script played on a session, a frame of light at a time.
+// Plays a script on a session, frame by frame.
 
 #include <functional>
 #include <memory>
@@ -12,23 +12,22 @@
 
 namespace lumel {
 
-/// Does what a script says.
+/// Executes the commands of a script.
 class ScriptPlayer {
 public:
-    /// script: read from `path`. folder: that `output` is of. window: what it shows; empty: there
-    /// is none. What is given must outlive it.
+    /// script: read from `path`. folder: target of `output`. window: returns the window's image;
+    /// empty: no window. All arguments must outlive this.
     ScriptPlayer(std::vector<ScriptCommand> script, std::string path, ViewSession& session,
                  OutputFolder& output, std::string folder, std::function<Image()> window = {});
 
     bool done() const { return next_ == script_.size(); }
-    const SolveAside* solving() const { return solving_.get(); }  ///< null: nothing is solved now
-    /// What is being solved ends with the light that there is then; without any, the script goes
-    /// on.
+    const SolveAside* solving() const { return solving_.get(); }  ///< null: no solve is running
+    /// Ends the running solve with its current light; without any, the script continues.
     void stop_solving();
-    bool has_quit() const { return quit_; }  ///< by its own word
-    /// Does what stands before the next frame of light, and lets light follow for it; or all that
-    /// is left. While a method solves, it is a step to wait a moment for it. Throws Error; of a
-    /// command that cannot be done with "script:line".
+    bool has_quit() const { return quit_; }  ///< by the command
+    /// Executes the commands before the next frame of light, and that frame; or all remaining ones.
+    /// While a method solves, a step waits briefly for it. Throws Error, with "script:line" for a
+    /// command that fails.
     void step();
     const std::vector<std::string>& files() const { return files_; }  ///< written
 
@@ -48,13 +47,13 @@ private:
     std::string folder_;
     std::function<Image()> window_;
     std::size_t next_ = 0;
-    int frames_ = 0;  ///< of the command that is being done
+    int frames_ = 0;  ///< done, of the current command
     std::unique_ptr<SolveAside> solving_;
     bool quit_ = false;
     std::vector<std::string> files_;
 };
 
-/// Reads a script's file. Throws Error{input}.
+/// Reads a script file. Throws Error{input}.
 std::vector<ScriptCommand> script_of(const std::string& path);
 
 }  // namespace lumel

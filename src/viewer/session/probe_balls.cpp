@@ -15,15 +15,15 @@
 namespace lumel {
 namespace {
 
-constexpr std::size_t kRows = 4, kProbes = 1;  ///< that a core takes at least
+constexpr std::size_t kRows = 4, kProbes = 1;  ///< minimum per task
 
-/// The pixels that a ball may be in, from low up to high.
+/// Bounding box of a ball in the image, from low to high [pixels].
 struct Drawn {
     const ProbeBall* ball;
     glm::ivec2 low, high;
 };
 
-/// By the corners of its box; none if it is too near to the eye.
+/// From the corners of its box; empty if it is too close to the eye.
 std::optional<Drawn> drawn(const ProbeBall& ball, float radius, const View& view,
                            const glm::vec2& size)
 {
@@ -42,7 +42,7 @@ std::optional<Drawn> drawn(const ProbeBall& ball, float radius, const View& view
                  glm::ivec2(glm::min(glm::ceil(high * size), size))};
 }
 
-/// Where a ray enters a ball [m], or less than 0.
+/// Distance at which a ray enters a ball [m]; < 0 if it does not.
 float entry(const Ray& ray, const glm::vec3& centre, float radius)
 {
     const glm::vec3 to = centre - ray.origin;
@@ -59,11 +59,9 @@ std::vector<glm::vec3> ball_places(const Scene& scene, const RayScene& rays, dou
     const ProbeGrid grid = probe_grid(rays.low(), rays.high(), spacing);
     const double count = double(grid.counts.x) * double(grid.counts.y) * double(grid.counts.z);
     if (count > double(kMaxBalls))
-        throw Error(
-            ErrorKind::input, "",
-            fmt::format("{:.0f} probes are more than the {} that are shown; a wider spacing is "
-                        "needed",
-                        count, kMaxBalls));
+        throw Error(ErrorKind::input, "",
+                    fmt::format("{:.0f} probes are more than the limit of {}; use a wider spacing",
+                                count, kMaxBalls));
     for (const glm::dvec3& point : grid.points())
         places.emplace_back(point);
     for (const ProbePlace& place : probe_places(scene.path))

@@ -1,5 +1,5 @@
 #pragma once
-// Light probes as balls in the air: what arrives where they are, on white.
+// Light probes as white balls lit by their light.
 
 #include <functional>
 #include <span>
@@ -18,18 +18,18 @@ struct ProbeBall {
     ProbeLight light;
 };
 
-/// Balls that pictures show at most.
+/// Maximum number of balls in an image.
 inline constexpr std::size_t kMaxBalls = 2000;
 
-/// Where lumel probes has probes: over a grid, and at nodes that the file names. Throws
-/// Error{input} for more than kMaxBalls.
+/// Positions of probes as in lumel probes: a grid, and nodes named in the file. Throws Error{input}
+/// for more than kMaxBalls.
 std::vector<glm::vec3> ball_places(const Scene& scene, const RayScene& rays, double spacing);
 
-/// None of what lies inside of something.
+/// Skips positions inside objects.
 std::vector<ProbeBall> find_balls(const LightProbe& probe, std::span<const glm::vec3> places);
 
-/// Paints pixels of a picture in which a ball is nearer than all that the rays meet. paint: gets
-/// the pixel and H of its place [lx]; from many threads.
+/// Paints the pixels in which a ball is the closest hit. paint: receives the pixel and H there
+/// [lx]; called from many threads.
 void draw_balls(Image& picture, const View& view, const RayScene& rays,
                 std::span<const ProbeBall> balls, float radius,
                 const std::function<void(float* pixel, const glm::vec3& irradiance)>& paint);

@@ -1,4 +1,4 @@
-// Light probes of the light that is shown.
+// Light probes for the displayed light.
 
 #include <numbers>
 
@@ -8,8 +8,8 @@
 namespace lumel {
 namespace {
 
-constexpr float kBall = 0.12f;        ///< radius of a ball, in spacings
-constexpr std::uint32_t kRays = 256;  ///< of a probe at least, and towards sources
+constexpr float kBall = 0.12f;        ///< radius of a ball, in grid spacings
+constexpr std::uint32_t kRays = 256;  ///< minimum per probe, and as many to sources
 
 }  // namespace
 
@@ -21,7 +21,7 @@ void ViewSession::set_probes(double spacing)
     balls_.clear();
 }
 
-/// Those of the light that was last at rest, for they take longer than a frame.
+/// Probes of the last converged light: they take longer than a frame.
 const std::vector<ProbeBall>& ViewSession::probe_balls()
 {
     const bool solved = shows_solved();
@@ -40,7 +40,7 @@ const std::vector<ProbeBall>& ViewSession::probe_balls()
     return balls_;
 }
 
-/// White balls, in a picture of radiance.
+/// Draws white balls into an image of radiance.
 void ViewSession::draw_lit_balls(Image& light)
 {
     draw_balls(light, camera_.view(), rays(), probe_balls(), kBall * float(probe_spacing_),
@@ -51,7 +51,7 @@ void ViewSession::draw_lit_balls(Image& light)
                });
 }
 
-/// What arrives, in a picture of one channel [lx].
+/// Draws illuminance into a one-channel image [lx].
 void ViewSession::draw_lux_balls(Image& lux)
 {
     draw_balls(

@@ -20,7 +20,7 @@ constexpr const char *kLights = "KHR_lights_punctual",
                      *kStrength = "KHR_materials_emissive_strength",
                      *kCopies = "EXT_mesh_gpu_instancing",
                      *kSpecular = "KHR_materials_pbrSpecularGlossiness";
-constexpr double kSamePlace = 1e-6;  ///< of a transform's numbers, as a part of the largest
+constexpr double kSamePlace = 1e-6;  ///< tolerance of transform elements, relative to the largest
 
 [[noreturn]] void refuse(const std::string& what)
 {
@@ -43,7 +43,7 @@ bool is_same(const glm::dmat4& a, const glm::dmat4& b)
     return apart <= kSamePlace * most;
 }
 
-/// The default scene's nodes, which are shown without a parent.
+/// Adds a root node to the default scene.
 void add_root(Json& gltf, const Json& node)
 {
     const std::size_t number = gltf["nodes"].size();
@@ -52,8 +52,7 @@ void add_root(Json& gltf, const Json& node)
         (*scenes)[gltf.value("scene", std::size_t(0))]["nodes"].push_back(number);
 }
 
-/// A node's mesh goes to a node of its own that stands where it is to be: what else hangs on the
-/// old one stays.
+/// Moves a node's mesh to a new node at its current transform; the old node's children stay.
 void place_mesh(Json& gltf, std::size_t number, const glm::dmat4& world)
 {
     Json& node = gltf["nodes"][number];
@@ -93,7 +92,7 @@ void place_things(Json& gltf, const GltfDocument& document, const ViewSession& s
         const bool is_copy = extensions != node.end() && extensions->contains(kCopies);
         if (is_copy && moved[i])
             refuse("\"" + instance.name +
-                   "\" is one of many copies of its node, and cannot be saved elsewhere");
+                   "\" is one of many copies of its node: its move cannot be saved");
         if (deleted[i])
             gltf["nodes"][number].erase("mesh");
         else if (!is_copy && !is_same(world, given[number]))
@@ -122,7 +121,7 @@ void set_paint(Json& material, const glm::vec4& colour)
         material["pbrMetallicRoughness"]["baseColorFactor"] = factor;
 }
 
-/// Those that are not as the file has them; where its animation has a lamp dimmer, too.
+/// Writes materials that differ from the file, or whose lamp the animation dims.
 void set_materials(Json& gltf, const ViewSession& session)
 {
     const bool played = !session.animation().materials.empty();
@@ -138,14 +137,14 @@ void set_materials(Json& gltf, const ViewSession& session)
     }
 }
 
-/// Lights are called as they are, or else as their nodes.
+/// Lights have their own names, or else those of their nodes.
 void dim_lights(Json& gltf, const ViewSession& session)
 {
     for (const ViewLamp& lamp : session.lamps()) {
         if (!lamp.is_light || lamp.factor == glm::vec3(1.0f))
             continue;
         if (!session.options().lights.profiles.empty())
-            refuse("a light that was dimmed cannot be saved together with --ies");
+            refuse("a dimmed light cannot be saved with --ies");
         bool found = false;
         for (const Json& node : gltf["nodes"]) {
             const auto extensions = node.find("extensions");
@@ -164,7 +163,7 @@ void dim_lights(Json& gltf, const ViewSession& session)
         }
         if (!found)
             refuse("\"" + lamp.name +
-                   "\" is dimmed, but no light of the file: it cannot be saved so");
+                   "\" is dimmed, but not a light of the file: it cannot be saved");
     }
 }
 
@@ -188,7 +187,7 @@ LightOptions lights_as_they_are(const ViewSession& session)
     LightOptions lights = session.options().lights;
     const bool ours = lights.sun.has_value();
     if (session.sun() && !ours)
-        refuse("the sun of the file was moved, which cannot be saved; --sun gives one that can");
+        refuse("the moved sun of the file cannot be saved; use --sun instead");
     if (ours)
         lights.sun = session.sun();
     const glm::vec3& factor = session.sky();
@@ -197,14 +196,14 @@ LightOptions lights_as_they_are(const ViewSession& session)
     else if (lights.sky_color)
         *lights.sky_color *= factor;
     else
-        refuse("a sky that was coloured cannot be saved, but one that was dimmed");
+        refuse("a coloured sky cannot be saved, only a dimmed one");
     if (session.sky_angle() == 0.0)
         return lights;
     if (ours && lights.sky_file.empty() && !lights.sky_color && !lights.overcast)
-        refuse("a clear sky that was turned away from its sun cannot be saved");
+        refuse("a clear sky turned away from its sun cannot be saved");
     lights.sky_rotation += session.sky_angle();
     if (ours)
-        lights.sun->azimuth += session.sky_angle();  // it stays where it is
+        lights.sun->azimuth += session.sky_angle();  // keeps its direction
     return lights;
 }
 
@@ -216,7 +215,7 @@ BakeSummary save_bake(const ViewSession& session, const std::string& folder,
     options.atlas = session.options().atlas;
     options.device = session.options().device;
     options.preview_width = session.options().width;
-    OutputFolder aside(folder, "scene");  // goes with what was written into it
+    OutputFolder aside(folder, "scene");  // removed with its contents
     const std::string scene =
         aside.path(std::filesystem::path(session.scene().path).stem().string() + ".glb");
     write_scene_as_it_stands(session, scene);

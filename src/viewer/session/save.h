@@ -1,5 +1,5 @@
 #pragma once
-// A session saved as a bake.
+// Saves a session as a bake.
 
 #include <string>
 
@@ -8,16 +8,16 @@
 
 namespace lumel {
 
-/// Writes the scene as it stands now as one .glb file: things where they were moved to, without
-/// those that were deleted, dimmed and painted; standing still. Throws Error{input} for what a file
-/// cannot hold.
+/// Writes the current scene as one .glb file: moved, deleted, dimmed and recoloured objects as they
+/// are, without animation. Throws Error{input} for edits that a file cannot express.
 void write_scene_as_it_stands(const ViewSession& session, const std::string& path);
 
-/// The lights of the options as they are now. Throws Error{input} for what options cannot say.
+/// The options' lights in their current state. Throws Error{input} for edits that options cannot
+/// express.
 LightOptions lights_as_they_are(const ViewSession& session);
 
-/// Bakes the scene as it stands into a folder, at the session's resolution, with all files of
-/// `lumel bake`.
+/// Bakes the current scene into a folder, at the session's resolution, with all files of `lumel
+/// bake`.
 BakeSummary save_bake(const ViewSession& session, const std::string& folder,
                       const ProgressFunction& progress = {});
 

@@ -14,11 +14,11 @@
 namespace lumel {
 namespace {
 
-constexpr double kFar = 1e6;          ///< coordinates that floats still resolve [m]
-constexpr double kTurns = 36000.0;    ///< angle that still has decimals as float [degrees]
-constexpr double kBright = 1e6;       ///< factor of a lamp
-constexpr double kStops = 100.0;      ///< of exposure
-constexpr double kMaxPixels = 16384;  ///< side of a picture
+constexpr double kFar = 1e6;          ///< maximum coordinate with float precision [m]
+constexpr double kTurns = 36000.0;    ///< maximum angle with decimals in a float [degrees]
+constexpr double kBright = 1e6;       ///< maximum factor of a lamp
+constexpr double kStops = 100.0;      ///< maximum exposure
+constexpr double kMaxPixels = 16384;  ///< maximum side of an image
 constexpr double kMaxFrames = 1e6, kMaxCameras = 1e6, kMaxSeconds = 1e6;
 constexpr double kMinScale = 1e-6, kMaxScale = 1e12;  ///< [lx]
 
@@ -34,7 +34,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::eye,
                 .word = "eye",
                 .arguments = "X,Y,Z",
-                .meaning = "stand there [m]",
+                .meaning = "move the eye there [m]",
                 .least = 3,
                 .most = 3,
                 .low = -kFar,
@@ -50,7 +50,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::walk,
                 .word = "walk",
                 .arguments = "F[,R[,U]]",
-                .meaning = "walk forward, to the right and up [m]; forward is level",
+                .meaning = "walk forward (horizontally), right and up [m]",
                 .least = 1,
                 .most = 3,
                 .low = -kFar,
@@ -58,7 +58,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::gaze,
                 .word = "gaze",
                 .arguments = "LEFT[,UP]",
-                .meaning = "turn the eye [degrees]",
+                .meaning = "turn the view [degrees]",
                 .least = 1,
                 .most = 2,
                 .low = -kTurns,
@@ -66,7 +66,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::orbit,
                 .word = "orbit",
                 .arguments = "AROUND[,OVER]",
-                .meaning = "go around what is picked, or the middle of the picture [degrees]",
+                .meaning = "orbit the picked object, or the centre of the image [degrees]",
                 .least = 1,
                 .most = 2,
                 .low = -kTurns,
@@ -74,7 +74,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::pick,
                 .word = "pick",
                 .arguments = "X,Y | NAME",
-                .meaning = "pick what the picture shows at a pixel, from its top left; or by name",
+                .meaning = "pick the object at a pixel of the image, from its top left; or by name",
                 .takes = ArgumentKind::name_or_numbers,
                 .least = 2,
                 .most = 2,
@@ -83,7 +83,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::move,
                 .word = "move",
                 .arguments = "X,Y,Z",
-                .meaning = "move what is picked [m]",
+                .meaning = "move the picked object [m]",
                 .least = 3,
                 .most = 3,
                 .low = -kFar,
@@ -91,7 +91,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::turn,
                 .word = "turn",
                 .arguments = "DEGREES",
-                .meaning = "turn it about its vertical, counter-clockwise from above",
+                .meaning = "rotate it about its vertical axis, counter-clockwise from above",
                 .least = 1,
                 .most = 1,
                 .low = -kTurns,
@@ -99,25 +99,25 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::remove,
                 .word = "delete",
                 .arguments = "",
-                .meaning = "take it out of the scene"},
+                .meaning = "delete it from the scene"},
     CommandForm{.verb = Verb::paint,
                 .word = "paint",
                 .arguments = "R,G,B",
-                .meaning = "give its material this base colour, 0 to 1",
+                .meaning = "set the base colour of its material, 0 to 1",
                 .least = 3,
                 .most = 3,
                 .high = 1.0},
     CommandForm{.verb = Verb::dim,
                 .word = "dim",
                 .arguments = "F | R,G,B",
-                .meaning = "what is picked shines so many times as bright as in the file",
+                .meaning = "scale the emission of the picked material, relative to the file",
                 .least = 1,
                 .most = 3,
                 .high = kBright},
     CommandForm{.verb = Verb::lamp,
                 .word = "lamp",
                 .arguments = "NAME F | NAME R,G,B",
-                .meaning = "the same of lights, or of a material, of that name",
+                .meaning = "scale the lights, or the emission of the material, of that name",
                 .takes = ArgumentKind::name,
                 .least = 1,
                 .most = 3,
@@ -125,14 +125,14 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::sky,
                 .word = "sky",
                 .arguments = "F | R,G,B",
-                .meaning = "the same of the sky",
+                .meaning = "scale the sky",
                 .least = 1,
                 .most = 3,
                 .high = kBright},
     CommandForm{.verb = Verb::turn_sky,
                 .word = "turn-sky",
                 .arguments = "DEGREES",
-                .meaning = "the sky is turned so far from how it was given, counter-clockwise",
+                .meaning = "rotate the given sky by this angle, counter-clockwise",
                 .least = 1,
                 .most = 1,
                 .low = -kTurns,
@@ -140,7 +140,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::sun,
                 .word = "sun",
                 .arguments = "AZIMUTH,ELEVATION",
-                .meaning = "the sun stands there [degrees], the azimuth clockwise from north (-z)",
+                .meaning = "set the sun [degrees], its azimuth clockwise from north (-z)",
                 .least = 2,
                 .most = 2,
                 .low = -kTurns,
@@ -148,25 +148,26 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::time,
                 .word = "time",
                 .arguments = "SECONDS",
-                .meaning = "the animation is there",
+                .meaning = "set the time of the animation",
                 .least = 1,
                 .most = 1,
                 .high = kMaxSeconds},
     CommandForm{.verb = Verb::solve,
                 .word = "solve",
                 .arguments = "METHOD [--OPTION VALUE ...]",
-                .meaning = "light the scene as it stands by another method, and show that; options "
-                           "and limits are those of lumel bake",
+                .meaning =
+                    "light the current scene by another method, and show it; options and limits "
+                    "are those of lumel bake",
                 .takes = ArgumentKind::method},
     CommandForm{.verb = Verb::light,
                 .word = "light",
                 .arguments = "links | solved",
-                .meaning = "show the light of links, or what was solved of the scene as it stands",
+                .meaning = "show the light of links, or that of the last solve",
                 .takes = ArgumentKind::light},
     CommandForm{.verb = Verb::probes,
                 .word = "probes",
                 .arguments = "SPACING | off",
-                .meaning = "show light probes as balls, over a grid of this spacing [m]",
+                .meaning = "show light probes as balls, on a grid of this spacing [m]",
                 .takes = ArgumentKind::off,
                 .least = 1,
                 .most = 1,
@@ -175,7 +176,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::exposure,
                 .word = "exposure",
                 .arguments = "F | auto",
-                .meaning = "factor from cd/m2 to brightness, or as suits each picture",
+                .meaning = "factor from cd/m2 to brightness, or fitted to each image",
                 .takes = ArgumentKind::automatic,
                 .least = 1,
                 .most = 1,
@@ -184,7 +185,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::stops,
                 .word = "ev",
                 .arguments = "STOPS",
-                .meaning = "expose so many stops more than now: 1 is twice as bright",
+                .meaning = "raise the exposure by this number of stops: 1 is twice as bright",
                 .least = 1,
                 .most = 1,
                 .low = -kStops,
@@ -194,8 +195,8 @@ constexpr std::array kForms = {
         .word = "mode",
         .arguments = "lit | irradiance | lumels | links | error",
         .meaning =
-            "show light, irradiance in false colours with a legend, lumels as "
-            "fields of their charts, what lights the lumel that is picked, or what is not settled",
+            "show light, irradiance in false colours with a legend, lumels as fields of their "
+            "charts, contributors to the picked lumel, or the estimated error",
         .takes = ArgumentKind::mode},
     CommandForm{.verb = Verb::scale,
                 .word = "scale",
@@ -209,7 +210,7 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::frames,
                 .word = "frames",
                 .arguments = "N",
-                .meaning = "let light follow for N frames",
+                .meaning = "update the light for N frames",
                 .least = 1,
                 .most = 1,
                 .low = 1.0,
@@ -218,39 +219,39 @@ constexpr std::array kForms = {
     CommandForm{.verb = Verb::wait,
                 .word = "wait",
                 .arguments = "",
-                .meaning = "let it follow until it is at rest"},
+                .meaning = "update the light until it has converged"},
     CommandForm{.verb = Verb::picture,
                 .word = "picture",
                 .arguments = "FILE.png",
-                .meaning = "write what is to be seen",
+                .meaning = "write the image",
                 .takes = ArgumentKind::png},
     CommandForm{.verb = Verb::state,
                 .word = "state",
                 .arguments = "FILE.json",
-                .meaning = "write light, camera, what is picked, and what frames cost",
+                .meaning = "write light, camera, picked object and frame times",
                 .takes = ArgumentKind::json},
     CommandForm{.verb = Verb::window,
                 .word = "window",
                 .arguments = "FILE.png",
-                .meaning = "write what the window shows, its panel included",
+                .meaning = "write the image of the window with its panel",
                 .takes = ArgumentKind::png},
     CommandForm{.verb = Verb::save,
                 .word = "save",
                 .arguments = "FOLDER",
-                .meaning = "bake the scene as it stands now into this folder, at once",
+                .meaning = "bake the current scene into this folder",
                 .takes = ArgumentKind::folder},
     CommandForm{.verb = Verb::quit,
                 .word = "quit",
                 .arguments = "",
-                .meaning = "end here; a window closes"},
+                .meaning = "end the script and close the window"},
 };
 
-/// The words of a line; those in quotes may hold blanks. # begins what is not read.
+/// Splits a line into words; quoted words can contain blanks. # starts a comment.
 class Words {
 public:
     Words(std::string_view line, const std::string& place) : rest_(line), place_(place) {}
 
-    /// The next word, or false.
+    /// Reads the next word; false at the end.
     bool next(std::string& word)
     {
         const std::size_t first = rest_.find_first_not_of(" \t\r");
@@ -262,7 +263,7 @@ public:
             rest_.remove_prefix(1);
         const std::size_t last = is_quoted ? rest_.find('"') : rest_.find_first_of(" \t\r");
         if (is_quoted && last == rest_.npos)
-            throw Error(ErrorKind::input, place_, "has a quote that does not end");
+            throw Error(ErrorKind::input, place_, "has an unterminated quote");
         word = rest_.substr(0, last);
         rest_.remove_prefix(std::min(last == rest_.npos ? last : last + 1, rest_.size()));
         return true;
@@ -276,7 +277,7 @@ private:
 bool fits(const CommandForm& form, const std::vector<double>& numbers)
 {
     const std::size_t count = numbers.size();
-    const bool colour_or_factor = form.high == kBright;  // one number for three that are alike
+    const bool colour_or_factor = form.high == kBright;  // one number for three equal ones
     return count >= form.least && count <= form.most && !(colour_or_factor && count == 2) &&
            std::all_of(numbers.begin(), numbers.end(), [&](double number) {
                return number >= form.low && number <= form.high &&
@@ -284,7 +285,7 @@ bool fits(const CommandForm& form, const std::vector<double>& numbers)
            });
 }
 
-/// The numbers of "X,Y,Z"; empty if they are not those that the command takes.
+/// The numbers of "X,Y,Z"; empty if the command does not accept them.
 std::vector<double> numbers_of(const CommandForm& form, std::string_view text)
 {
     std::vector<double> numbers;
@@ -335,7 +336,7 @@ bool is_word_for(const CommandForm& form, const std::string& word)
     return false;
 }
 
-/// Takes what follows the command's own word. False if that does not fit.
+/// Parses the arguments of a command. Returns false if they are invalid.
 bool take(ScriptCommand& command, const std::vector<std::string>& words)
 {
     const CommandForm& form = *command.form;
@@ -372,7 +373,7 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
     ScriptCommand command{.form = form_of(word), .line = line};
     if (command.form == nullptr)
         throw Error(ErrorKind::input, place,
-                    lumel::quoted(word) + " is no command; lumel view --help lists them");
+                    lumel::quoted(word) + " is not a command; lumel view --help lists them");
     std::vector<std::string> words;
     for (std::string next; rest.next(next);)
         words.push_back(next);
@@ -390,7 +391,7 @@ ScriptCommand read_command(const std::string& word, Words& rest, int line, const
                             given.empty() ? std::string("nothing") : lumel::quoted(given)));
 }
 
-/// Of a script that has no line twice the same file.
+/// Throws if a script writes a file twice.
 void check_files(const std::vector<ScriptCommand>& commands, const std::string& place)
 {
     std::vector<std::string> files;
@@ -401,7 +402,7 @@ void check_files(const std::vector<ScriptCommand>& commands, const std::string& 
             continue;
         if (std::find(files.begin(), files.end(), command.text) != files.end())
             throw Error(ErrorKind::input, place_of(place, command.line),
-                        lumel::quoted(command.text) + " is written already");
+                        lumel::quoted(command.text) + " is written twice");
         files.push_back(command.text);
     }
 }

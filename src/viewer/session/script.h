@@ -1,5 +1,5 @@
 #pragma once
-// A list of what a hand would do to a scene, a command a line.
+// Scripts of viewer commands, one per line.
 
 #include <span>
 #include <string>
@@ -44,49 +44,49 @@ enum class Verb {
     quit,
 };
 
-/// What a command takes: first a word, if it takes one, then numbers as one word.
+/// Arguments of a command: first a word, if it takes one, then numbers as one word.
 enum class ArgumentKind {
     none,
-    name,             ///< of something in the scene
-    name_or_numbers,  ///< one of the two
+    name,             ///< name of an object in the scene
+    name_or_numbers,  ///< either
     automatic,        ///< "auto", or the numbers
     off,              ///< "off", or the numbers
     mode,             ///< "lit", "irradiance", "lumels", "links" or "error"
     light,            ///< "links" or "solved"
     method,           ///< a method, and then options with their values
-    png,              ///< name of a file
+    png,              ///< file name
     json,
-    folder,  ///< its name
+    folder,  ///< folder name
 };
 
 struct CommandForm {
     Verb verb;
     const char *word, *arguments, *meaning;
     ArgumentKind takes = ArgumentKind::none;
-    std::size_t least = 0, most = 0;  ///< numbers; 1 and 3: one or the other
-    double low = 0.0, high = 0.0;     ///< of numbers
-    bool whole = false;               ///< numbers have no decimals
+    std::size_t least = 0, most = 0;  ///< count of numbers; 1 and 3: either
+    double low = 0.0, high = 0.0;     ///< range of numbers
+    bool whole = false;               ///< numbers are integers
 };
 
-/// All commands, in the order in which help lists them.
+/// All commands, in the order of the help.
 std::span<const CommandForm> command_forms();
 
 struct ScriptCommand {
     const CommandForm* form;
-    int line;                     ///< from 1; 0: of --solver
+    int line;                     ///< from 1; 0: --solver
     std::string text;             ///< the word
-    std::vector<double> numbers;  ///< empty where the word stands for them
-    SolverOptions solver = {};    ///< of ArgumentKind::method
+    std::vector<double> numbers;  ///< empty if replaced by the word
+    SolverOptions solver = {};    ///< for ArgumentKind::method
 };
 
-/// `place`: the file's name, for messages. Throws Error{input} with "place:line" for what is no
-/// command, or writes a file twice.
+/// place: file name for messages. Throws Error{input} with "place:line" for unknown commands, and
+/// for files written twice.
 std::vector<ScriptCommand> read_script(std::string_view text, const std::string& place);
 
-/// The command that solves by a method, as the line 0 of a script.
+/// The command that solves by a method, as line 0 of a script.
 ScriptCommand solve_command(const SolverOptions& solver);
 
-/// A line of the script, as messages name it; line 0 is --solver.
+/// A line of the script for messages; line 0 is --solver.
 std::string place_of(const std::string& place, int line);
 
 }  // namespace lumel

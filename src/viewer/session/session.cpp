@@ -16,8 +16,8 @@
 namespace lumel {
 namespace {
 
-/// Where deleted things are put, counted in diagonals of the scene: far enough to be of no weight
-/// (a form factor of 1e-6), near enough for floats.
+/// Distance of deleted objects, in diagonals of the scene: far enough to be negligible (a form
+/// factor of 1e-6), near enough for floats.
 constexpr float kAway = 1000.0f;
 
 LumelScene laid_out(const Scene& scene, const Animation& animation,
@@ -53,7 +53,7 @@ std::vector<ViewLamp> find_lamps(const Scene& scene)
     return lamps;
 }
 
-/// The sun of the options is the last of the lights.
+/// The options' sun is the last light.
 std::optional<std::uint32_t> find_sun(const Scene& scene, const LightOptions& options)
 {
     if (options.sun && options.sun->elevation > 0.0)
@@ -64,7 +64,7 @@ std::optional<std::uint32_t> find_sun(const Scene& scene, const LightOptions& op
     return std::nullopt;
 }
 
-/// Around what a thing is made of, where the scene has it now.
+/// Bounds of an object in the scene's current state.
 std::pair<glm::vec3, glm::vec3> bounds_of(const Scene& scene, const MovableObject& thing)
 {
     auto [low, high] = bounds_of(scene, thing.instances.front());
@@ -139,7 +139,7 @@ std::optional<std::uint32_t> ViewSession::object_of(std::uint32_t instance) cons
     return std::nullopt;
 }
 
-/// Through a place of the picture, (0, 0) at its top left.
+/// The surface at a position of the image, (0, 0) at its top left.
 std::optional<Picked> ViewSession::seen_at(const glm::vec2& place)
 {
     const Ray ray = ray_through(camera_.view(), place);
@@ -214,12 +214,12 @@ MovableObject& ViewSession::picked_thing()
         throw Error(ErrorKind::input, "", "nothing is picked");
     if (!picked_->thing)
         throw Error(ErrorKind::input, "",
-                    fmt::format("\"{0}\" stays where it is; --movable \"{0}\" makes it a thing",
+                    fmt::format("\"{0}\" is not movable; add --movable \"{0}\"",
                                 shown_.instances[picked_->instance].name));
     return things_[*picked_->thing];
 }
 
-/// Where it is to be: the picture shows it there at once, and the light follows.
+/// Applies an object's transform: images show it at once, the light follows.
 void ViewSession::put(std::uint32_t number)
 {
     const MovableObject& thing = things_[number];
@@ -268,7 +268,7 @@ void ViewSession::remove()
     probe_.reset();
 }
 
-/// Pictures are without it from now on.
+/// Removes an object from images.
 void ViewSession::hide(std::uint32_t thing)
 {
     const auto is_gone = [&](const Surface& surface) {
@@ -280,7 +280,7 @@ void ViewSession::hide(std::uint32_t thing)
         preview_->show(shown_, drawn_);
 }
 
-/// What a lamp is of what the scene has.
+/// A lamp's current factor relative to the scene.
 glm::vec3 ViewSession::factor_of(const ViewLamp& lamp) const
 {
     if (!lamp.is_light)
@@ -347,7 +347,7 @@ void ViewSession::set_sky(const glm::vec3& factor)
     note_edit();
 }
 
-/// A clear sky that came with the sun is that of where it stands now.
+/// A clear sky added with the sun follows its current position.
 void ViewSession::place_sky()
 {
     const LightOptions& lights = options_.lights;
@@ -378,7 +378,7 @@ void ViewSession::turn_sky(double angle)
 void ViewSession::set_sun(const SunPosition& sun)
 {
     if (!sun_light_)
-        throw Error(ErrorKind::input, "", "there is no sun; --sun AZIMUTH,ELEVATION gives one");
+        throw Error(ErrorKind::input, "", "there is no sun; use --sun AZIMUTH,ELEVATION");
     const bool is_ours = options_.lights.sun && options_.lights.sun->elevation > 0.0;
     sun_ = sun;
     SunPosition placed = sun;

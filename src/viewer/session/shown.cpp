@@ -1,4 +1,4 @@
-// What a session shows: light as it is seen, in false colours, and the lumels.
+// Images of a session: lit, in false colours, and the lumels.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@
 namespace lumel {
 namespace {
 
-/// Lumels of a chart are lighter and darker fields of its colour.
+/// Brightness of dark fields of a chart's checkerboard.
 constexpr float kDarkField = 0.7f;
 constexpr float kPercent = 100.0f;
-constexpr float kGoldenTurn = 0.618034f;  ///< of the circle of hues, from chart to chart
+constexpr float kGoldenTurn = 0.618034f;  ///< step in the circle of hues between charts
 
-/// A colour of its own for each number, as bright as the others.
+/// A distinct colour for each number, of equal brightness.
 glm::vec3 colour_of(std::uint32_t number)
 {
     const float hue = 6.0f * std::fmod(kGoldenTurn * float(number), 1.0f);
@@ -30,7 +30,7 @@ glm::vec3 colour_of(std::uint32_t number)
     return glm::mix(glm::vec3(0.5f), pure, 0.6f);
 }
 
-/// The map of an atlas: charts in their colours, lumels as the fields of a board.
+/// Map of an atlas: charts in their colours, lumels as a checkerboard.
 Image board(const Lumels& lumels)
 {
     Image map(lumels.width, lumels.height, 4);
@@ -47,14 +47,14 @@ Image board(const Lumels& lumels)
     return map;
 }
 
-/// Of one channel each pixel, less than 0 where nothing is.
+/// One channel per pixel, < 0 without a surface.
 Image luminances(const Image& image)
 {
     Image one(image.width, image.height, 1);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const float* const pixel = image.at(x, y);
-            // A pixel at a border is the mean of what is there and of nothing.
+            // A pixel at a border averages surface and nothing: divides by alpha.
             *one.at(x, y) =
                 pixel[3] > 0.0f
                     ? float(luminance({pixel[0], pixel[1], pixel[2]}) / double(pixel[3]))
@@ -73,7 +73,7 @@ void FrameCosts::add(double ms)
     all_ms += ms;
 }
 
-/// What was solved stands in the place of links until the scene changes.
+/// Discards solved light, as the scene has changed.
 void ViewSession::note_edit()
 {
     ++edits_;
@@ -94,7 +94,7 @@ bool ViewSession::take_solved(SolvedLight light, std::uint64_t edits)
 void ViewSession::show_solved(bool solved)
 {
     if (solved && !solved_)
-        throw Error(ErrorKind::input, "", "nothing is solved of the scene as it stands but links");
+        throw Error(ErrorKind::input, "", "the current scene has no solved light");
     shows_solved_ = solved;
 }
 
@@ -110,7 +110,7 @@ const std::vector<glm::vec3>& ViewSession::irradiance_of(Seen& seen)
     return seen.irradiance;
 }
 
-/// Things that were moved may bury lumels, or no longer.
+/// Moved objects can bury lumels, or uncover them.
 Lumels ViewSession::lumels_of_solved() const
 {
     Lumels lumels = live_.lumels();
@@ -173,7 +173,7 @@ const std::vector<float>& ViewSession::error_estimate()
     return percent;
 }
 
-/// Of surfaces whose sides share their texels it shows the side that light shows.
+/// For surfaces whose sides share texels, uses the displayed side.
 Image ViewSession::error_map()
 {
     std::vector<glm::vec3> layer;
@@ -220,7 +220,7 @@ Image ViewSession::picture(Legend legend)
     return picture;
 }
 
-/// A map in false colours; unit: as its legend writes it.
+/// A map in false colours. unit: for the legend.
 Image ViewSession::coloured(const Image& map, const LuxScale& scale, const char* unit,
                             Legend legend)
 {

@@ -11,9 +11,9 @@ namespace lumel {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr double kMaxShots = 1e15;  ///< that a double still counts one by one
+constexpr double kMaxShots = 1e15;  ///< largest count without gaps in doubles
 
-/// A limit of a solve, which no method's table has.
+/// A limit of a solve, common to all methods.
 struct Limit {
     const char *name, *range;
     bool whole;
@@ -32,7 +32,7 @@ constexpr std::array kLimits = {
           [](SolverOptions& options, double value) { options.max_seconds = value; }},
 };
 
-/// False if it is no limit.
+/// Returns false if it is not a limit.
 bool take_limit(SolverOptions& options, const std::string& name, const std::string& text)
 {
     for (const Limit& limit : kLimits) {
@@ -54,13 +54,13 @@ SolverOptions order_of(std::span<const std::string> words)
 {
     GivenMethod given;
     given.id = words.empty() ? std::string() : words.front();
-    method_of(given.id);  // or it throws, and lists them
+    method_of(given.id);  // throws for an unknown name, and lists the methods
     SolverOptions options;
     options.target_error = 0.0;
     for (std::size_t w = 1; w < words.size(); w += 2) {
         const std::string& word = words[w];
         if (!word.starts_with("--"))
-            throw Error(ErrorKind::input, word, "is no option; options begin with --");
+            throw Error(ErrorKind::input, word, "is not an option; options begin with --");
         if (w + 1 == words.size())
             throw Error(ErrorKind::input, word, "needs a value");
         if (const std::string name = word.substr(2); !take_limit(options, name, words[w + 1]))

@@ -1,5 +1,5 @@
 #pragma once
-// What method is to light the scene as it stands, as words say it.
+// Parses a method and its options from words.
 
 #include <span>
 #include <string>
@@ -9,7 +9,7 @@
 namespace lumel {
 
 /// "progressive", "--batch", "4", "--error", "1": a method, then its options and limits as on the
-/// command line. Throws Error{input} with the place of these words.
+/// command line. Throws Error{input} with `place`, the location of the words.
 SolverOptions solve_order(std::span<const std::string> words, const std::string& place);
 
 }  // namespace lumel

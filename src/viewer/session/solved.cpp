@@ -17,7 +17,7 @@
 namespace lumel {
 namespace {
 
-/// The light of each of the session's lumels, which has the same texel and side.
+/// Assigns light to the session's lumels by texel and side.
 void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
             const std::vector<glm::vec3>& irradiance)
 {
@@ -36,13 +36,13 @@ void assign(SolvedLight& light, const Lumels& own, const Lumels& solved,
 
 }  // namespace
 
-/// Materials are read again for methods that know gloss, which links do not.
+/// Rereads materials for methods that support gloss, which links do not.
 StandingScene ViewSession::standing(MaterialModel model) const
 {
     Scene scene = model == shown_.model ? shown_ : read_gltf(shown_.path, model);
     if (scene.instances.size() != shown_.instances.size() ||
         scene.materials.size() != shown_.materials.size())
-        throw Error(ErrorKind::input, shown_.path, "is another scene than when it was opened");
+        throw Error(ErrorKind::input, shown_.path, "has changed since it was opened");
     std::vector<char> deleted(shown_.instances.size(), 0);
     for (const MovableObject& thing : things_)
         for (const std::uint32_t instance : thing.instances)
@@ -67,7 +67,7 @@ StandingScene ViewSession::standing(MaterialModel model) const
 SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, const Lumels& lumels,
                            const SolverOptions& solver, const ProgressFunction& progress)
 {
-    const LogCapture silent;  // what the scene's reader said was told before
+    const LogCapture silent;  // the reader's warnings were shown before
     BakeOptions options;
     options.solver = solver;
     Stages stages(progress);
@@ -135,8 +135,8 @@ SolvedLight SolveAside::take()
     } catch (const Error& error) {
         if (error.kind() != ErrorKind::stopped)
             throw;
-        throw Error(ErrorKind::stopped, "", "solving was stopped before there was any light");
-    } catch (const std::exception& error) {  // no memory, for one: what is shown goes on
+        throw Error(ErrorKind::stopped, "", "solving was stopped before the first result");
+    } catch (const std::exception& error) {  // such as out of memory: the display goes on
         throw Error(ErrorKind::device, "",
                     fmt::format("solving by {} failed: {}; a smaller atlas needs less memory",
                                 method_of(options_.method).id, error.what()));

@@ -1,5 +1,5 @@
 #pragma once
-// The scene as it stands, lit by another method than the links that are kept.
+// The current scene, lit by a method other than links.
 
 #include <atomic>
 #include <chrono>
@@ -15,7 +15,7 @@ namespace lumel {
 
 class ViewSession;
 
-/// A scene as it stands, and its atlas, both without what is deleted.
+/// The current scene and its atlas, both without deleted objects.
 struct StandingScene {
     Scene scene;
     Atlas atlas;
@@ -24,14 +24,14 @@ struct StandingScene {
 /// Light at the lumels of a session, by a method of methods/methods.h.
 struct SolvedLight {
     SolverOptions options;
-    std::vector<glm::vec3> irradiance;  ///< [N] [lx]; 0 of what is deleted
-    /// [N] Lies under or in something, where things stand now. What may move buries nothing of the
-    /// session's own light.
+    std::vector<glm::vec3> irradiance;  ///< [N] [lx]; 0 for deleted objects
+    /// [N] 1: under or inside an object at its current position. In the session's own light,
+    /// movable objects bury nothing.
     std::vector<char> buried;
     std::uint64_t shots = 0;
-    double error = -1.0;   ///< that the method states, as a part of the mean; < 0: it states none
-    double seconds = 0.0;  ///< that it took, in all
-    bool stopped = false;  ///< before its end
+    double error = -1.0;   ///< relative, estimated by the method; < 0: unknown
+    double seconds = 0.0;  ///< total
+    bool stopped = false;  ///< by the user
     std::vector<std::string> warnings;
 };
 
@@ -39,26 +39,26 @@ struct SolvedLight {
 SolvedLight solve_standing(const gpu::Device& device, StandingScene standing, const Lumels& lumels,
                            const SolverOptions& options, const ProgressFunction& progress = {});
 
-/// The same on a thread of its own, by a device of its own, while the session goes on. It lights
-/// the scene as it stood in the beginning.
+/// Solves in a separate thread with its own device, while the session continues. Lights the scene
+/// as it was at the start.
 class SolveAside {
 public:
-    /// The session must outlive it. Throws Error.
+    /// The session must outlive this. Throws Error.
     SolveAside(const ViewSession& session, const SolverOptions& options);
-    /// Stops it.
+    /// Stops the solve.
     ~SolveAside();
     SolveAside(const SolveAside&) = delete;
     SolveAside& operator=(const SolveAside&) = delete;
 
-    /// Waits for so long, or until it has ended.
+    /// Waits for at most `wait`. Returns true if the solve has ended.
     bool has_ended(std::chrono::milliseconds wait) const;
     BakeProgress progress() const;
     const SolverOptions& options() const { return options_; }
-    /// Ends with the light that there is then, if there is any.
+    /// Ends the solve with its current light, if there is any.
     void stop() { stop_ = true; }
-    /// Waits for the end. Throws Error of what could not be solved, once.
+    /// Waits for the end. Throws the solve's Error, once.
     SolvedLight take();
-    /// ViewSession::edits() when it began.
+    /// ViewSession::edits() at the start.
     std::uint64_t edits() const { return edits_; }
 
 private:

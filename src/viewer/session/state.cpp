@@ -46,13 +46,13 @@ Json costs_of(const FrameCosts& costs)
             {"mean_ms", costs.all_ms / double(std::max(costs.frames, 1))}};
 }
 
-/// None is less than 0.
+/// Null for negative values.
 Json percent_of(double percent)
 {
     return percent < 0.0 ? Json(nullptr) : Json(percent);
 }
 
-/// What is not settled, as a mean over lumels.
+/// Mean estimated error over lumels.
 Json error_of(ViewSession& session)
 {
     const std::vector<float>& percent = session.error_estimate();
@@ -62,7 +62,7 @@ Json error_of(ViewSession& session)
             {"scale_percent", Json::array({scale.low, scale.high})}};
 }
 
-/// Light probes as they are shown.
+/// Displayed light probes.
 Json probes_of(ViewSession& session)
 {
     if (!(session.probe_spacing() > 0.0))
@@ -75,7 +75,7 @@ Json probes_of(ViewSession& session)
     return {{"spacing_m", session.probe_spacing()}, {"probes", probes}};
 }
 
-/// What was solved of the scene as it stands.
+/// Solved light of the current scene.
 Json solved_of(ViewSession& session)
 {
     const SolvedLight* solved = session.solved();
@@ -135,7 +135,7 @@ Json pixel_of(ViewSession& session)
     return json;
 }
 
-/// What lights the lumel that is picked: parts of what its links bring, by name.
+/// Contributors to the picked lumel's light: fractions by name.
 Json links_of(ViewSession& session)
 {
     const std::vector<ViewLink> links = session.links();

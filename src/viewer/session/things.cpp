@@ -8,17 +8,16 @@
 namespace lumel {
 namespace {
 
-/// Diagonal of the largest box that still counts as a thing, as a part of the scene's: walls of
-/// rooms are larger.
+/// Maximum diagonal of a movable object's bounds, relative to the scene: walls of rooms are larger.
 constexpr float kSmall = 0.5f;
-constexpr std::size_t kMaxThings = 64;  ///< a ray looks at the box of each
+constexpr std::size_t kMaxThings = 64;  ///< each ray tests the bounds of all
 
 struct Sized {
     std::uint32_t instance;
     float diagonal;
 };
 
-/// All instances that have triangles, and the diagonal of the scene.
+/// All instances with triangles, and the diagonal of the scene.
 std::pair<std::vector<Sized>, float> sizes(const Scene& scene)
 {
     constexpr float kFar = std::numeric_limits<float>::max();
@@ -56,7 +55,7 @@ std::vector<std::uint32_t> named_ones(const Scene& scene, const std::vector<std:
 {
     std::vector<std::uint32_t> instances;
     for (const std::string& name : names) {
-        find_instance(scene, name);  // or it throws
+        find_instance(scene, name);  // throws if there is none
         for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
             if (scene.instances[i].name == name)
                 instances.push_back(i);

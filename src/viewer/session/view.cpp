@@ -14,7 +14,7 @@
 namespace lumel {
 namespace {
 
-/// The animation of a file, if the script comes to it.
+/// The animation of a file, if the script uses it.
 Animation animation_for(const std::vector<ScriptCommand>& script, const ScriptRun& run,
                         const SessionOptions& options)
 {

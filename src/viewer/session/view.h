@@ -1,5 +1,5 @@
 #pragma once
-// lumel view --headless: a script played on a scene that is kept lit.
+// lumel view --headless: plays a script on an interactive session.
 
 #include <cstdint>
 #include <string>
@@ -13,32 +13,31 @@ namespace lumel {
 struct ScriptRun {
     std::string scene;   ///< .gltf or .glb
     std::string script;  ///< file of commands, see script.h
-    std::string folder;  ///< of the files that it writes
+    std::string folder;  ///< target of its files
 };
 
 struct ViewSummary {
-    int frames = 0;                  ///< in which light followed
+    int frames = 0;                  ///< with light updates
     std::vector<std::string> files;  ///< written
-    double seconds = 0.0;            ///< in all
-    std::string report;              ///< JSON: these, and the state at the end
+    double seconds = 0.0;            ///< total
+    std::string report;              ///< JSON: these, and the final state
 };
 
-/// Plays the whole script, then puts its files in place; none of them if `progress` returns false
-/// before, or anything is wrong. Throws Error; of a command that cannot be done with "script:line".
+/// Plays the whole script, then commits its files; none if `progress` returns false before, or on
+/// error. Throws Error, with "script:line" for a command that fails.
 ViewSummary play_script(const ScriptRun& run, const SessionOptions& options,
                         const ProgressFunction& progress = {});
 
-/// What is to be said of a session at its end.
 ViewSummary summary_of(const std::string& scene, ViewSession& session,
                        const std::vector<std::string>& files, double seconds);
 
-/// The Error{stopped} of a script that did not come to its end.
+/// Throws Error{stopped} for a script that did not end.
 [[noreturn]] void throw_stopped_script();
 
-/// Of the camera of that index; of the first, or one that is chosen, for -1.
+/// View of this camera; for -1 of the first, or a generated one.
 View first_view(const Scene& scene, int camera);
 
-/// The scene with the lights of the options, as its animation begins.
+/// The scene with the options' lights, at the start of its animation.
 Scene scene_to_view(const std::string& path, const Animation& animation,
                     const SessionOptions& options);
 

@@ -13,33 +13,33 @@
 namespace lumel {
 namespace {
 
-constexpr float kLook = 0.2f, kOrbit = 0.4f;  ///< angle for a pixel of the mouse [degrees]
-constexpr float kTurn = 15.0f;                ///< angle for a key [degrees]
-constexpr float kGaze = 60.0f;                ///< angle for a second of a key [degrees]
-constexpr float kWheel = 0.2f;                ///< seconds of a walk for a notch
-constexpr float kKeyPress = 0.1f;             ///< seconds of a walk for a key that is only touched
-constexpr float kClick = 4.0f;                ///< a mouse that moved farther drags [pixels]
-constexpr float kStop = 0.5f;                 ///< of exposure, for a key
-constexpr float kFarthest = 1e3f;             ///< a thing is not moved farther, in strides
+constexpr float kLook = 0.2f, kOrbit = 0.4f;  ///< degrees per pixel of mouse movement
+constexpr float kTurn = 15.0f;                ///< degrees per key press
+constexpr float kGaze = 60.0f;                ///< degrees per second while a key is down
+constexpr float kWheel = 0.2f;                ///< seconds of walking per wheel notch
+constexpr float kKeyPress = 0.1f;             ///< minimum seconds of walking per key press
+constexpr float kClick = 4.0f;                ///< mouse movement that starts a drag [pixels]
+constexpr float kStop = 0.5f;                 ///< exposure stops per key press
+constexpr float kFarthest = 1e3f;             ///< maximum distance of a moved object, in strides
 
 constexpr std::array kHelp = {
     KeyHelp{"W A S D", "walk"},
     KeyHelp{"E Q", "walk up, down"},
     KeyHelp{"arrows", "look around"},
-    KeyHelp{"drag left", "look around; on what is picked: move it along the floor"},
-    KeyHelp{"Shift drag left", "move it upright, as it faces you"},
-    KeyHelp{"drag right", "orbit around what is picked"},
-    KeyHelp{"wheel", "walk to where you look"},
-    KeyHelp{"click", "pick what is under the mouse"},
-    KeyHelp{"R T", "turn what is picked"},
-    KeyHelp{"Delete", "take it out of the scene"},
-    KeyHelp{"Esc", "pick nothing"},
+    KeyHelp{"drag left", "look around; on the picked object: move it along the floor"},
+    KeyHelp{"Shift drag left", "move it in the plane that faces you"},
+    KeyHelp{"drag right", "orbit the picked object"},
+    KeyHelp{"wheel", "walk forward or back"},
+    KeyHelp{"click", "pick the object under the mouse"},
+    KeyHelp{"R T", "rotate the picked object"},
+    KeyHelp{"Delete", "delete it from the scene"},
+    KeyHelp{"Esc", "unpick"},
     KeyHelp{"M", "next mode: light, lux, lumels, links, error"},
-    KeyHelp{"L", "light of links, or what was solved by another method"},
-    KeyHelp{"+ -", "expose more, less"},
+    KeyHelp{"L", "light of links, or of the last solve"},
+    KeyHelp{"+ -", "more, less exposure"},
     KeyHelp{"X", "automatic exposure on, off"},
-    KeyHelp{"Space", "play or stop the animation"},
-    KeyHelp{"N", "solve the light anew, with the options of the panel"},
+    KeyHelp{"Space", "play or pause the animation"},
+    KeyHelp{"N", "solve again, with the options of the panel"},
     KeyHelp{"P", "write picture-N.png"},
     KeyHelp{"Ctrl S", "save as a bake"},
     KeyHelp{"Tab", "panel on, off"},
@@ -63,7 +63,7 @@ void next_mode(ViewSession& session)
     session.set_mode(ViewMode((int(session.mode()) + 1) % kViewModes));
 }
 
-/// Keys that walk while they are down: forward, to the right, up.
+/// Walking keys: forward, right, up.
 struct WalkKey {
     int key;
     glm::vec3 steps;
@@ -74,7 +74,7 @@ constexpr std::array kWalk = {
     WalkKey{GLFW_KEY_E, {0.0f, 0.0f, 1.0f}}, WalkKey{GLFW_KEY_Q, {0.0f, 0.0f, -1.0f}},
 };
 
-/// To the left and up.
+/// Left and up.
 struct GazeKey {
     int key;
     glm::vec2 turn;
@@ -86,8 +86,8 @@ constexpr std::array kGazes = {
     GazeKey{GLFW_KEY_DOWN, {0.0f, -1.0f}},
 };
 
-/// Since the last frame [s] that a key is down; a touch counts for kKeyPress at least, however
-/// short the frame is.
+/// Time that a key was down in the last frame [s]; a press counts for at least kKeyPress, however
+/// short the frame.
 float time_of(int key, const Screen& screen, const UiState& desk)
 {
     const std::vector<KeyPress>& pressed = screen.pressed();
@@ -225,7 +225,7 @@ void Controls::mouse(ViewSession& session, UiState& desk)
     }
 }
 
-/// What a mouse that has moved far enough since it was pressed is to do.
+/// The action of a mouse that has moved far enough since it was pressed.
 Controls::Drag Controls::begin_drag(ViewSession& session, const UiState& desk)
 {
     if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, kClick))
@@ -256,7 +256,7 @@ void Controls::drag(ViewSession& session, UiState& desk)
         session.orbit(-step * way.x, step * way.y);
 }
 
-/// To where the mouse points in the plane that it was gripped in.
+/// Moves the object to the mouse position in the plane of the grip.
 void Controls::move_thing(ViewSession& session, const UiState& desk)
 {
     const glm::vec3 up(0.0f, 1.0f, 0.0f), to = session.camera().forward();

@@ -18,8 +18,7 @@ std::span<const KeyHelp> key_help();
 
 class Controls {
 public:
-    /// Does what mouse and keys ask for, since the frame before. While a widget has them it is left
-    /// to the widget.
+    /// Executes mouse and key input since the last frame, except input to widgets.
     void act(ViewSession& session, UiState& desk, Screen& screen);
 
 private:
@@ -33,7 +32,7 @@ private:
     void move_thing(ViewSession& session, const UiState& desk);
 
     Drag drag_ = Drag::none;
-    glm::vec3 grip_{0.0f};  ///< point of the thing under the mouse [m]
+    glm::vec3 grip_{0.0f};  ///< point of the object under the mouse [m]
 };
 
 }  // namespace lumel

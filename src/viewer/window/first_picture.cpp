@@ -10,7 +10,7 @@ namespace lumel {
 namespace {
 
 constexpr glm::vec3 kNothing{0.1f};
-constexpr float kEdge = 0.3f;  ///< brightness of a surface that is seen from its edge
+constexpr float kEdge = 0.3f;  ///< brightness of surfaces seen edge-on
 constexpr std::size_t kRows = 4;
 
 glm::vec3 colour_along(const Ray& ray, const RayScene& rays, const Surfaces& surfaces)

@@ -1,5 +1,5 @@
 #pragma once
-// What there is to see before there is light.
+// Unlit preview, shown until all links are traced.
 
 #include "base/core/image.h"
 #include "rays/cast/ray_scene.h"
@@ -7,8 +7,8 @@
 
 namespace lumel {
 
-/// The scene in the colours of its surfaces, brightest where they face the eye: by a ray for each
-/// pixel, on the host. Display-referred, 3 channels.
+/// The scene in its surface colours, brightest where surfaces face the eye: one ray per pixel, on
+/// the CPU. Display-referred, 3 channels.
 Image first_picture(const Scene& scene, const RayScene& rays, const View& view,
                     const glm::ivec2& size);
 

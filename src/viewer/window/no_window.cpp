@@ -1,4 +1,4 @@
-// Of a build without GLFW or Dear ImGui.
+// For builds without GLFW or Dear ImGui.
 
 #include "base/core/error.h"
 #include "viewer/window/window.h"
@@ -8,7 +8,7 @@ namespace lumel {
 ViewSummary show_window(const ScriptRun&, const SessionOptions&, const ProgressFunction&)
 {
     throw Error(ErrorKind::device, "lumel view",
-                "this build has no window, as GLFW or Dear ImGui was not there; --script FILE "
+                "this build has no window, as GLFW or Dear ImGui was missing; --script FILE "
                 "--headless works without one");
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/core/error.h"
 #include "base/core/luminance.h"
+#include "jobs/solve/stages.h"
 #include "viewer/window/controls.h"
 #include "viewer/window/solver_panel.h"
 #include "viewer/window/widgets.h"
@@ -19,22 +20,22 @@
 namespace lumel {
 namespace {
 
-constexpr float kBrightest = 4.0f;  ///< of a lamp's slider, times its own light
+constexpr float kBrightest = 4.0f;  ///< maximum of a lamp's slider, relative to the scene
 constexpr float kMinBudget = 1.0f, kMaxBudget = 100.0f;  ///< [ms]
-constexpr float kDarkest = 1e-6f, kLightest = 1e3f;      ///< exposure by hand
-constexpr float kDensest = 0.5f, kSparsest = 5.0f;       ///< grid of probes, in strides
+constexpr float kDarkest = 1e-6f, kLightest = 1e3f;      ///< range of manual exposure
+constexpr float kDensest = 0.5f, kSparsest = 5.0f;       ///< probe spacing, in strides
 constexpr float kTurnStep = 15.0f;                       ///< [degrees]
 constexpr float kLowestSun = -10.0f, kZenith = 90.0f, kHalfTurn = 180.0f;  ///< [degrees]
-/// Where and on which day the sun goes its way, where the options do not say.
+/// Location and date of the sun's path unless the options have them.
 constexpr double kLatitude = 50.0, kLongitude = 0.0;  ///< [degrees]
 constexpr const char* kDay = "2024-06-21T00:00:00Z";
 constexpr double kHour = 3600.0;  ///< [s]
 constexpr float kHours = 24.0f;
 
-/// Widgets leave room for their names.
+/// Widget width that leaves room for labels.
 constexpr float kNames = -90.0f;
 
-/// Brightness and colour of a factor. True if they were changed.
+/// Edits brightness and colour of a factor. Returns true on change.
 bool edit_factor(glm::vec3& factor)
 {
     float bright = std::max({factor.x, factor.y, factor.z});
@@ -62,7 +63,7 @@ bool show_lamps(ViewSession& session)
     return changed;
 }
 
-/// The sun on its way through a day, as seen from where the options say.
+/// The sun at an hour of the day, at the options' location.
 SunPosition sun_at(const ViewSession& session, float hour)
 {
     const auto& seen = session.options().lights.sun_seen;
@@ -122,7 +123,7 @@ bool show_time(ViewSession& session, UiState& desk)
 bool show_picked(ViewSession& session)
 {
     if (!session.picked()) {
-        text("click on the picture");
+        text("click an object to pick it");
         return false;
     }
     const Picked picked = *session.picked();
@@ -131,11 +132,10 @@ bool show_picked(ViewSession& session)
     wrapped(fmt::format("{} ({})", scene.instances[picked.instance].name, material.name));
     if (picked.lumel != kNoLumel) {
         const float percent = session.error_estimate()[picked.lumel];
-        text(fmt::format(
-            "{:.4g} lx, {}", luminance(session.irradiance()[picked.lumel]),
-            percent < 0.0f ? std::string("no error stated")
-                           : fmt::format("{:.2g} % {}", percent,
-                                         session.shows_solved() ? "of the mean" : "not settled")));
+        text(fmt::format("{:.4g} lx, error {}", luminance(session.irradiance()[picked.lumel]),
+                         percent < 0.0f ? "unknown"
+                                        : percent_text(double(percent) / 100.0) +
+                                              (session.shows_solved() ? " of the mean" : "")));
     }
     bool changed = false;
     glm::vec3 colour(material.base_color);
@@ -160,7 +160,7 @@ bool show_picked(ViewSession& session)
     return changed;
 }
 
-/// A grid of light probes, as dense as the scene is walked through in strides at first.
+/// Edits the grid of light probes; the initial spacing is a stride.
 bool show_probes(ViewSession& session, const UiState& desk)
 {
     auto spacing = float(session.probe_spacing());
@@ -194,11 +194,11 @@ bool show_mode(ViewSession& session, UiState& desk)
             changed = true;
         }
     }
-    changed |= ImGui::SliderInt("coarse", &desk.coarse, 1, 4);
+    changed |= ImGui::SliderInt("pixel size", &desk.coarse, 1, 4);
     return show_probes(session, desk) || changed;
 }
 
-/// The colours of a mode and what they stand for.
+/// Colour scale of a mode, with numbers.
 void show_scale(const LuxScale& scale, const char* unit)
 {
     constexpr int kSteps = 64;
@@ -218,7 +218,7 @@ void show_scale(const LuxScale& scale, const char* unit)
         const float y = bottom - kTall * float(scale.place_of(value));
         list.AddLine({at.x + kWide, y}, {at.x + kWide + kTick, y},
                      ImGui::GetColorU32(ImGuiCol_Text));
-        if (last - y < line)  // no room beside the number below
+        if (last - y < line)  // would overlap the number below
             continue;
         last = y;
         list.AddText({at.x + kWide + 2.0f * kTick, y - 0.5f * line},
@@ -240,16 +240,16 @@ void show_light(ViewSession& session, UiState& desk)
     const LiveLinksState& light = session.light().state();
     desk.changed |= show_whose_light(session);
     auto budget = float(session.budget());
-    if (ImGui::SliderFloat("budget", &budget, kMinBudget, kMaxBudget, "%.0f ms"))
+    if (ImGui::SliderFloat("light budget", &budget, kMinBudget, kMaxBudget, "%.0f ms"))
         session.set_budget(double(budget));
-    text(light.at_rest     ? "at rest"
-         : light.under_way ? "following what moved"
-         : light.weighing  ? "at rest, but for the filter"
-                           : fmt::format("{:.3g} % of light to come, {} sweeps",
-                                         100.0 * light.residual, light.sweeps));
-    text(fmt::format("{} lumels, {} links anew", session.light().lumels().lumels.size(),
+    text(light.at_rest     ? "converged"
+         : light.under_way ? "updating after a move"
+         : light.weighing
+             ? "converged; building filter"
+             : fmt::format("residual {}, {} sweeps", percent_text(light.residual), light.sweeps));
+    text(fmt::format("{} lumels, {} links retraced", session.light().lumels().lumels.size(),
                      light.found.links.all()));
-    wrapped(fmt::format("last frame: light {:.1f}, picture {:.1f}, window {:.1f} ms", desk.light_ms,
+    wrapped(fmt::format("last frame: light {:.1f}, image {:.1f}, window {:.1f} ms", desk.light_ms,
                         desk.picture_ms, desk.window_ms));
     wrapped(desk.draws);
 }

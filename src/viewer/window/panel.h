@@ -1,21 +1,21 @@
 #pragma once
-// The panel at the right of the window, and its help box.
+// The window's panel at the right, and its help box.
 
 #include "viewer/session/session.h"
 #include "viewer/window/ui_state.h"
 
 namespace lumel {
 
-/// Draws it, and does what it is asked for.
+/// Draws the panel, and applies its input.
 void show_panel(ViewSession& session, UiState& desk);
 
-/// The legend of false colours in a box that can be moved, for windows without a panel.
+/// Legend of false colours in a movable box, for windows without a panel.
 void show_legend(ViewSession& session);
 
-/// The box of keys, over the picture.
+/// Help on keys, over the image.
 void show_help(UiState& desk);
 
-/// A line at the bottom of the picture.
+/// A line at the bottom of the image.
 void show_line(const std::string& text, const UiState& desk);
 
 }  // namespace lumel

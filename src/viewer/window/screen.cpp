@@ -14,9 +14,9 @@
 namespace lumel {
 namespace {
 
-constexpr const char* kShaders = "#version 130";  ///< of OpenGL 3.0
+constexpr const char* kShaders = "#version 130";  ///< for OpenGL 3.0
 constexpr int kMajor = 3, kMinor = 0;
-constexpr glm::ivec2 kSmallest{200, 150};  ///< [pixels]
+constexpr glm::ivec2 kSmallest{200, 150};  ///< minimum window size [pixels]
 constexpr float kByte = 255.0f;
 
 [[noreturn]] void fail()
@@ -30,7 +30,7 @@ constexpr float kByte = 255.0f;
                     "); --script FILE --headless works without one");
 }
 
-/// A function of the driver, found at run time: lumel starts without libGL too.
+/// Loads a driver function at run time: lumel also starts without libGL.
 template <class Function>
 void find(Function& function, const char* name)
 {
@@ -39,7 +39,7 @@ void find(Function& function, const char* name)
         fail();
 }
 
-/// A key that is pressed and let go between two frames counts too.
+/// Also counts a key pressed and released between two frames.
 void on_key(GLFWwindow* window, int key, int, int action, int with)
 {
     if (action != GLFW_RELEASE)
@@ -87,7 +87,7 @@ Screen::Screen(const std::string& title, const glm::ivec2& size)
         throw;
     }
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // nothing is written beside the files asked for
+    ImGui::GetIO().IniFilename = nullptr;  // no files beside the requested ones
     ImGui::StyleColorsDark();
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
     ImGui_ImplOpenGL3_Init(kShaders);
@@ -102,7 +102,7 @@ void Screen::open(const std::string& title, const glm::ivec2& size)
         fail();
     glfwSetWindowSizeLimits(window_, kSmallest.x, kSmallest.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window_);
-    glfwSwapInterval(0);  // light has a budget of its own
+    glfwSwapInterval(0);  // light has its own time budget
     gl_ = std::make_unique<Gl>();
     const GLubyte* name = gl_->get_string(GL_RENDERER);
     draws_by_ = name ? reinterpret_cast<const char*>(name) : "OpenGL";
@@ -182,7 +182,7 @@ Image Screen::read() const
     gl_->pixel_store(GL_PACK_ALIGNMENT, 1);
     gl_->read_pixels(0, 0, all.x, all.y, GL_RGB, GL_UNSIGNED_BYTE, bytes.data());
     Image image(all.x, all.y, 3);
-    for (int y = 0; y < all.y; ++y)  // OpenGL begins at the bottom
+    for (int y = 0; y < all.y; ++y)  // OpenGL rows start at the bottom
         for (int k = 0; k < 3 * all.x; ++k)
             image.at(0, y)[k] =
                 float(bytes[std::size_t(all.y - 1 - y) * std::size_t(3 * all.x) + std::size_t(k)]) /

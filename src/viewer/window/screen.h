@@ -1,5 +1,5 @@
 #pragma once
-// A window on the display: GLFW gives it, Dear ImGui draws into it by OpenGL.
+// A window by GLFW, with Dear ImGui on OpenGL.
 
 #include <memory>
 #include <string>
@@ -13,16 +13,16 @@ struct GLFWwindow;
 
 namespace lumel {
 
-/// A key of GLFW that was pressed, or is down long enough to be pressed again.
+/// A GLFW key that was pressed, or repeated.
 struct KeyPress {
     int key;
     bool control;  ///< with Ctrl
-    bool again;    ///< it was down before
+    bool again;    ///< by key repeat
 };
 
 class Screen {
 public:
-    /// Throws Error{device} where there is no display, or no OpenGL.
+    /// Throws Error{device} without a display or OpenGL.
     Screen(const std::string& title, const glm::ivec2& size);
     ~Screen();
     Screen(const Screen&) = delete;
@@ -33,16 +33,16 @@ public:
     glm::ivec2 size() const;                                   ///< [pixels]
     const std::string& draws_by() const { return draws_by_; }  ///< OpenGL's name of the device
     const std::vector<KeyPress>& pressed() const { return pressed_; }  ///< since the last frame
-    bool holds(int key) const;                                         ///< is it down?
+    bool holds(int key) const;                                         ///< true while it is down
 
-    /// The picture that texture() shows from now on: display-referred, 3 or 4 channels.
+    /// Sets the image of texture(): display-referred, 3 or 4 channels.
     void take(const Image& picture);
     void* texture() const;
     const glm::ivec2& texture_size() const { return texture_size_; }
 
-    /// Takes what mouse and keys did, waiting up to so long for it [s]. Widgets may be drawn now.
+    /// Processes input, waiting at most `seconds` for it. Widgets can be drawn afterwards.
     void begin(double seconds);
-    /// Shows what was drawn. read: gives it too.
+    /// Presents the frame. read: also returns it.
     Image end(bool read);
 
 private:

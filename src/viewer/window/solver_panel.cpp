@@ -7,6 +7,7 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "jobs/solve/stages.h"
 #include "methods/methods.h"
 #include "viewer/window/widgets.h"
 
@@ -15,9 +16,8 @@ namespace {
 
 constexpr int kAtlasStep = 64, kMaxAtlas = 8192;      ///< [texels]
 constexpr float kMinError = 0.1f, kMaxError = 50.0f;  ///< [%]
-constexpr double kPercent = 100.0;
 
-/// An atlas of 0 is as dense as the options say.
+/// An atlas size of 0 uses the options' density.
 void show_links(UiState& desk)
 {
     constexpr std::array kRays = {4, 16, 64, 256};
@@ -28,10 +28,10 @@ void show_links(UiState& desk)
         desk.atlas = std::clamp(desk.atlas, 0, kMaxAtlas);
     if (ImGui::InputInt("seed", &desk.seed))
         desk.seed = std::max(desk.seed, 0);
-    desk.solve |= ImGui::Button("solve anew");
+    desk.solve |= ImGui::Button("solve again");
 }
 
-/// One of a few words. True if it is another one.
+/// Selects one of several words. Returns true on change.
 template <class Words>
 bool choose(const char* label, const Words& words, std::string& chosen)
 {
@@ -73,7 +73,7 @@ void show_option(const OptionInfo& option, GivenMethod& given, const std::string
         given.values[option.name] = value;
 }
 
-/// What does nothing beside the others is not shown.
+/// Hides options without effect.
 void show_options(GivenMethod& given)
 {
     const MethodInfo& method = method_of(given.id);
@@ -126,10 +126,9 @@ bool show_whose_light(ViewSession& session)
     const bool to_solved = ImGui::RadioButton(fmt::format("by {}", id).c_str(), solved) && !solved;
     wrapped(fmt::format(
         "{}{} took {:.1f} s, {}", id, light.stopped ? " (stopped early)" : "", light.seconds,
-        light.error < 0.0 ? std::string("states no error")
-                          : fmt::format("states an error of {:.2g} %", kPercent * light.error)));
+        light.error < 0.0 ? "error unknown" : "estimated error " + percent_text(light.error)));
     if (solved)
-        wrapped("links follow meanwhile; the next edit shows them");
+        wrapped("links are updated meanwhile; the next edit shows them");
     if (to_links || to_solved)
         session.show_solved(to_solved);
     return to_links || to_solved;

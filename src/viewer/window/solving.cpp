@@ -6,6 +6,7 @@
 
 #include "base/core/error.h"
 #include "base/core/log.h"
+#include "jobs/solve/stages.h"
 
 namespace lumel {
 namespace {
@@ -24,7 +25,7 @@ void Solving::take(ViewSession& session, UiState& desk)
 {
     const std::unique_ptr<SolveAside> ended = std::move(aside_);
     if (ended->edits() != session.edits()) {
-        desk.message = "the scene was changed: what was being solved is dropped";
+        desk.message = "the scene was changed: the solve is cancelled";
         return;
     }
     SolvedLight light = ended->take();
@@ -66,7 +67,7 @@ void note_progress(const SolveAside* solving, UiState& desk)
     if (now.shots > 0)
         desk.solving += fmt::format(", {} {}", now.shots, method.shots);
     if (now.error >= 0.0)
-        desk.solving += fmt::format(", error {:.2g} %", kPercent * now.error);
+        desk.solving += ", error " + percent_text(now.error);
 }
 
 }  // namespace lumel

@@ -10,13 +10,13 @@ namespace lumel {
 
 class Solving {
 public:
-    /// Of the scene as it stands now. The session must outlive it, or drop() be called. What was
-    /// solved before ends without light.
+    /// Solves the current scene. The session must outlive this, or drop() be called. Discards a
+    /// running solve.
     void begin(const ViewSession& session, const SolverOptions& options);
-    /// Begins and stops what the panel asks for, and shows light that is there. A scene that was
-    /// changed meanwhile ends it. Throws Error of what could not be solved.
+    /// Starts and stops as the panel requests, and displays finished light. An edit of the scene
+    /// ends the solve. Throws the solve's Error.
     void follow(ViewSession& session, UiState& desk);
-    /// Waits until nothing is solved any more.
+    /// Waits until no solve is running.
     void drop() { aside_.reset(); }
 
 private:
@@ -25,7 +25,7 @@ private:
     std::unique_ptr<SolveAside> aside_;
 };
 
-/// Writes down for the panel how far it is; nothing is solved if it is null.
+/// Copies the solve's progress to the panel; null: no solve is running.
 void note_progress(const SolveAside* solving, UiState& desk);
 
 }  // namespace lumel

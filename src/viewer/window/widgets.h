@@ -1,5 +1,5 @@
 #pragma once
-// What the parts of the panel share.
+// Widgets shared by parts of the panel.
 
 #include <string>
 

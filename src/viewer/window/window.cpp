@@ -34,11 +34,11 @@
 namespace lumel {
 namespace {
 
-constexpr double kIdle = 0.05;  ///< between looks at mouse and keys while nothing changes [s]
-constexpr double kBetweenNews = 200.0;  ///< of a bake that is saved [ms]
-constexpr double kLongest = 0.1;        ///< frame that keys and films are moved on for [s]
-constexpr float kStrides = 5.0f;        ///< in which the scene is walked through
-constexpr int kFirstCoarse = 4;         ///< side of a pixel of what is shown before there is light
+constexpr double kIdle = 0.05;          ///< between input checks while nothing changes [s]
+constexpr double kBetweenNews = 200.0;  ///< between progress updates of a bake [ms]
+constexpr double kLongest = 0.1;        ///< maximum frame time for keys and animation [s]
+constexpr float kStrides = 5.0f;        ///< strides across the scene
+constexpr int kFirstCoarse = 4;         ///< pixel size of the preview before there is light
 constexpr ImU32 kFrame = IM_COL32(0, 230, 255, 255);
 
 std::string title_of(const ScriptRun& run)
@@ -83,11 +83,11 @@ private:
     std::vector<ScriptCommand> script_;
     Animation animation_;
     Scene scene_;
-    View view_;  ///< before there is a session
+    View view_;  ///< until there is a session
     std::optional<gpu::Device> device_;
     Screen screen_;
     std::unique_ptr<ViewSession> session_;
-    std::optional<OutputFolder> output_;  ///< of the script, while it is played
+    std::optional<OutputFolder> output_;  ///< the script's, while it plays
     std::optional<ScriptPlayer> player_;
     std::vector<std::string> files_;
     Solving solving_;
@@ -99,7 +99,7 @@ private:
 
 glm::ivec2 first_size(const View& view, int width)
 {
-    constexpr int kMax = 16384;  // side of a picture [pixels]
+    constexpr int kMax = 16384;  // side of an image [pixels]
     return {width + kPanelWidth, picture_height(width, view.aspect, kMax)};
 }
 
@@ -126,7 +126,7 @@ ViewWindow::ViewWindow(const ScriptRun& run, const SessionOptions& options, Stag
     desk_.seed = int(options.seed);
     if (options.solver)
         desk_.method.id = method_of(options.solver->method).id;
-    desk_.draws = fmt::format("light and picture by {}, window by {}", device_->info().name,
+    desk_.draws = fmt::format("light and image by {}, window by {}", device_->info().name,
                               screen_.draws_by());
 }
 
@@ -140,7 +140,7 @@ void ViewWindow::lay_out()
     desk_.area = area;
 }
 
-/// Traces all links on a thread of its own; meanwhile the scene shows without light.
+/// Traces all links in a separate thread; meanwhile shows the unlit scene.
 void ViewWindow::wait_for_light()
 {
     stages_->begin("tracing");
@@ -159,8 +159,8 @@ void ViewWindow::wait_for_light()
             screen_.take(first_picture(scene_, rays, view,
                                        glm::max(desk_.area / kFirstCoarse, glm::ivec2(1))));
         desk_.changed = false;
-        desk_.message = fmt::format("{:.0f} s: rays of all lumels are traced, on {}",
-                                    ms_since(start) / 1000.0, device_->info().name);
+        desk_.message =
+            fmt::format("{:.0f} s: tracing the rays of all lumels", ms_since(start) / 1000.0);
         draw(kIdle, false);
         goes_on = goes_on && stages_->progress(0.0);
         if (!goes_on)
@@ -178,7 +178,7 @@ bool ViewWindow::is_busy() const
     return player_ || desk_.playing || desk_.changed || !session_->light().state().at_rest;
 }
 
-/// The film goes on by the clock, from its end to its beginning.
+/// Advances the animation by the clock, repeating it.
 void ViewWindow::play()
 {
     const double duration = animation_.duration;
@@ -190,7 +190,7 @@ void ViewWindow::play()
     desk_.changed = true;
 }
 
-/// A frame of light, and what the script does before it.
+/// Updates light by a frame, after the script's commands before it.
 void ViewWindow::step()
 {
     const std::uint64_t before = session_->light().state().all_sweeps;
@@ -209,11 +209,11 @@ void ViewWindow::step()
                      was_at_rest != session_->light().state().at_rest;
 }
 
-/// All links are traced again, with other options; what was done to the scene is kept.
+/// Retraces all links with other options; keeps edits.
 void ViewWindow::solve_anew()
 {
     if (player_)
-        throw Error(ErrorKind::input, "", "a script is played; light can be solved anew after it");
+        throw Error(ErrorKind::input, "", "wait for the end of the script to solve again");
     solving_.drop();
     const SessionOptions before = options_;
     options_.link_rays = std::uint32_t(desk_.rays);
@@ -273,7 +273,7 @@ void ViewWindow::show_picture() const
     list.PopClipRect();
 }
 
-/// The box of what is picked.
+/// Draws the bounds of the picked surface.
 void ViewWindow::show_frame() const
 {
     if (!session_ || !session_->picked() || session_->mode() == ViewMode::links)
@@ -300,7 +300,7 @@ void ViewWindow::show_frame() const
     list.PopClipRect();
 }
 
-/// A frame of the window; mouse and keys are followed once there is a session.
+/// Draws a frame of the window; processes input once there is a session.
 Image ViewWindow::draw(double wait, bool read)
 {
     screen_.begin(wait);
@@ -321,7 +321,7 @@ Image ViewWindow::draw(double wait, bool read)
     return screen_.end(read);
 }
 
-/// What the window shows of the session now. Widgets know their sizes in the second frame.
+/// Current image of the window. Widgets know their sizes in the second frame.
 Image ViewWindow::seen()
 {
     desk_.changed = true;
@@ -332,16 +332,16 @@ Image ViewWindow::seen()
 
 void ViewWindow::shoot()
 {
-    make_picture();  // the window may have another size by now
+    make_picture();  // the window size can have changed
     const std::string name = fmt::format("picture-{}.png", ++shots_);
     OutputFolder output(run_->folder);
     write_png(output.path(name), session_->picture());
     output.commit();
     files_.push_back(name);
-    desk_.message = name + " is written";
+    desk_.message = name + " written";
 }
 
-/// Light stands still meanwhile; the window shows how far the bake is. Ctrl-C ends it early.
+/// Saves a bake. Light pauses meanwhile; the window shows progress. Ctrl-C ends it early.
 void ViewWindow::save()
 {
     const std::string folder = (std::filesystem::path(run_->folder) / desk_.save_to).string();
@@ -359,10 +359,10 @@ void ViewWindow::save()
         return stages_->progress(0.0);
     });
     files_.push_back(desk_.save_to);
-    desk_.message = fmt::format("{} is baked, in {:.1f} s", folder, saved.seconds);
+    desk_.message = fmt::format("{} baked in {:.1f} s", folder, saved.seconds);
 }
 
-/// What was asked for by hand.
+/// Executes requests of the user.
 void ViewWindow::act()
 {
     const bool shoots = std::exchange(desk_.shoot, false), saves = std::exchange(desk_.save, false),
@@ -377,7 +377,7 @@ void ViewWindow::act()
         if (player_) {
             if (std::exchange(desk_.stop, false))
                 player_->stop_solving();
-            desk_.solve_by = false;  // the script has its own order
+            desk_.solve_by = false;  // the script has its own solves
             note_progress(player_->solving(), desk_);
         } else {
             solving_.follow(*session_, desk_);
@@ -387,7 +387,7 @@ void ViewWindow::act()
     }
 }
 
-/// By the method of the options. Links go on if it cannot begin.
+/// Solves by the options' method. Links continue if it cannot start.
 void ViewWindow::solve_first()
 {
     try {

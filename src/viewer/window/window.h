@@ -5,9 +5,9 @@
 
 namespace lumel {
 
-/// Opens a window on a scene, which is lit by and by, and plays the script in it if there is one.
-/// Ends when the window is closed, or by the script. Throws Error{device} where no window can be
-/// opened, and as play_script does.
+/// Opens a window on a scene, lights it progressively, and plays the script if there is one.
+/// Returns when the window is closed, or the script quits. Throws Error{device} if no window can be
+/// opened, and as play_script() does.
 ViewSummary show_window(const ScriptRun& run, const SessionOptions& options,
                         const ProgressFunction& progress = {});
 

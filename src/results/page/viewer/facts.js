@@ -30,7 +30,7 @@ export function summary({ scene, solver, device, sizes, solution, timings }) {
         `${sizes.atlas_width} × ${sizes.atlas_height} texels`,
         `${sizes.lumels.toLocaleString('en')} lumels`,
         `method ${solver?.method ?? 'unknown'}`,
-        error === undefined ? 'error not stated' : `stated error ${percent(error)}`,
+        error === undefined ? 'error unknown' : `estimated error ${percent(error)}`,
         ...(dark === undefined ? [] : [`in the dark ${percent(dark)}`]),
         seconds(timings.wall_seconds),
         device.name,
@@ -56,10 +56,10 @@ export function timesTable({ timings }) {
         element('td', { style: 'width: 40%' }, share > 0
             ? element('div', { class: 'bar', style: `width: ${100 * share}%` }) : ''));
     return element('table', {},
-        row('stage', 'wall', 'processor', 0),
+        row('stage', 'wall', 'CPU', 0),
         ...timings.stages.map(({ stage, wall_seconds: wall, cpu_seconds: cpu }) =>
             row(stage, seconds(wall), seconds(cpu), wall / longest)),
-        row('in all', seconds(timings.wall_seconds), seconds(timings.cpu_seconds), 0));
+        row('total', seconds(timings.wall_seconds), seconds(timings.cpu_seconds), 0));
 }
 
 // Numbers of the form 1, 2 and 5 times a power of ten, from the one below all values to the one above.
@@ -84,7 +84,7 @@ export function convergence(bakes) {
     const x = (time) => place(xs, time, chart.left, chart.width - chart.right);
     const y = (error) => place(ys, error, chart.height - chart.bottom, chart.top);
     const svg = drawn('svg', { viewBox: `0 0 ${chart.width} ${chart.height}`, role: 'img',
-        'aria-label': 'stated error against time of solving' });
+        'aria-label': 'estimated error against solve time' });
     for (const tick of xs) {
         const at = x(tick);
         svg.append(drawn('line', { class: 'axis', x1: at, x2: at, y1: chart.top, y2: chart.height - chart.bottom }),
@@ -95,7 +95,7 @@ export function convergence(bakes) {
         svg.append(drawn('line', { class: 'axis', x1: chart.left, x2: chart.width - chart.right, y1: at, y2: at }),
             drawn('text', { x: chart.left - 6, y: at + 4, 'text-anchor': 'end' }, percent(tick)));
     }
-    svg.append(drawn('text', { x: chart.width / 2, y: chart.height - 4, 'text-anchor': 'middle' }, 'time of solving'));
+    svg.append(drawn('text', { x: chart.width / 2, y: chart.height - 4, 'text-anchor': 'middle' }, 'solve time'));
     bakes.forEach((bake, i) => svg.append(drawn('polyline', { stroke: lines[i],
         points: curveOf(bake).map((point) => `${x(point.seconds)},${y(point.error)}`).join(' ') })));
     return svg;

@@ -44,7 +44,7 @@ function errorsOf(bakes) {
     if (!curve) return '';
     const names = bakes.length > 1 ? bakes.map((bake, i) =>
         element('span', { style: `color: ${lineColour(i)}` }, `— ${bake.name} `)) : [];
-    return element('section', {}, element('h2', {}, 'Stated error'), element('p', {}, ...names), curve);
+    return element('section', {}, element('h2', {}, 'Estimated error'), element('p', {}, ...names), curve);
 }
 
 function addFacts(bakes) {
@@ -97,7 +97,7 @@ function readUnderMouse(stage, legend) {
         if (buttons !== 0) return;
         const found = stage.lookUp(offsetX, offsetY);
         if (!found) {
-            reading.textContent = 'No baked surface is there.';
+            reading.textContent = 'No baked surface.';
             reading.removeAttribute('data-lux');
             legend.draw();
             return;
