@@ -27,8 +27,8 @@ inline std::size_t place_by_side(const Lumel& lumel)
     return place_by_side(lumel.texel, is_back(lumel));
 }
 
-/// The lumel at a texel and side (0: front, 1: back), by lumels_by_side(). kNoLumel if there is none
-/// that can receive light.
+/// The lumel at a texel and side (0: front, 1: back), by lumels_by_side(). kNoLumel if there is
+/// none that can receive light.
 inline std::uint32_t lit_lumel_at(const Lumels& lumels, std::span<const std::uint32_t> by_side,
                                   int x, int y, int side)
 {
